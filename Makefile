@@ -1,0 +1,153 @@
+# make demo            build, simulate and render the built-in scene: build/demo.png and build/demo.mp4
+# make test            build and run every test; filter=groom runs the programs so named
+# make config=asan     release (default), debug, asan, tsan, coverage
+# make setup           install the Debian packages of tools/packages.txt that are missing; SETUP=0 skips it
+MAKEFLAGS += -r --no-print-directory
+config    ?= release
+PREFIX    ?= /usr/local
+SETUP     ?= 1
+JOBS      ?= $(shell nproc)
+filter    ?=
+B         := build/$(config)
+
+opt.release  := -O2 -DNDEBUG
+opt.debug    := -O0
+opt.asan     := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+opt.tsan     := -O1 -fsanitize=thread
+opt.coverage := -O0 --coverage
+WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
+FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -MMD -MP $(opt.$(config))
+C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
+CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLAGS) $(CXXFLAGS)
+
+VERSION := $(shell awk '/define HAIR_VERSION_(MAJOR|MINOR|PATCH)/{v=v s $$3; s="."} END{print v}' include/hair/hair.h)
+MAJOR   := $(firstword $(subst ., ,$(VERSION)))
+
+# The rooms of lib/, as data flows through them: a file includes from its own room and from those before it.
+# Beside them egl/ and reference/, each a library of its own.
+ROOMS := base asset groom collide gl field wind sim interpolate draw api
+
+objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
+LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
+EGL   := $(call objects,lib/egl/*.c)
+REF   := $(call objects,lib/reference/*.cpp)
+GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
+TOOLS := $(B)/hair-capture $(B)/hair-groom
+TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/*_test.c tests/gpu/*_test.c tests/golden/*_test.c))
+
+# Deferred, so that they are asked after `make setup` has installed the packages.
+packages   = $(shell pkg-config $(1) $(2))
+TOOL_CFLAGS = $(call packages,--cflags,epoxy libpng OpenEXR jansson cglm libxxhash)
+TOOL_LIBS   = $(call packages,--libs,epoxy egl libpng OpenEXR jansson libxxhash) -pthread -lm
+TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) -pthread -lm
+EIGEN       = $(call packages,--cflags,eigen3)
+
+all: libraries tools ## Libraries and tools, in build/$(config)
+libraries: $(B)/libhair.a $(B)/libhair.so $(B)/libhair_egl.a $(B)/libhair_egl.so ## libhair and libhair_egl, static and shared
+tools: $(TOOLS) ## hair-capture, hair-groom
+
+demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
+	@$(MAKE) -j$(JOBS) tools
+	$(B)/hair-capture --scene demo --frames 45:46 --size 1280x720 -o build/demo.png
+	$(B)/hair-capture --scene demo --frames 0:120 --fps 30 --size 1280x720 -o build/demo.mp4
+
+test: setup ## Everything a change must pass
+	@$(MAKE) -j$(JOBS) all $(TESTS)
+	@$(MAKE) check glsl consumer run-tests
+
+setup: ## Install what is missing of tools/packages.txt (Debian), saying so first
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh
+
+# Libraries ------------------------------------------------------------------------------------------------
+
+$(B)/libhair.a: $(LIB)
+$(B)/libhair_egl.a: $(EGL)
+$(B)/%.a:
+	@rm -f $@ && $(AR) rcs $@ $^
+$(B)/libhair.so: $(LIB:.o=.shared.o)
+$(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/libhair.so
+$(B)/libhair_egl.so: LINK = $(call packages,--libs,egl)
+$(B)/%.so:
+	$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
+	@ln -sf $*.so.$(VERSION) $@.$(MAJOR) && ln -sf $*.so.$(MAJOR) $@
+
+$(B)/gen/sources.c: $(B)/embed $(GLSL)
+	@mkdir -p $(@D)
+	$(B)/embed $@ $(GLSL)
+$(B)/embed: tools/embed.c
+	@mkdir -p $(@D)
+	$(CC) -std=c17 $(WARN) -O1 $< -o $@
+$(B)/gen/%.c.o: $(B)/gen/%.c
+	$(C) -c $< -o $@
+$(B)/gen/%.c.shared.o: $(B)/gen/%.c
+	$(C) -fPIC -c $< -o $@
+$(B)/tools/%.c.o: tools/%.c
+	@mkdir -p $(@D)
+	$(C) $(TOOL_CFLAGS) -c $< -o $@
+$(B)/tests/%.c.o: tests/%.c
+	@mkdir -p $(@D)
+	$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -c $< -o $@
+$(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
+	@mkdir -p $(@D)
+	$(CPP) $(EIGEN) -c $< -o $@
+$(B)/%.c.o: %.c
+	@mkdir -p $(@D)
+	$(C) -c $< -o $@
+$(B)/%.c.shared.o: %.c
+	@mkdir -p $(@D)
+	$(C) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
+
+# Tools and tests ------------------------------------------------------------------------------------------
+
+COMMON := $(call objects,tools/common/*.c)
+$(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
+	$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+
+SUPPORT := $(call objects,tests/support/*.c)
+$(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
+	$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
+
+run-tests: $(TESTS)
+	@failed=; for t in $(TESTS); do case $$t in *$(filter)*) echo "== $$t"; HAIR_TEST=required $$t || failed="$$failed $$t";; esac; done; \
+	  [ -z "$$failed" ] || { echo "failed:$$failed"; exit 1; }
+
+glsl: ## Compile every shader offline, no GPU needed
+	@for s in $(filter %.comp %.vert %.tesc %.tese %.geom %.frag,$(GLSL)); do \
+	  glslangValidator -G100 --target-env opengl -l -Iglsl $$s -o $(B)/shader.spv >$(B)/glsl.log || { cat $(B)/glsl.log; exit 1; }; done
+
+check: rooms symbols ## What no compiler checks: the order of rooms, the exported names
+rooms:
+	@awk -v order="$(ROOMS)" ' \
+	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
+	  match($$0, /#include "lib\/[a-z]+\//) { split(FILENAME, f, "/"); split($$0, q, "/"); \
+	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
+	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
+symbols: $(B)/libhair.so $(B)/libhair_egl.so $(B)/libhair.a
+	@nm -D --defined-only $(B)/libhair.so $(B)/libhair_egl.so | awk 'NF == 3 {print $$3}' | LC_ALL=C sort | diff tests/symbols.txt -
+	@! nm $(B)/libhair.a | grep -E ' [BbCDd] ' | grep -vE 'asan|ubsan|gcov|Lubsan' || { echo "libhair has writable globals (above)"; exit 1; }
+	@! nm -u $(B)/libhair.a $(B)/libhair_egl.a | grep -wE 'exit|_exit|abort|printf|puts|putchar|fprintf|fputs|fwrite|perror' || { echo "the libraries call these (above)"; exit 1; }
+
+consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
+	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
+install-tree: libraries
+	@rm -rf $(B)/installed && $(MAKE) install DESTDIR=$(abspath $(B))/installed PREFIX=/usr >/dev/null
+
+install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFIX
+	install -d $(DESTDIR)$(PREFIX)/include/hair $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -m 644 include/hair/*.h $(DESTDIR)$(PREFIX)/include/hair
+	install -m 644 $(B)/libhair.a $(B)/libhair_egl.a $(DESTDIR)$(PREFIX)/lib
+	cp -P $(B)/libhair.so* $(B)/libhair_egl.so* $(DESTDIR)$(PREFIX)/lib
+	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
+	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
+
+format: ## clang-format everything
+	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp')
+help: ## This list
+	@awk -F':.*## ' '/^# make/{print substr($$0, 3)} /^[a-z-]+:.*## /{printf "  %-10s %s\n", $$1, $$2}' Makefile
+clean: ## Remove build/
+	rm -rf build
+
+-include $(shell find $(B) -name '*.d' 2>/dev/null)
+.DELETE_ON_ERROR:
+.SECONDARY:
+.PHONY: all libraries tools demo test setup run-tests glsl check rooms symbols consumer install install-tree format help clean

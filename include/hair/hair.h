@@ -1,0 +1,327 @@
+/// hair.h - strand hair in real time: simulated by OpenGL compute, drawn by tessellation.
+///
+/// A hair_groom is the haircut: immutable, no GPU, shared by any number of heads. A hair_context is the
+/// library's hold on one OpenGL context. A hair_instance is one head of living hair: a groom in a context.
+///
+///   Words      strand: one hair. guide: a strand that is simulated. follower: a strand made while drawing,
+///              by interpolation. root, tip: first and last vertex of a strand. scalp: the surface that
+///              roots sit on. solid: a body hair collides with. step: one call of hair_step, made of substeps.
+///   Units      metres, kilograms, seconds, radians. Right-handed; +y is up in the built-in haircuts only.
+///              Matrices are 16 floats, column-major. Colours are linear, Rec. 709 primaries.
+///   Ownership  Arrays and strings passed in are copied before the call returns. X_create is undone by
+///              X_destroy, which takes NULL. A groom may be destroyed while instances use it. A context is
+///              destroyed after its instances.
+///   Errors     A fallible call returns a hair_result. Anything but HAIR_OK leaves the object as it was and
+///              sends one sentence to hair_host.log. Nothing throws, exits or prints.
+///   Threads    No globals. A context and its instances belong to one thread at a time; different contexts,
+///              and calls marked [any thread], run in parallel.
+///   OpenGL     Calls marked [GL] need the context's OpenGL context current on the calling thread. They use
+///              4.5 core, leave the error flag alone, and keep the promise of hair_gl_state.
+#ifndef HAIR_HAIR_H
+#define HAIR_HAIR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define HAIR_VERSION_MAJOR 0 ///< A change that can break a caller.
+#define HAIR_VERSION_MINOR 1 ///< A change that only adds.
+#define HAIR_VERSION_PATCH 0 ///< A change that only repairs.
+#define HAIR_VERSION (HAIR_VERSION_MAJOR * 10000u + HAIR_VERSION_MINOR * 100u + HAIR_VERSION_PATCH)
+
+// HAIR_SHARED: the caller links the shared library. HAIR_BUILD_SHARED: the library is making it.
+// The static library exports nothing, so a program that links it does not pass its symbols on.
+#if defined(_WIN32) && defined(HAIR_BUILD_SHARED)
+#define HAIR_EXPORT __declspec(dllexport)
+#elif defined(_WIN32) && defined(HAIR_SHARED)
+#define HAIR_EXPORT __declspec(dllimport)
+#elif defined(HAIR_BUILD_SHARED)
+#define HAIR_EXPORT __attribute__((visibility("default")))
+#else
+#define HAIR_EXPORT
+#endif
+#ifdef __cplusplus
+#define HAIR_API extern "C" HAIR_EXPORT
+#else
+#define HAIR_API HAIR_EXPORT
+#endif
+
+typedef struct hair_groom    hair_groom;
+typedef struct hair_context  hair_context;
+typedef struct hair_instance hair_instance;
+
+typedef enum hair_result {
+    HAIR_OK = 0,
+    HAIR_ERROR_ARGUMENT, ///< A value outside its documented range; the log names it.
+    HAIR_ERROR_MEMORY,   ///< hair_host.alloc or the driver refused.
+    HAIR_ERROR_OPENGL,   ///< No context current, older than 4.5, or a shader it would not compile.
+    HAIR_ERROR_FILE,     ///< Unreadable, or not in the format it claims; the log has the byte offset.
+    HAIR_ERROR_VERSION   ///< The caller was compiled against another major version, or without a default function.
+} hair_result;
+
+HAIR_API uint32_t    hair_version(void);                     ///< The library's HAIR_VERSION. [any thread]
+HAIR_API const char* hair_result_string(hair_result result); ///< Static text, never NULL. [any thread]
+
+typedef enum hair_log_level { HAIR_LOG_ERROR = 0, HAIR_LOG_WARNING, HAIR_LOG_INFO } hair_log_level;
+
+/// What the program lends the library. Called on the thread that called the library.
+typedef struct hair_host {
+    void* (*alloc)(size_t size, size_t align, void* user); ///< NULL, with free: the C library's.
+    void (*free)(void* memory, size_t size, void* user);   ///< size is what alloc was asked for.
+    void (*log)(hair_log_level level, const char* sentence, void* user); ///< NULL: silence.
+    void* user;                                                          ///< Given back in every call.
+} hair_host;
+
+/// Every desc begins with `made`, which its default function fills in where the caller is compiled: fields
+/// can then be added at the end without breaking it. Always start from the defaults:
+///     hair_desc desc = hair_desc_default();
+typedef struct hair_made {
+    uint32_t size, version;
+} hair_made;
+
+#define HAIR_DESC(T)                                                                                         \
+    HAIR_API void   T##_init(T* desc, hair_made made);                                                       \
+    static inline T T##_default(void)                                                                        \
+    {                                                                                                        \
+        T         desc;                                                                                      \
+        hair_made made = {(uint32_t)sizeof desc, HAIR_VERSION};                                              \
+        T##_init(&desc, made);                                                                               \
+        return desc;                                                                                         \
+    }
+
+// Grooms: no GPU, [any thread] ------------------------------------------------------------------------------
+
+typedef enum hair_up { HAIR_UP_Y = 0, HAIR_UP_Z, HAIR_UP_X } hair_up;
+
+/// How foreign strands become the library's: in metres, +y up, root first, fit to simulate.
+typedef struct hair_import {
+    hair_made made;
+    float     scale;           ///< Metres per unit of the positions. [1e-6, 1e6]. Default 1.
+    hair_up   up;              ///< The axis that points up in them; turned to +y. Default HAIR_UP_Y.
+    uint32_t  tip_first;       ///< 1: strands run from tip to root. [0, 1]. Default 0.
+    float     share;           ///< Share of the strands to keep, drawn evenly by `seed`. [1e-6, 1]. Default 1.
+    uint32_t  strand_vertices; ///< Vertices to resample every strand to. 0 (as they are) to 256. Default 0.
+    uint32_t  seed;            ///< Of every random choice. Default 1.
+} hair_import;
+HAIR_DESC(hair_import)
+
+/// What was wrong with foreign strands and what was done about it.
+typedef struct hair_repairs {
+    uint32_t dropped_single;     ///< Strands of fewer than two vertices, also after the repairs below.
+    uint32_t dropped_short;      ///< Strands shorter than 10 micrometres.
+    uint32_t removed_nonfinite;  ///< Vertices that were NaN, infinite or farther than 1e6 m from the origin.
+    uint32_t removed_repeated;   ///< Vertices nearer to the one before than 1e-5 of the strand's length.
+    uint32_t resampled;          ///< Strands of more than 256 vertices, brought down to 256.
+} hair_repairs;
+
+typedef enum hair_strands_are {
+    HAIR_STRANDS_ALL = 0, ///< Every hair: guides are chosen among them and the others follow those.
+    HAIR_STRANDS_GUIDES   ///< Guides only: followers are grown on the scalp, or around guides without one.
+} hair_strands_are;
+
+typedef struct hair_groom_desc {
+    hair_made          made;
+    const hair_host*   host;            ///< NULL: the C library's allocator, no log.
+    const float*       positions;       ///< xyz per vertex, strand after strand. Units as `import` says. Required.
+    const uint32_t*    strand_vertices; ///< Vertices in each strand, any number. Required.
+    uint32_t           strand_count;    ///< [1, 4194304].
+    const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
+    hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
+    uint32_t           guide_count;     ///< For HAIR_STRANDS_ALL: guides to choose. 0 (one in ten, at least 64) to 65535.
+    uint32_t           guide_vertices;  ///< Most vertices simulated per guide. [4, 64]. Default 32.
+    uint32_t           follower_count;  ///< For HAIR_STRANDS_GUIDES: followers to grow. [0, 4194304]. Default 18000.
+    float              clump_radius;    ///< Of what grows around a guide without a scalp. m. [0, 1]. Default 0.01.
+    const float*       scalp_positions; ///< xyz per vertex of the scalp, in the space of `positions`. NULL: none.
+    const uint32_t*    scalp_triangles; ///< Three indices each, counter-clockwise from outside.
+    const float*       scalp_density;   ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
+    uint32_t           scalp_vertex_count;
+    uint32_t           scalp_triangle_count;
+    uint32_t           seed;            ///< Of every random choice. Default 1.
+} hair_groom_desc;
+HAIR_DESC(hair_groom_desc)
+
+/// Repair strands, choose guides, find rest shapes, bind or grow followers.
+HAIR_API hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out);
+HAIR_API void        hair_groom_destroy(hair_groom* groom);
+
+typedef struct hair_groom_info {
+    hair_made    made;
+    uint32_t     strand_count;       ///< Left after the repairs.
+    uint32_t     guide_count;
+    uint32_t     guide_vertex_count; ///< In all guides together.
+    uint32_t     follower_count;     ///< Strands drawn at full density.
+    uint32_t     patch_count;
+    float        length[3];          ///< Of the strands: least, mean, greatest. m.
+    float        lower[3], upper[3]; ///< Bounds of the strands at rest. m.
+    hair_repairs repairs;
+} hair_groom_info;
+HAIR_DESC(hair_groom_info)
+
+HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out);
+
+// Context: [GL] ---------------------------------------------------------------------------------------------
+
+typedef enum hair_gl_state {
+    HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
+    HAIR_GL_CLOBBER      ///< It may change: program, vertex array, storage buffers 0-7, uniform buffers 0-1,
+                         ///< textures of units 0-7, patch vertices, blend, depth mask, cull, polygon mode.
+} hair_gl_state;
+
+typedef struct hair_context_desc {
+    hair_made        made;
+    const hair_host* host;                           ///< NULL: the C library's allocator, no log.
+    void* (*get_proc)(const char* name, void* user); ///< Finds OpenGL functions. Required.
+    void*            get_proc_user;                  ///< Given back to get_proc.
+    hair_gl_state    gl_state;                       ///< Default HAIR_GL_RESTORE.
+    uint32_t         timings;                        ///< 1: time every pass for hair_timings. [0, 1]. Default 0.
+    const char*      glsl_dir;                       ///< For development: read glsl/ here. NULL: the text built in.
+} hair_context_desc;
+HAIR_DESC(hair_context_desc)
+
+HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
+HAIR_API void        hair_context_destroy(hair_context* context);
+
+/// Compile the shaders of glsl_dir again. One that fails to compile keeps its last good program.
+HAIR_API hair_result hair_context_reload(hair_context* context);
+
+// Instance: [GL] --------------------------------------------------------------------------------------------
+
+typedef enum hair_solver {
+    HAIR_SOLVER_REDBLACK = 0 ///< Tariq 2010: Verlet, then `iterations` of red/black distance, angular and collision constraints.
+} hair_solver;
+
+/// How hair moves.
+typedef struct hair_physics {
+    hair_made made;
+    float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
+    float     damping;    ///< Decay rate of velocity relative to the air at rest. 1/s. [0, 1000]. Default 4.
+    float     pull_root;  ///< Pull to the rest pose near the root, as the frequency it swings at. Hz. [0, 30]. Default 4.
+    float     pull_tip;   ///< The same at the tip; between them it changes linearly. Hz. [0, 30]. Default 0.5.
+    float     angular;    ///< Angular force: pull to the rest angle in the frame of the segment before. Hz. [0, 30]. Default 2.
+    float     bend;       ///< Angular constraint: share of the bend from rest that an iteration removes. [0, 1]. Default 0.1.
+    uint32_t  iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
+    float     margin;     ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
+} hair_physics;
+HAIR_DESC(hair_physics)
+
+/// How hair looks.
+typedef struct hair_look {
+    hair_made made;
+    float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.075, 0.03, 0.012).
+    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.14, 0.06, 0.024).
+    float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.3.
+    float     specular[2];   ///< Strength of the first (white) and second (coloured) highlight. [0, 4]. Default (0.1, 0.5).
+    float     gloss[2];      ///< Their exponents. [1, 1000]. Default (60, 15).
+    float     radius;        ///< Of a drawn strand, which may stand for several real ones. m. [1e-6, 0.01]. Default 1.5e-4.
+    float     tip_radius;    ///< At the tip, as a share of that. [0, 1]. Default 0.3.
+    float     clump;         ///< How far tips gather around their guide: 0 spread evenly, 1 in locks. [0, 1]. Default 0.5.
+    float     frizz;         ///< Strands' own deviation, as a share of their length. [0, 0.2]. Default 0.01.
+    float     absorption;    ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 120.
+    float     density;       ///< Share of the followers drawn. [0, 1]. Default 1.
+    uint32_t  segments;      ///< Line segments of a drawn strand. [1, 256]. Default 32.
+} hair_look;
+HAIR_DESC(hair_look)
+
+typedef struct hair_desc {
+    hair_made           made;
+    const char*         label;         ///< Name in the log and in GPU debuggers. NULL: "hair".
+    hair_solver         solver;        ///< Default HAIR_SOLVER_REDBLACK.
+    float               substep;       ///< Length of a substep. s. [1e-4, 0.1]. Default 1/120.
+    float               max_dt;        ///< Longest time a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
+    const hair_physics* physics;       ///< NULL: the defaults.
+    const hair_look*    look;          ///< NULL: the defaults.
+    float               transform[16]; ///< Groom space to world. Rigid. Default identity.
+} hair_desc;
+HAIR_DESC(hair_desc)
+
+HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc, hair_instance** out);
+HAIR_API void        hair_destroy(hair_instance* hair);
+HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics);
+HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
+
+/// Move the head. The next step carries the roots there, shortest way, evenly over its substeps.
+HAIR_API hair_result hair_set_transform(hair_instance* hair, const float transform[16]);
+
+typedef enum hair_shape {
+    HAIR_SHAPE_SPHERE = 0, ///< size[0]: radius.
+    HAIR_SHAPE_CAPSULE     ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
+} hair_shape;
+
+typedef struct hair_solid {
+    hair_shape shape;
+    float      position[3]; ///< World. m.
+    float      rotation[4]; ///< World. Unit quaternion, xyzw.
+    float      size[2];     ///< As the shape says. m. [0, 1e6], radius > 0.
+} hair_solid;
+
+#define HAIR_MAX_SOLIDS 64 ///< That one instance collides with.
+
+/// Replace the solids; `stride` is sizeof(hair_solid). The i-th moves from where the i-th was at the last
+/// step, so keep their order; one more than before starts where it is. count in [0, HAIR_MAX_SOLIDS].
+HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride);
+
+/// Advance by `dt` seconds, in substeps of the desc's fixed length: the motion does not depend on the frame
+/// rate, and what is drawn is interpolated to now. The same inputs on the same driver give the same bits.
+/// dt >= 0; 0 does nothing; beyond max_dt time slows, and the log says so once.
+HAIR_API hair_result hair_step(hair_instance* hair, float dt);
+
+/// Put every strand in its rest pose, at rest, under the current transform.
+HAIR_API hair_result hair_reset(hair_instance* hair);
+
+/// Move the head without moving the hair against it: shape and motion go along, nothing swings.
+HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
+
+typedef enum hair_pass {
+    HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
+    HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.
+    HAIR_PASS_GUIDES     ///< Debug: the simulated strands as lines, coloured by stretch: blue -2 % to red +2 %.
+} hair_pass;
+
+typedef enum hair_path {
+    HAIR_PATH_TESSELLATION = 0 ///< Isolines, from one-point patches.
+} hair_path;
+
+typedef enum hair_primitive {
+    HAIR_RIBBONS = 0, ///< Camera-facing, of true width.
+    HAIR_LINES        ///< One pixel wide: the cheap setting.
+} hair_primitive;
+
+typedef struct hair_view {
+    hair_made      made;
+    hair_pass      pass;              ///< Default HAIR_PASS_COLOR.
+    hair_path      path;              ///< Default HAIR_PATH_TESSELLATION.
+    hair_primitive primitive;         ///< Default HAIR_RIBBONS.
+    float          view[16];          ///< World to view. Default identity.
+    float          projection[16];    ///< View to clip. Reversed and infinite depth are fine. Default identity.
+    float          light_to[3];       ///< From the hair towards the light. World; need not be unit. Default (0.4, 0.8, 0.45).
+    float          light[3];          ///< Its irradiance. [0, 1e6]. Default 3.
+    float          ambient[3];        ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
+    uint32_t       shadow_texture;    ///< OpenGL name of a 2D depth texture drawn from the light. 0: no shadow.
+    float          shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+} hair_view;
+HAIR_DESC(hair_view)
+
+/// Draw into the bound framebuffer and viewport, with the depth function that is set.
+HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
+
+// Looking inside: [GL] --------------------------------------------------------------------------------------
+
+typedef enum hair_read_what {
+    HAIR_READ_GUIDES = 0, ///< Vertices of the guides where the last substep left them.
+    HAIR_READ_SMOOTH,     ///< Vertices of the guides as drawn: smoothed, interpolated to now.
+    HAIR_READ_FOLLOWERS   ///< Vertices of all followers as drawn: look.segments + 1 each.
+} hair_read_what;
+
+/// Copy positions, xyz each, world: at most `capacity` vertices. Returns in `count` how many there are. Waits.
+HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity, uint32_t* count);
+
+typedef struct hair_timing {
+    const char* pass;  ///< Static text: the shader's path under glsl/.
+    float       ms;    ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t    runs;  ///< Since the context was created.
+} hair_timing;
+
+/// GPU time of every pass, if the context was created with `timings`. Never waits. Returns how many passes
+/// there are; writes at most `capacity`.
+HAIR_API uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity);
+
+#endif

@@ -1,0 +1,83 @@
+// host.c - memory and log through the host's callbacks.
+#include "lib/base/host.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEADER 16 // Keeps the block's alignment; holds its size.
+
+static void* default_alloc(size_t size, size_t align, void* user)
+{
+    (void)user;
+    return aligned_alloc(align, (size + align - 1) / align * align);
+}
+
+static void default_free(void* memory, size_t size, void* user)
+{
+    (void)size;
+    (void)user;
+    free(memory);
+}
+
+hair_host hair_host_take(const hair_host* host)
+{
+    hair_host own = {0};
+    if (host) own = *host;
+    if (!own.alloc || !own.free) {
+        own.alloc = default_alloc;
+        own.free  = default_free;
+    }
+    return own;
+}
+
+void* hair_alloc(const hair_host* host, size_t count, size_t size)
+{
+    if (size && count > (PTRDIFF_MAX - HEADER) / size) return NULL;
+    size_t         total = count * size + HEADER;
+    unsigned char* block = host->alloc(total, HEADER, host->user);
+    if (!block) return NULL;
+    memset(block, 0, total);
+    memcpy(block, &total, sizeof total);
+    return block + HEADER;
+}
+
+void hair_free(const hair_host* host, void* memory)
+{
+    if (!memory) return;
+    unsigned char* block = (unsigned char*)memory - HEADER;
+    size_t         total;
+    memcpy(&total, block, sizeof total);
+    host->free(block, total, host->user);
+}
+
+static void log_sentence(const hair_host* host, hair_log_level level, const char* format, va_list arguments)
+{
+    if (!host->log) return;
+    char sentence[512];
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    host->log(level, sentence, host->user);
+}
+
+void hair_log(const hair_host* host, hair_log_level level, const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_sentence(host, level, format, arguments);
+    va_end(arguments);
+}
+
+hair_result hair_fail(const hair_host* host, hair_result result, const char* format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_sentence(host, HAIR_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return result;
+}
+
+hair_result hair_fail_memory(const hair_host* host, const char* what)
+{
+    return hair_fail(host, HAIR_ERROR_MEMORY, "out of memory for %s", what);
+}

@@ -1,0 +1,23 @@
+// groom.h - a haircut at rest: guides to simulate, followers bound to them, patches to draw them by.
+#ifndef HAIR_GROOM_GROOM_H
+#define HAIR_GROOM_GROOM_H
+
+#include "lib/base/host.h"
+#include "glsl/shared.h"
+
+struct hair_groom {
+    hair_host             host;
+    hair_groom_info       info;
+    struct hair_guide*    guides;    // info.guide_count
+    struct hair_rest*     rest;      // info.guide_vertex_count
+    struct hair_follower* followers; // info.follower_count
+    struct hair_patch*    patches;   // info.patch_count
+    uint32_t              most_vertices; // of a guide
+};
+
+// `desc` has been checked and is whole. On failure *out is untouched.
+hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
+                             hair_groom** out);
+void        hair_groom_free(hair_groom* groom);
+
+#endif

@@ -1,0 +1,10 @@
+// style.h - the built-in haircuts, made from parameters on the built-in scalp.
+#ifndef HAIR_GROOM_STYLE_H
+#define HAIR_GROOM_STYLE_H
+
+#include "lib/asset/asset.h"
+
+// `desc` has been checked. On failure *out is untouched.
+hair_result hair_style_build(const hair_host* host, const hair_style_desc* desc, hair_asset** out);
+
+#endif

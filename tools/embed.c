@@ -1,0 +1,30 @@
+// embed.c - write files as one array of bytes in C: name, 0, text, 0, and so on; an empty name ends it.
+//
+// One array and no pointers means no relocations and no writable section.
+#include <stdio.h>
+#include <string.h>
+
+static void put(FILE* out, int byte, long* column)
+{
+    fprintf(out, (*column)++ % 24 ? "%d," : "\n%d,", byte);
+}
+
+int main(int count, char** arguments)
+{
+    FILE* out = count > 1 ? fopen(arguments[1], "w") : NULL;
+    if (!out) return fprintf(stderr, "usage: embed OUT.c FILE...\n"), 2;
+    fprintf(out, "const unsigned char hair_sources[] = {");
+    long column = 0;
+    for (int i = 2; i < count; ++i) {
+        const char* name = strchr(arguments[i], '/'); // Relative to glsl/.
+        FILE*       in   = fopen(arguments[i], "rb");
+        if (!in || !name) return fprintf(stderr, "embed: cannot read %s\n", arguments[i]), 1;
+        for (++name; *name; ++name) put(out, *name, &column);
+        put(out, 0, &column);
+        for (int c = fgetc(in); c != EOF; c = fgetc(in)) put(out, c, &column);
+        put(out, 0, &column);
+        fclose(in);
+    }
+    fprintf(out, "0};\n");
+    return fclose(out) ? 1 : 0;
+}
