@@ -1,0 +1,174 @@
+// file.c - whole files into memory, output that is never seen half written, and the complaints of a tool.
+#define _XOPEN_SOURCE 700
+#include "tools/common/file.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+void hair_complain(const char* tool, const char* format, ...)
+{
+    char    sentence[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "%s: %s\n", tool, sentence); // One call, so that lines of two threads do not mix.
+}
+
+void hair_print_log(hair_log_level level, const char* sentence, void* tool)
+{
+    if (level < HAIR_LOG_INFO) hair_complain(tool, "%s", sentence);
+}
+
+static bool is_standard(const char* path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+// Read to the end, doubling the buffer: the size of a pipe is not known before.
+static bool read_all(const char* tool, const char* path, FILE* file, size_t limit, struct hair_bytes* out)
+{
+    struct hair_bytes bytes = {0};
+    size_t            room  = 0;
+    for (;;) {
+        if (bytes.size == room) {
+            size_t wider = room ? 2 * room : (size_t)1 << 16;
+            void*  more  = wider > room ? realloc(bytes.data, wider) : NULL;
+            if (!more) {
+                hair_complain(tool, "out of memory after %zu bytes of %s", bytes.size, path);
+                break;
+            }
+            bytes.data = more;
+            room       = wider;
+        }
+        size_t got = fread(bytes.data + bytes.size, 1, room - bytes.size, file);
+        bytes.size += got;
+        if (bytes.size > limit) {
+            hair_complain(tool, "%s has more than the %zu bytes allowed", path, limit);
+            break;
+        }
+        if (ferror(file)) {
+            hair_complain(tool, "cannot read %s: %s", path, strerror(errno));
+            break;
+        }
+        if (got == 0 && feof(file)) {
+            *out = bytes;
+            return true;
+        }
+    }
+    free(bytes.data);
+    return false;
+}
+
+bool hair_file_read(const char* tool, const char* path, size_t limit, struct hair_bytes* out)
+{
+    if (is_standard(path)) return read_all(tool, "the standard input", stdin, limit, out);
+    FILE* file = fopen(path, "rb");
+    if (!file) {
+        hair_complain(tool, "cannot read %s: %s", path, strerror(errno));
+        return false;
+    }
+    bool ok = read_all(tool, path, file, limit, out);
+    fclose(file);
+    return ok;
+}
+
+static bool cannot_write(const char* tool, const char* path)
+{
+    hair_complain(tool, "cannot write %s: %s", path, strerror(errno));
+    return false;
+}
+
+// Names under /dev and /proc are in place too, since /dev/fd/3 may be a regular file that others hold open.
+static bool is_in_place(const char* path, const struct stat* status)
+{
+    return !S_ISREG(status->st_mode) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
+}
+
+static bool open_in_place(struct hair_output* output)
+{
+    bool standard = is_standard(output->path) || strcmp(output->path, "/dev/stdout") == 0;
+    output->file  = standard ? stdout : fopen(output->path, "wb");
+    return output->file || cannot_write(output->tool, output->path);
+}
+
+// Beside the file, so that the rename stays within one file system. `mode` of the file it is to replace.
+static bool open_temporary(struct hair_output* output, mode_t mode)
+{
+    static const char suffix[] = ".XXXXXX";
+    size_t            length   = strlen(output->path);
+    output->temporary          = malloc(length + sizeof suffix);
+    if (!output->temporary) return cannot_write(output->tool, output->path);
+    memcpy(output->temporary, output->path, length);
+    memcpy(output->temporary + length, suffix, sizeof suffix);
+
+    int descriptor = mkstemp(output->temporary);
+    if (descriptor < 0) return cannot_write(output->tool, output->path);
+    output->file = fchmod(descriptor, mode) ? NULL : fdopen(descriptor, "wb");
+    if (output->file) return true;
+    cannot_write(output->tool, output->path);
+    close(descriptor);
+    unlink(output->temporary);
+    return false;
+}
+
+bool hair_output_open(const char* tool, const char* path, struct hair_output* out)
+{
+    struct hair_output output = {.tool = tool};
+    struct stat        status;
+    bool               exists = !is_standard(path) && stat(path, &status) == 0;
+    // A link stays a link: what it points to is replaced.
+    output.path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
+    if (!output.path) return cannot_write(tool, path);
+
+    bool   in_place = is_standard(path) || (exists && is_in_place(path, &status));
+    mode_t mask     = umask(0);
+    umask(mask);
+    if (exists && !in_place && access(output.path, W_OK)) // A rename would ignore that it is read-only.
+        in_place = true;
+    if (in_place ? open_in_place(&output)
+                 : open_temporary(&output, exists ? status.st_mode & 0777 : 0666 & ~mask)) {
+        *out = output;
+        return true;
+    }
+    free(output.temporary);
+    free(output.path);
+    return false;
+}
+
+static void forget(struct hair_output* output)
+{
+    free(output->temporary);
+    free(output->path);
+    *output = (struct hair_output){0};
+}
+
+// The standard output stays open for the rest of the program.
+static bool close_file(struct hair_output* output)
+{
+    bool written = !fflush(output->file) && !ferror(output->file);
+    if (output->file != stdout && fclose(output->file)) written = false;
+    output->file = NULL;
+    return written;
+}
+
+bool hair_output_commit(struct hair_output* output)
+{
+    bool ok = close_file(output) && (!output->temporary || !rename(output->temporary, output->path));
+    if (!ok) cannot_write(output->tool, output->path);
+    if (!ok && output->temporary) unlink(output->temporary);
+    forget(output);
+    return ok;
+}
+
+void hair_output_discard(struct hair_output* output)
+{
+    close_file(output);
+    if (output->temporary) unlink(output->temporary);
+    forget(output);
+}
