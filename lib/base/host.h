@@ -5,9 +5,9 @@
 #include <hair/hair.h>
 
 #if defined(__GNUC__)
-#define HAIR_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define HAIR_PRINTF(string, first) __attribute__((format(printf, string, first)))
 #else
-#define HAIR_PRINTF(format, first)
+#define HAIR_PRINTF(string, first)
 #endif
 
 // A whole host to keep: the C library's allocator where the program gave none. NULL: all defaults.
