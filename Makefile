@@ -65,7 +65,7 @@ $(B)/libhair_egl.a: $(EGL)
 $(B)/%.a:
 	@rm -f $@ && $(AR) rcs $@ $^
 $(B)/libhair.so: $(LIB:.o=.shared.o)
-$(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/libhair.so
+$(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: LINK = $(call packages,--libs,egl)
 $(B)/%.so:
 	$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
