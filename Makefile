@@ -113,7 +113,7 @@ run-tests: $(TESTS)
 
 glsl: ## Compile every shader offline, no GPU needed
 	@for s in $(filter %.comp %.vert %.tesc %.tese %.geom %.frag,$(GLSL)); do \
-	  glslangValidator -G100 --target-env opengl -l -Iglsl $$s -o $(B)/shader.spv >$(B)/glsl.log || { cat $(B)/glsl.log; exit 1; }; done
+	  glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null $$s || exit 1; done
 
 check: rooms symbols ## What no compiler checks: the order of rooms, the exported names
 rooms:

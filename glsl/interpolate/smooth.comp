@@ -1,0 +1,94 @@
+// smooth.comp - guides smoothed once a step into buffers of position, length, tangent and frame, which everything
+// that draws reads (Tariq 2010). One work group per guide, params.smooth_vertices samples at equal distances.
+//
+// Between the vertices runs a cubic Hermite spline through them, with the tangents of the parabola through three
+// neighbours (so that segments of unequal length make no overshoot). What is drawn lies between the ends of the
+// last substep: both are taken in the head's own frame and put under the head's pose now, so that roots never
+// leave the scalp.
+#version 450 core
+#include "buffers.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+#include "frames.glsl"
+
+shared vec3  vertex[HAIR_MAX_GUIDE_VERTICES];
+shared float from_root[HAIR_MAX_GUIDE_VERTICES];
+
+// Distances from the root: an inclusive scan of segment lengths.
+void sum_lengths(uint i, uint count)
+{
+    float l = i > 0u && i < count ? distance(vertex[i], vertex[i - 1u]) : 0.0;
+    barrier();
+    from_root[i] = l;
+    for (uint reach = 1u; reach < count; reach *= 2u) {
+        barrier();
+        float before = i >= reach ? from_root[i - reach] : 0.0;
+        barrier();
+        from_root[i] += before;
+    }
+    barrier();
+}
+
+// Derivative by length at vertex j.
+vec3 slope(uint j, uint count)
+{
+    if (j == 0u) return segment_direction[0];
+    if (j + 1u >= count) return segment_direction[count - 2u];
+    float before = from_root[j] - from_root[j - 1u];
+    float after  = from_root[j + 1u] - from_root[j];
+    return (segment_direction[j - 1u] * after + segment_direction[j] * before) / max(before + after, 1e-12);
+}
+
+uint find_segment(float s, uint count)
+{
+    uint low = 0u, high = count - 1u;
+    while (high - low > 1u) {
+        uint middle = (low + high) / 2u;
+        if (from_root[middle] <= s)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void main()
+{
+    uint g = hair_group();
+    if (g >= params.guides) return;
+    uint i     = gl_LocalInvocationID.x;
+    uint count = guide[g].count;
+    uint own   = guide[g].first + min(i, count - 1u);
+
+    vec3 after   = state[own].position.xyz;
+    vec3 before  = after - state[own].displacement.xyz + params.last_displacement.xyz;
+    vec3 in_head = mix(rotate(quat_conjugate(params.rotation_before), before),
+                       rotate(quat_conjugate(params.rotation_after), after), params.alpha);
+    vertex[i]    = rotate(params.rotation_now, in_head);
+    barrier();
+    vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
+    carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
+                 quat_multiply(params.rotation_now, guide[g].root_frame));
+    sum_lengths(i, count);
+
+    float total = from_root[count - 1u];
+    for (uint k = i; k < params.smooth_vertices; k += HAIR_GROUP_SIZE) {
+        float s      = total * float(k) / float(params.smooth_vertices - 1u);
+        uint  j      = find_segment(s, count);
+        float l      = max(from_root[j + 1u] - from_root[j], 1e-12);
+        float w      = clamp((s - from_root[j]) / l, 0.0, 1.0);
+        vec3  m0     = slope(j, count) * l;
+        vec3  m1     = slope(j + 1u, count) * l;
+        vec3  chord  = vertex[j + 1u] - vertex[j];
+        vec3  bend0  = m0 - chord, bend1 = m1 - chord;
+        // Hermite, written as the chord and what bends away from it: floats keep the small part.
+        vec3  point   = vertex[j] + w * chord + w * (1.0 - w) * ((1.0 - w) * bend0 - w * bend1);
+        vec3  tangent = chord + (1.0 - w) * (1.0 - 3.0 * w) * bend0 - w * (2.0 - 3.0 * w) * bend1;
+        tangent       = direction_or(tangent, segment_direction[j]);
+        float rest_length = rest[guide[g].first + j].position.w;
+
+        uint to             = g * params.smooth_vertices + k;
+        smooth_position[to] = vec4(point, s);
+        smooth_tangent[to]  = vec4(tangent, l / max(rest_length, 1e-12) - 1.0);
+        smooth_frame[to]    = quat_multiply(quat_between(segment_direction[j], tangent), scan_frame[j]);
+    }
+}

@@ -1,0 +1,13 @@
+// reset.comp - every guide in its rest pose, at rest, under the head's pose now. One thread per guide vertex.
+#version 450 core
+#include "buffers.glsl"
+#include "rotation.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+void main()
+{
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i >= rest.length()) return;
+    state[i].position     = vec4(rotate(params.rotation_now, rest[i].position.xyz), 0.0);
+    state[i].displacement = vec4(0.0);
+}

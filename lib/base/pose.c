@@ -1,0 +1,33 @@
+// pose.c - poses from matrices and between each other.
+#include "lib/base/pose.h"
+
+int hair_pose_from_matrix(const float m[16], struct hair_pose* out)
+{
+    hair_vec3 x = hair_load3(m), y = hair_load3(m + 4), z = hair_load3(m + 8);
+    float     worst = fabsf(hair_dot(hair_cross(x, y), z) - 1); // NaN and infinity end up here too.
+    float     errors[] = {hair_dot(x, x) - 1, hair_dot(y, y) - 1, hair_dot(z, z) - 1, hair_dot(x, y),
+                          hair_dot(y, z),     hair_dot(z, x),     m[3],               m[7],
+                          m[11],              m[15] - 1};
+    if (!(worst <= 1e-3f)) return 0;
+    for (int i = 0; i < (int)(sizeof errors / sizeof *errors); ++i)
+        if (!(fabsf(errors[i]) <= 1e-3f)) return 0;
+    for (int i = 0; i < 3; ++i) {
+        if (!isfinite(m[12 + i])) return 0;
+        out->position[i] = (double)m[12 + i];
+    }
+    out->rotation = hair_quat_from_axes(x, y, z);
+    return 1;
+}
+
+struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_pose* b, double t)
+{
+    struct hair_pose pose = {.rotation = hair_slerp(a->rotation, b->rotation, (float)t)};
+    for (int i = 0; i < 3; ++i) pose.position[i] = a->position[i] + t * (b->position[i] - a->position[i]);
+    return pose;
+}
+
+hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b)
+{
+    return hair_v3((float)(a->position[0] - b->position[0]), (float)(a->position[1] - b->position[1]),
+                   (float)(a->position[2] - b->position[2]));
+}

@@ -1,0 +1,54 @@
+// buffer.c - buffers and buffer textures, checked: the error flag stays the host's, so sizes are asked back.
+#include "lib/gl/gl.h"
+
+hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
+{
+    GLuint buffer = 0;
+    GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
+    void*  zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
+    if (!data && !zeros) return hair_fail_memory(&gl->host, label);
+    gl->CreateBuffers(1, &buffer);
+    if (buffer) {
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, data && size >= 16 ? data : zeros, GL_DYNAMIC_STORAGE_BIT);
+        gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
+        if (data && size && size < 16) gl->NamedBufferSubData(buffer, 0, (GLsizeiptr)size, data);
+    }
+    hair_free(&gl->host, zeros);
+    if (got != want) {
+        if (buffer) gl->DeleteBuffers(1, &buffer);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want, label);
+    }
+    gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
+    *out = buffer;
+    return HAIR_OK;
+}
+
+hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer, GLuint* out)
+{
+    GLint64 size = 0;
+    GLint   most = 0;
+    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (size / 16 > most) // Texels of 16 bytes: the four-component formats that the library uses.
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %lld texels, more than the driver's %d", label,
+                         (long long)(size / 16), most);
+    GLuint texture = 0;
+    gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+    if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);
+    gl->TextureBuffer(texture, format, buffer);
+    gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
+    *out = texture;
+    return HAIR_OK;
+}
+
+void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
+{
+    if (*buffer) gl->DeleteBuffers(1, buffer);
+    *buffer = 0;
+}
+
+void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
+{
+    if (*texture) gl->DeleteTextures(1, texture);
+    *texture = 0;
+}

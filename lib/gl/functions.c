@@ -1,0 +1,84 @@
+// functions.c - the host's OpenGL, asked for once per context: a private table, so that no loader collides.
+#include "lib/gl/gl.h"
+
+#include <string.h>
+
+// ISO C has no cast from void* to a function; the bytes are the same wherever there is OpenGL.
+static int find(const hair_context_desc* desc, const char* name, void* function)
+{
+    void* address = desc->get_proc(name, desc->get_proc_user);
+    memcpy(function, &address, sizeof address);
+    return address != NULL;
+}
+
+hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
+{
+    const hair_host* host = &gl->host;
+    if (!find(desc, "glGetIntegerv", &gl->GetIntegerv) || !find(desc, "glGetString", &gl->GetString))
+        return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find glGetIntegerv");
+    if (!gl->GetString(GL_VERSION))
+        return hair_fail(host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
+    GLint major = 0, minor = 0;
+    gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl->GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (major * 10 + minor < 45)
+        return hair_fail(host, HAIR_ERROR_OPENGL, "the OpenGL context is version %d.%d, not 4.5 or newer", major, minor);
+#define FUNCTION(type, name, parameters)                                                                               \
+    if (!find(desc, "gl" #name, &gl->name))                                                                            \
+        return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find gl" #name);
+#include "lib/gl/functions.inl"
+#undef FUNCTION
+    return HAIR_OK;
+}
+
+static hair_result make_objects(struct hair_gl* gl)
+{
+    static const float far_away[4] = {1, 1, 1, 1};
+    gl->CreateVertexArrays(1, &gl->vertex_array);
+    gl->CreateSamplers(1, &gl->shadow_sampler);
+    if (!gl->vertex_array || !gl->shadow_sampler)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no vertex array or sampler");
+    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+    gl->SamplerParameterfv(gl->shadow_sampler, GL_TEXTURE_BORDER_COLOR, far_away);
+    return HAIR_OK;
+}
+
+hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc)
+{
+    memset(gl, 0, sizeof *gl);
+    gl->host    = *host;
+    gl->promise = desc->gl_state;
+    gl->timings = (int)desc->timings;
+    if (desc->glsl_dir) {
+        size_t size  = strlen(desc->glsl_dir) + 1;
+        gl->glsl_dir = hair_alloc(host, size, 1);
+        if (!gl->glsl_dir) return hair_fail_memory(host, "hair_context_desc.glsl_dir");
+        memcpy(gl->glsl_dir, desc->glsl_dir, size);
+    }
+    hair_result result = hair_gl_load(gl, desc);
+    if (!result) {
+        hair_gl_enter(gl);
+        result = make_objects(gl);
+        if (!result) result = hair_gl_selftest(gl);
+        if (!result) result = hair_gl_compile(gl);
+        hair_gl_leave(gl);
+    }
+    if (result) hair_gl_destroy(gl);
+    return result;
+}
+
+void hair_gl_destroy(struct hair_gl* gl)
+{
+    if (gl->DeleteProgram) // Else loading failed, and nothing was made.
+        for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass)
+            if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
+    hair_gl_free_timers(gl);
+    if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
+    if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
+    hair_free(&gl->host, gl->glsl_dir);
+    memset(gl, 0, sizeof *gl);
+}

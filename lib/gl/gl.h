@@ -1,0 +1,105 @@
+// gl.h - all of OpenGL that the other rooms need: the host's functions, programs, buffers, state, timers.
+#ifndef HAIR_GL_GL_H
+#define HAIR_GL_GL_H
+
+#include <GL/glcorearb.h>
+
+#include "lib/base/host.h"
+#include "glsl/shared.h"
+
+typedef enum hair_gl_pass {
+#define PASS(name, label, stages) HAIR_GL_##name,
+#include "lib/gl/passes.inl"
+#undef PASS
+    HAIR_GL_PASS_COUNT
+} hair_gl_pass;
+
+#define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
+
+struct hair_gl_timer {
+    GLuint   query[HAIR_GL_TIMER_DEPTH][2]; // start and end of a run
+    uint32_t begun, read;                   // runs
+    float    ms;
+};
+
+// What a draw or a dispatch changes, to be put back. See state.c.
+struct hair_gl_saved {
+    GLint    program, vertex_array, patch_vertices, active_texture, cull;
+    GLint    texture[HAIR_UNIT_SHADOW + 1], sampler;
+    GLuint   storage[HAIR_BIND_EXPANDED + 1], uniform[HAIR_BIND_DRAW + 1];
+    GLintptr storage_first[HAIR_BIND_EXPANDED + 1], uniform_first[HAIR_BIND_DRAW + 1];
+    GLsizeiptr storage_size[HAIR_BIND_EXPANDED + 1], uniform_size[HAIR_BIND_DRAW + 1];
+};
+
+struct hair_gl {
+    hair_host            host;
+    hair_gl_state        promise;
+    char*                glsl_dir; // NULL: the text built in
+    int                  timings;
+    GLuint               program[HAIR_GL_PASS_COUNT];
+    struct hair_gl_timer timer[HAIR_GL_PASS_COUNT];
+    GLuint               vertex_array; // empty: every vertex comes from its number
+    GLuint               shadow_sampler;
+    uint32_t             max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
+    int                  lines_level;       // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
+    struct hair_gl_saved saved;
+#define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
+#include "lib/gl/functions.inl"
+#undef FUNCTION
+};
+
+// functions.c, program.c, selftest.c ------------------------------------------------------------------------
+
+// Fill the table by `get_proc`, ask the version, compile every pass, find out what the driver gets wrong.
+hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
+void        hair_gl_destroy(struct hair_gl* gl);
+hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
+
+// Compile every pass; those that fail keep the program they had, and the first failure is returned.
+hair_result hair_gl_compile(struct hair_gl* gl);
+
+// One program of stages such as "draw/patch.vert draw/patch.tesc"; `captured`: outputs for transform feedback, or NULL.
+hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured, GLuint* out);
+hair_result hair_gl_selftest(struct hair_gl* gl);
+
+// source.c --------------------------------------------------------------------------------------------------
+
+#define HAIR_GL_MAX_SOURCES 16 // Files of one shader, itself included.
+
+struct hair_gl_source {
+    char*    text; // To free; with every include in place.
+    char     file[HAIR_GL_MAX_SOURCES][48];
+    uint32_t files;
+};
+
+// The text of glsl/NAME with its includes, each once, and #line directives that number the files as `file` does.
+// `prefix` follows the #version line. glsl_dir NULL: the text built in.
+hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name, const char* prefix,
+                                struct hair_gl_source* out);
+
+// state.c ---------------------------------------------------------------------------------------------------
+
+void hair_gl_enter(struct hair_gl* gl); // Before anything else in a [GL] call.
+void hair_gl_leave(struct hair_gl* gl);
+
+// buffer.c --------------------------------------------------------------------------------------------------
+
+// A buffer of `size` bytes (at least 16) holding `data`, or zeros when NULL. 0 and an error when the driver refuses.
+hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out);
+hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer, GLuint* out);
+void        hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
+void        hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
+
+// pass.c ----------------------------------------------------------------------------------------------------
+
+// Bracket the commands of a pass: its program, its debug group, its timer.
+void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass);
+void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
+
+// Run a compute pass over `groups` work groups, numbered by hair_group() in GLSL, and make what it wrote visible.
+void        hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+const char* hair_gl_pass_label(hair_gl_pass pass);
+float       hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass);
+void        hair_gl_free_timers(struct hair_gl* gl);
+
+#endif

@@ -1,0 +1,124 @@
+// program.c - shaders to programs, with errors that name the file and the line.
+#include "lib/gl/gl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char* label;
+    const char* stages;
+} passes[] = {
+#define PASS(name, label, stages) {label, stages},
+#include "lib/gl/passes.inl"
+#undef PASS
+};
+
+const char* hair_gl_pass_label(hair_gl_pass pass) { return passes[pass].label; }
+
+static GLenum stage_of(const char* name)
+{
+    static const struct {
+        char   suffix[6];
+        GLenum stage;
+    } stages[] = {{".comp", GL_COMPUTE_SHADER},      {".vert", GL_VERTEX_SHADER},
+                  {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
+                  {".geom", GL_GEOMETRY_SHADER},     {".frag", GL_FRAGMENT_SHADER}};
+    const char* dot = strrchr(name, '.');
+    for (size_t i = 0; dot && i < sizeof stages / sizeof *stages; ++i)
+        if (strcmp(dot, stages[i].suffix) == 0) return stages[i].stage;
+    return 0;
+}
+
+// Drivers begin a message with the number of the file: "2:50(7): error" (Mesa) or "2(50) : error" (NVIDIA).
+static void report(struct hair_gl* gl, const struct hair_gl_source* source, const char* message)
+{
+    char*       rest = NULL;
+    const char* at   = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
+    long        file = strtol(at, &rest, 10);
+    if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
+        char* after = NULL;
+        long  line  = strtol(rest + 1, &after, 10);
+        while (*after && strchr("(): 0123456789", *after)) ++after;
+        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s:%ld: %.*s", source->file[file], line, (int)strcspn(after, "\n"), after);
+    } else {
+        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s: %.*s", source->file[0], (int)strcspn(message, "\n"), message);
+    }
+}
+
+static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char* name)
+{
+    char prefix[64];
+    snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
+    struct hair_gl_source source;
+    hair_result           result = hair_gl_read_source(&gl->host, gl->glsl_dir, name, prefix, &source);
+    if (result) return result;
+
+    GLuint shader = gl->CreateShader(stage_of(name));
+    GLint  done   = 0;
+    if (shader) {
+        const char* text = source.text;
+        gl->ShaderSource(shader, 1, &text, NULL);
+        gl->CompileShader(shader);
+        gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
+        if (done) {
+            gl->AttachShader(program, shader);
+        } else {
+            char message[1024] = "";
+            gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
+            report(gl, &source, message);
+        }
+        gl->DeleteShader(shader); // Lives on while it is attached.
+    }
+    hair_free(&gl->host, source.text);
+    return done ? HAIR_OK : hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
+}
+
+hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured, GLuint* out)
+{
+    GLuint program = gl->CreateProgram();
+    if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
+    hair_result result = HAIR_OK;
+    for (const char* at = stages; *at && !result;) {
+        char   name[64];
+        size_t length = strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        result = compile_stage(gl, program, name);
+        at += length + strspn(at + length, " ");
+    }
+    if (!result) {
+        GLint done = 0;
+        if (captured) gl->TransformFeedbackVaryings(program, 1, &captured, GL_INTERLEAVED_ATTRIBS);
+        gl->LinkProgram(program);
+        gl->GetProgramiv(program, GL_LINK_STATUS, &done);
+        if (!done) {
+            char message[512] = "";
+            gl->GetProgramInfoLog(program, sizeof message, NULL, message);
+            result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s does not link: %.*s", label,
+                               (int)strcspn(message, "\n"), message);
+        }
+    }
+    if (result) {
+        gl->DeleteProgram(program);
+        return result;
+    }
+    gl->ObjectLabel(GL_PROGRAM, program, -1, label);
+    *out = program;
+    return HAIR_OK;
+}
+
+hair_result hair_gl_compile(struct hair_gl* gl)
+{
+    hair_result first = HAIR_OK;
+    for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
+        GLuint      program = 0;
+        hair_result result  = hair_gl_link(gl, passes[pass].label, passes[pass].stages, NULL, &program);
+        if (result) {
+            if (!first) first = result;
+            continue;
+        }
+        if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
+        gl->program[pass] = program;
+    }
+    return first;
+}

@@ -1,0 +1,86 @@
+// selftest.c - what this driver gets wrong about isolines, found by drawing some and looking at them.
+//
+// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits: beyond 65,536 later patches silently
+// repeat earlier ones. One old driver swaps the two outer levels.
+#include "lib/gl/gl.h"
+
+#define LINES 64
+#define SEGMENTS 32
+#define PATCHES 32                 // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
+#define SAFE_DRAW_VERTICES 33000u  // Under 65,536, and where llvmpipe was measured to be fastest
+
+struct captured {
+    float patch, v;
+};
+
+static hair_result judge(struct hair_gl* gl, const struct captured* captured, size_t count)
+{
+    float most = 0;
+    for (size_t i = 0; i < count; ++i)
+        if (captured[i].v > most) most = captured[i].v;
+    // v of the last of n lines is (n - 1) / n.
+    float lines = 1 / (1 - most);
+    if (lines > LINES - 4 && lines < LINES + 4)
+        gl->lines_level = 0;
+    else if (lines > SEGMENTS - 2 && lines < SEGMENTS + 2)
+        gl->lines_level = 1;
+    else
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver made %.1f isolines where %d were asked for",
+                         (double)lines, LINES);
+    int wraps             = captured[count - 1].patch < PATCHES - 0.5f;
+    gl->max_draw_vertices = wraps ? SAFE_DRAW_VERTICES : UINT32_MAX;
+    if (wraps)
+        hair_log(&gl->host, HAIR_LOG_INFO, "this driver loses isolines beyond 65536 vertices in a draw: drawing in batches of %u",
+                 SAFE_DRAW_VERTICES);
+    return HAIR_OK;
+}
+
+static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint framebuffer)
+{
+    GLint   old_framebuffer = 0, old_feedback = 0;
+    GLboolean discard = gl->IsEnabled(GL_RASTERIZER_DISCARD);
+    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &old_framebuffer);
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &old_feedback);
+
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer); // Without one every draw fails, discarded or not.
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback);
+    gl->BindVertexArray(gl->vertex_array);
+    gl->PatchParameteri(GL_PATCH_VERTICES, 1);
+    gl->Enable(GL_RASTERIZER_DISCARD);
+    gl->UseProgram(program);
+    gl->BeginTransformFeedback(GL_LINES);
+    gl->DrawArrays(GL_PATCHES, 1, PATCHES); // Numbers from 1, so that zeros left in the buffer are no patch.
+    gl->EndTransformFeedback();
+
+    if (!discard) gl->Disable(GL_RASTERIZER_DISCARD);
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, (GLuint)old_feedback);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)old_framebuffer);
+}
+
+hair_result hair_gl_selftest(struct hair_gl* gl)
+{
+    const size_t     count    = (size_t)PATCHES * LINES * SEGMENTS * 2;
+    struct captured* captured = hair_alloc(&gl->host, count, sizeof *captured);
+    if (!captured) return hair_fail_memory(&gl->host, "the self-test");
+
+    GLuint      program = 0, buffer = 0, feedback = 0, framebuffer = 0;
+    hair_result result = hair_gl_link(gl, "gl/selftest", "draw/patch.vert gl/selftest.tesc gl/selftest.tese", "captured",
+                                      &program);
+    if (!result) result = hair_gl_buffer(gl, "self-test", count * sizeof *captured, NULL, &buffer);
+    if (!result) {
+        gl->CreateFramebuffers(1, &framebuffer);
+        gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+        gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+        gl->CreateTransformFeedbacks(1, &feedback);
+        gl->TransformFeedbackBufferBase(feedback, 0, buffer);
+        draw(gl, program, feedback, framebuffer);
+        gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *captured), captured);
+        result = judge(gl, captured, count);
+        gl->DeleteTransformFeedbacks(1, &feedback);
+        gl->DeleteFramebuffers(1, &framebuffer);
+    }
+    hair_gl_free_buffer(gl, &buffer);
+    if (program) gl->DeleteProgram(program);
+    hair_free(&gl->host, captured);
+    return result;
+}

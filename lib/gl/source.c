@@ -1,0 +1,151 @@
+// source.c - shader text: built in or read from a folder, its includes put in place.
+#include "lib/gl/gl.h"
+
+#include <stdio.h>
+#include <string.h>
+
+extern const unsigned char hair_sources[]; // name, 0, text, 0, and so on; an empty name ends it (tools/embed.c)
+
+#define MAX_FILE (1u << 20)
+
+struct text {
+    const hair_host* host;
+    char*            bytes;
+    size_t           size, capacity;
+    int              failed;
+};
+
+static void append(struct text* text, const char* bytes, size_t size)
+{
+    if (text->failed) return;
+    if (text->size + size + 1 > text->capacity) {
+        size_t capacity = 2 * (text->size + size) + 4096;
+        char*  grown    = hair_alloc(text->host, capacity, 1);
+        if (!grown) {
+            text->failed = 1;
+            return;
+        }
+        if (text->bytes) memcpy(grown, text->bytes, text->size);
+        hair_free(text->host, text->bytes);
+        text->bytes    = grown;
+        text->capacity = capacity;
+    }
+    memcpy(text->bytes + text->size, bytes, size);
+    text->size += size;
+    text->bytes[text->size] = 0;
+}
+
+static const char* find_built_in(const char* name)
+{
+    for (const char* at = (const char*)hair_sources; *at;) {
+        const char* text = at + strlen(at) + 1;
+        if (strcmp(at, name) == 0) return text;
+        at = text + strlen(text) + 1;
+    }
+    return NULL;
+}
+
+static char* read_file(const hair_host* host, const char* folder, const char* name)
+{
+    char path[1024];
+    if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, name) >= sizeof path) return NULL;
+    FILE* file = fopen(path, "rb");
+    if (!file) return NULL;
+    char* text = hair_alloc(host, MAX_FILE + 1, 1); // Zeroed, so that the text ends where the file does.
+    if (text && fread(text, 1, MAX_FILE, file) == MAX_FILE) {
+        hair_free(host, text);
+        text = NULL;
+    }
+    fclose(file);
+    return text;
+}
+
+// The name between quotes of an #include line, or a length of 0.
+static size_t parse_include(const char* line, const char* end, const char** name)
+{
+    while (line < end && (*line == ' ' || *line == '\t')) ++line;
+    if (end - line < 10 || strncmp(line, "#include", 8) != 0) return 0;
+    const char* first = memchr(line, '"', (size_t)(end - line));
+    const char* last  = first ? memchr(first + 1, '"', (size_t)(end - first - 1)) : NULL;
+    if (!last) return 0;
+    *name = first + 1;
+    return (size_t)(last - first - 1);
+}
+
+struct reader {
+    const hair_host*       host;
+    const char*            folder;
+    const char*            prefix;
+    struct text            text;
+    struct hair_gl_source* out;
+};
+
+static hair_result read_one(struct reader* reader, const char* name, size_t length);
+
+static hair_result put_lines(struct reader* reader, const char* text, uint32_t number)
+{
+    int line_number = 1;
+    for (const char* line = text; *line; ++line_number) {
+        const char* stop = strchr(line, '\n');
+        const char* end  = stop ? stop : line + strlen(line);
+        const char* name;
+        char        directive[64];
+        size_t      length = parse_include(line, end, &name);
+        if (length) {
+            hair_result result = read_one(reader, name, length);
+            if (result) return result;
+            append(&reader->text, directive,
+                   (size_t)snprintf(directive, sizeof directive, "#line %d %u\n", line_number + 1, number));
+        } else {
+            append(&reader->text, line, (size_t)(end - line));
+            append(&reader->text, "\n", 1);
+            if (number == 0 && strncmp(line, "#version", 8) == 0) {
+                append(&reader->text, reader->prefix, strlen(reader->prefix));
+                append(&reader->text, directive,
+                       (size_t)snprintf(directive, sizeof directive, "#line %d 0\n", line_number + 1));
+            }
+        }
+        line = stop ? stop + 1 : end;
+    }
+    return HAIR_OK;
+}
+
+static hair_result read_one(struct reader* reader, const char* name, size_t length)
+{
+    struct hair_gl_source* out = reader->out;
+    if (length >= sizeof out->file[0] || out->files == HAIR_GL_MAX_SOURCES)
+        return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader %s includes too much", out->file[0]);
+    uint32_t number = out->files;
+    char*    own    = out->file[number];
+    memcpy(own, name, length);
+    own[length] = 0;
+    for (uint32_t i = 0; i < number; ++i)
+        if (strcmp(out->file[i], own) == 0) return HAIR_OK; // Each file once.
+    ++out->files;
+
+    char*       read = reader->folder ? read_file(reader->host, reader->folder, own) : NULL;
+    const char* text = reader->folder ? read : find_built_in(own);
+    if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);
+    if (number > 0) {
+        char directive[32];
+        append(&reader->text, directive, (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", number));
+    }
+    hair_result result = put_lines(reader, text, number);
+    hair_free(reader->host, read);
+    return result;
+}
+
+hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name, const char* prefix,
+                                struct hair_gl_source* out)
+{
+    memset(out, 0, sizeof *out);
+    struct reader reader = {.host = host, .folder = glsl_dir, .prefix = prefix, .text = {.host = host}, .out = out};
+    hair_result   result = read_one(&reader, name, strlen(name));
+    if (!result && reader.text.failed) result = hair_fail_memory(host, "shader text");
+    if (result) {
+        hair_free(host, reader.text.bytes);
+        return result;
+    }
+    out->text = reader.text.bytes;
+    return HAIR_OK;
+}

@@ -1,0 +1,69 @@
+// state.c - the host's OpenGL comes back as it was. Everything the library's draws and dispatches change is
+// saved here and nowhere else; objects are edited without being bound.
+#include "lib/gl/gl.h"
+
+static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLsizei count, GLuint* buffers,
+                         GLintptr* firsts, GLsizeiptr* sizes)
+{
+    for (GLsizei i = 0; i < count; ++i) {
+        GLint   buffer    = 0;
+        GLint64 first_64  = 0, size_64 = 0;
+        gl->GetIntegeri_v(binding, (GLuint)i, &buffer);
+        gl->GetInteger64i_v(first, (GLuint)i, &first_64);
+        gl->GetInteger64i_v(size, (GLuint)i, &size_64);
+        buffers[i] = (GLuint)buffer;
+        firsts[i]  = (GLintptr)first_64;
+        sizes[i]   = (GLsizeiptr)size_64;
+    }
+}
+
+static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, const GLuint* buffers, const GLintptr* firsts,
+                            const GLsizeiptr* sizes)
+{
+    for (GLsizei i = 0; i < count; ++i) {
+        if (sizes[i] > 0) // A size of 0 stands for the whole buffer.
+            gl->BindBuffersRange(target, (GLuint)i, 1, &buffers[i], &firsts[i], &sizes[i]);
+        else
+            gl->BindBuffersBase(target, (GLuint)i, 1, &buffers[i]);
+    }
+}
+
+void hair_gl_enter(struct hair_gl* gl)
+{
+    if (gl->promise == HAIR_GL_CLOBBER) return;
+    struct hair_gl_saved* saved = &gl->saved;
+    gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
+    gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
+    gl->GetIntegerv(GL_PATCH_VERTICES, &saved->patch_vertices);
+    gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
+    saved->cull = gl->IsEnabled(GL_CULL_FACE);
+    for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit) {
+        GLenum binding = unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_BINDING_2D : GL_TEXTURE_BINDING_BUFFER;
+        gl->GetIntegeri_v(binding, unit, &saved->texture[unit]);
+    }
+    gl->GetIntegeri_v(GL_SAMPLER_BINDING, HAIR_UNIT_SHADOW, &saved->sampler);
+    save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE,
+                 HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first, saved->storage_size);
+    save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, HAIR_BIND_DRAW + 1,
+                 saved->uniform, saved->uniform_first, saved->uniform_size);
+}
+
+void hair_gl_leave(struct hair_gl* gl)
+{
+    if (gl->promise == HAIR_GL_CLOBBER) return;
+    struct hair_gl_saved* saved = &gl->saved;
+    gl->UseProgram((GLuint)saved->program);
+    gl->BindVertexArray((GLuint)saved->vertex_array);
+    gl->PatchParameteri(GL_PATCH_VERTICES, saved->patch_vertices);
+    (saved->cull ? gl->Enable : gl->Disable)(GL_CULL_FACE);
+    for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit) {
+        // By target: glBindTextureUnit(unit, 0) would empty the unit's other targets too.
+        gl->ActiveTexture(GL_TEXTURE0 + unit);
+        gl->BindTexture(unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER, (GLuint)saved->texture[unit]);
+    }
+    gl->ActiveTexture((GLenum)saved->active_texture);
+    gl->BindSampler(HAIR_UNIT_SHADOW, (GLuint)saved->sampler);
+    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first,
+                    saved->storage_size);
+    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
+}

@@ -1,0 +1,32 @@
+// smooth.c - the smoothed guides: structure of arrays, one buffer and one texture each.
+#include "lib/interpolate/interpolate.h"
+
+hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
+{
+    static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
+    smooth->gl       = gl;
+    smooth->vertices = sim->guides * sim->smooth_vertices;
+    for (int i = 0; i < 3; ++i) {
+        hair_result result = hair_gl_buffer(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
+        if (!result)
+            result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
+        if (result) return result;
+    }
+    return HAIR_OK;
+}
+
+void hair_smooth_destroy(struct hair_smooth* smooth)
+{
+    if (!smooth->gl) return;
+    for (int i = 0; i < 3; ++i) {
+        hair_gl_free_texture(smooth->gl, &smooth->texture[i]);
+        hair_gl_free_buffer(smooth->gl, &smooth->buffer[i]);
+    }
+}
+
+void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
+{
+    hair_sim_bind(sim);
+    smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
+    hair_gl_run(smooth->gl, HAIR_GL_SMOOTH, sim->guides);
+}

@@ -1,0 +1,152 @@
+// sim.c - the accumulator: time comes in any portions, substeps go out of one length.
+#include "lib/sim/sim.h"
+
+#include <string.h>
+
+#define TWO_PI 6.28318530718f
+
+hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
+{
+    sim->gl              = gl;
+    sim->guides          = groom->info.guide_count;
+    sim->guide_vertices  = groom->info.guide_vertex_count;
+    sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
+    size_t      state    = sim->guide_vertices * sizeof(struct hair_state);
+    hair_result result   = hair_gl_buffer(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide);
+    if (!result)
+        result = hair_gl_buffer(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest);
+    if (!result) result = hair_gl_buffer(gl, "hair state", state, NULL, &sim->state);
+    if (!result) result = hair_gl_buffer(gl, "hair step", sizeof(struct hair_step_params), NULL, &sim->step);
+    return result;
+}
+
+void hair_sim_destroy(struct hair_sim* sim)
+{
+    if (!sim->gl) return;
+    hair_gl_free_buffer(sim->gl, &sim->guide);
+    hair_gl_free_buffer(sim->gl, &sim->rest);
+    hair_gl_free_buffer(sim->gl, &sim->state);
+    hair_gl_free_buffer(sim->gl, &sim->step);
+}
+
+void hair_sim_bind(struct hair_sim* sim)
+{
+    GLuint storage[] = {sim->guide, sim->rest, sim->state};
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
+    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
+}
+
+static hair_vec4 vec4_of(hair_vec3 v, float w) { return (hair_vec4){v.x, v.y, v.z, w}; }
+static hair_vec4 vec4_of_quat(hair_quat q) { return (hair_vec4){q.x, q.y, q.z, q.w}; }
+
+static float squared_frequency(float hertz) { return TWO_PI * TWO_PI * hertz * hertz; }
+
+static void write_physics(const struct hair_sim* sim, struct hair_step_params* params)
+{
+    const hair_physics* physics = &sim->physics;
+    params->gravity         = (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
+    params->keep            = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
+    params->pull_root       = TWO_PI * physics->pull_root;
+    params->pull_tip        = TWO_PI * physics->pull_tip;
+    params->angular         = squared_frequency(physics->angular);
+    params->bend            = physics->bend;
+    params->margin          = physics->margin;
+    params->iterations      = physics->iterations;
+    params->guides          = sim->guides;
+    params->smooth_vertices = sim->smooth_vertices;
+}
+
+// What smooth.comp needs to place the strands between the ends of the last substep, under the head's pose now.
+static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
+{
+    params->alpha             = (float)(sim->left / sim->substep);
+    params->rotation_before   = vec4_of_quat(sim->last_before.rotation);
+    params->rotation_after    = vec4_of_quat(sim->last_after.rotation);
+    params->rotation_now      = vec4_of_quat(sim->head.rotation);
+    params->last_displacement = vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), 0);
+}
+
+static void upload(struct hair_sim* sim, const struct hair_step_params* params)
+{
+    sim->gl->NamedBufferSubData(sim->step, 0, sizeof *params, params);
+}
+
+// The next `count` substeps, of which the first ends `first` seconds into a step of `dt`.
+static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double first, double dt)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        double share     = (first + i * sim->substep) / dt;
+        sim->last_before = sim->last_after;
+        sim->last_after  = hair_pose_between(&sim->at_step, &sim->head, share < 1 ? share : 1);
+        params->substep[i].rotation     = vec4_of_quat(sim->last_after.rotation);
+        params->substep[i].displacement = vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
+    }
+    params->substeps = count;
+}
+
+void hair_sim_step(struct hair_sim* sim, double dt)
+{
+    struct hair_step_params params = {0};
+    write_physics(sim, &params);
+    params.solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params.solid);
+
+    double   time  = sim->left + dt;
+    uint32_t total = (uint32_t)(time / sim->substep + 1e-6); // A hair's breadth early, so that 2/120 s holds two 1/120 s.
+    double   first = sim->substep - sim->left;
+    sim->left      = fmax(time - total * sim->substep, 0);
+    hair_sim_bind(sim);
+    for (uint32_t done = 0; done < total;) {
+        uint32_t count = total - done < HAIR_STEP_SUBSTEPS ? total - done : HAIR_STEP_SUBSTEPS;
+        write_substeps(sim, &params, count, first + done * sim->substep, dt);
+        write_now(sim, &params);
+        upload(sim, &params);
+        hair_gl_run(sim->gl, HAIR_GL_REDBLACK, sim->guides);
+        done += count;
+    }
+    if (total == 0) {
+        write_now(sim, &params);
+        upload(sim, &params);
+    }
+    sim->at_step = sim->head;
+    hair_solids_settle(&sim->solids);
+}
+
+// Head and solids are where they are, and were never elsewhere.
+static void settle(struct hair_sim* sim)
+{
+    sim->last_before = sim->last_after = sim->at_step = sim->head;
+    sim->left                                        = 0;
+    hair_solids_settle(&sim->solids);
+}
+
+static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
+{
+    upload(sim, params);
+    hair_sim_bind(sim);
+    hair_gl_run(sim->gl, pass, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+}
+
+void hair_sim_reset(struct hair_sim* sim)
+{
+    struct hair_step_params params = {0};
+    settle(sim);
+    write_physics(sim, &params);
+    write_now(sim, &params);
+    run_over_vertices(sim, HAIR_GL_RESET, &params);
+}
+
+// The state is that of the end of the last substep: what turns it is the way from there. What was left of the
+// head's motion until now is dropped with the jump.
+void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
+{
+    struct hair_step_params params = {0};
+    hair_quat from = sim->last_after.rotation;
+    sim->head      = *to;
+    settle(sim);
+    write_physics(sim, &params);
+    write_now(sim, &params);
+    params.rotation_before = vec4_of_quat(from);
+    run_over_vertices(sim, HAIR_GL_TURN, &params);
+    write_now(sim, &params);
+    upload(sim, &params);
+}
