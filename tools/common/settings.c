@@ -1,0 +1,189 @@
+// settings.c - every number of a capture that a user may set by name.
+#include "tools/common/settings.h"
+#include "tools/common/file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_TARGETS 3
+#define MAX_CHOICES 4
+
+enum kind { FLOAT, COUNT };
+
+// Where one key goes. Several places where several descs ask the same question.
+struct row {
+    const char* key;
+    const char* about;
+    enum kind   kind;
+    uint16_t    target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
+    const char* choice[MAX_CHOICES]; // names of the values 0, 1, 2
+};
+
+#define AT(member) (uint16_t) offsetof(struct hair_settings, member)
+
+static const struct row rows[] = {
+    {"scale", "of the file's units to metres", FLOAT, {AT(import.scale)}, {0}},
+    {"up", "axis of the file that points up", COUNT, {AT(import.up)}, {"y", "z", "x"}},
+    {"tip_first", "strands of the file run from tip to root", COUNT, {AT(import.tip_first)}, {0}},
+    {"share", "of the file's strands to keep", FLOAT, {AT(import.share)}, {0}},
+    {"vertices",
+     "of every strand, resampled; 0: as it is",
+     COUNT,
+     {AT(import.strand_vertices), AT(style.strand_vertices)},
+     {0}},
+    {"length", "of the style's own lengths", FLOAT, {AT(style.length)}, {0}},
+    {"guides", "strands to simulate", COUNT, {AT(groom.guide_count), AT(style.guide_count)}, {0}},
+    {"guide_vertices", "most vertices simulated in each", COUNT, {AT(groom.guide_vertices)}, {0}},
+    {"followers", "strands to grow between guides", COUNT, {AT(groom.follower_count)}, {0}},
+    {"clump_radius", "of what grows around a guide without a scalp, m", FLOAT, {AT(groom.clump_radius)}, {0}},
+    {"seed", "of every random choice", COUNT, {AT(import.seed), AT(style.seed), AT(groom.seed)}, {0}},
+
+    {"solver", "of the motion", COUNT, {AT(desc.solver)}, {"redblack"}},
+    {"substep", "length of a substep, s", FLOAT, {AT(desc.substep)}, {0}},
+    {"max_dt", "longest time a step advances, s", FLOAT, {AT(desc.max_dt)}, {0}},
+    {"gravity.x", "m/s^2", FLOAT, {AT(physics.gravity[0])}, {0}},
+    {"gravity.y", "m/s^2", FLOAT, {AT(physics.gravity[1])}, {0}},
+    {"gravity.z", "m/s^2", FLOAT, {AT(physics.gravity[2])}, {0}},
+    {"damping", "decay rate of velocity, 1/s", FLOAT, {AT(physics.damping)}, {0}},
+    {"pull_root", "pull to the rest pose at the root, Hz", FLOAT, {AT(physics.pull_root)}, {0}},
+    {"pull_tip", "the same at the tip, Hz", FLOAT, {AT(physics.pull_tip)}, {0}},
+    {"angular", "pull to the rest angle, Hz", FLOAT, {AT(physics.angular)}, {0}},
+    {"bend", "share of the bend that an iteration removes", FLOAT, {AT(physics.bend)}, {0}},
+    {"iterations", "of constraints in a substep", COUNT, {AT(physics.iterations)}, {0}},
+    {"margin", "distance kept to solids, m", FLOAT, {AT(physics.margin)}, {0}},
+
+    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation"}},
+    {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
+    {"root_color.r", "diffuse reflectance at the root", FLOAT, {AT(look.root_color[0])}, {0}},
+    {"root_color.g", "", FLOAT, {AT(look.root_color[1])}, {0}},
+    {"root_color.b", "", FLOAT, {AT(look.root_color[2])}, {0}},
+    {"tip_color.r", "the same at the tip", FLOAT, {AT(look.tip_color[0])}, {0}},
+    {"tip_color.g", "", FLOAT, {AT(look.tip_color[1])}, {0}},
+    {"tip_color.b", "", FLOAT, {AT(look.tip_color[2])}, {0}},
+    {"color_spread", "of brightness between strands", FLOAT, {AT(look.color_spread)}, {0}},
+    {"specular.white", "strength of the first highlight", FLOAT, {AT(look.specular[0])}, {0}},
+    {"specular.tinted", "strength of the second", FLOAT, {AT(look.specular[1])}, {0}},
+    {"gloss.white", "exponent of the first highlight", FLOAT, {AT(look.gloss[0])}, {0}},
+    {"gloss.tinted", "exponent of the second", FLOAT, {AT(look.gloss[1])}, {0}},
+    {"radius", "of a drawn strand, m", FLOAT, {AT(look.radius)}, {0}},
+    {"tip_radius", "at the tip, as a share of that", FLOAT, {AT(look.tip_radius)}, {0}},
+    {"clump", "how far tips gather around their guide", FLOAT, {AT(look.clump)}, {0}},
+    {"frizz", "strands' own deviation, share of their length", FLOAT, {AT(look.frizz)}, {0}},
+    {"absorption", "of light by hair, 1/m", FLOAT, {AT(look.absorption)}, {0}},
+    {"density", "share of the followers drawn", FLOAT, {AT(look.density)}, {0}},
+    {"segments", "of a drawn strand", COUNT, {AT(look.segments)}, {0}},
+    {"light_to.x", "from the hair towards the light", FLOAT, {AT(view.light_to[0])}, {0}},
+    {"light_to.y", "", FLOAT, {AT(view.light_to[1])}, {0}},
+    {"light_to.z", "", FLOAT, {AT(view.light_to[2])}, {0}},
+    {"light.r", "irradiance of the light", FLOAT, {AT(view.light[0])}, {0}},
+    {"light.g", "", FLOAT, {AT(view.light[1])}, {0}},
+    {"light.b", "", FLOAT, {AT(view.light[2])}, {0}},
+    {"ambient.r", "irradiance of the surroundings", FLOAT, {AT(view.ambient[0])}, {0}},
+    {"ambient.g", "", FLOAT, {AT(view.ambient[1])}, {0}},
+    {"ambient.b", "", FLOAT, {AT(view.ambient[2])}, {0}},
+};
+
+#define ROW_COUNT (sizeof rows / sizeof *rows)
+
+struct hair_settings hair_settings_default(void)
+{
+    return (struct hair_settings){.import  = hair_import_default(),
+                                  .style   = hair_style_desc_default(),
+                                  .groom   = hair_groom_desc_default(),
+                                  .physics = hair_physics_default(),
+                                  .look    = hair_look_default(),
+                                  .desc    = hair_desc_default(),
+                                  .view    = hair_view_default()};
+}
+
+static const struct row* find(const char* key)
+{
+    for (size_t i = 0; i < ROW_COUNT; ++i)
+        if (!strcmp(rows[i].key, key)) return &rows[i];
+    return NULL;
+}
+
+static void store(struct hair_settings* settings, const struct row* row, const void* value)
+{
+    for (int i = 0; i < MAX_TARGETS && (i == 0 || row->target[i]); ++i)
+        memcpy((char*)settings + row->target[i], value, 4);
+}
+
+static bool set_choice(struct hair_settings* settings, const struct row* row, const char* value)
+{
+    for (uint32_t i = 0; i < MAX_CHOICES && row->choice[i]; ++i)
+        if (!strcmp(row->choice[i], value)) {
+            store(settings, row, &i);
+            return true;
+        }
+    return false;
+}
+
+static bool set_number(struct hair_settings* settings, const struct row* row, const char* value)
+{
+    char* end;
+    errno          = 0;
+    double wide    = strtod(value, &end);
+    float  number  = (float)wide;
+    bool   is_text = end == value || *end;
+    if (is_text || !isfinite(number)) return false;
+    if (row->kind == FLOAT) {
+        store(settings, row, &number);
+        return true;
+    }
+    if (wide < 0 || wide > UINT32_MAX || wide != floor(wide)) return false;
+    uint32_t count = (uint32_t)wide;
+    store(settings, row, &count);
+    return true;
+}
+
+static void complain_of_value(const char* tool, const struct row* row, const char* value)
+{
+    if (!row->choice[0]) {
+        const char* kind = row->kind == COUNT ? "a whole number" : "a finite number";
+        hair_complain(tool, "%s is %s, not %s", row->key, *value ? value : "empty", kind);
+        return;
+    }
+    char   names[128] = "";
+    size_t used       = 0;
+    for (int i = 0; i < MAX_CHOICES && row->choice[i]; ++i)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", row->choice[i]);
+    hair_complain(tool, "%s is %s, not one of: %s", row->key, *value ? value : "empty", names);
+}
+
+bool hair_settings_set(const char* tool, struct hair_settings* settings, const char* key, const char* value)
+{
+    const struct row* row = find(key);
+    if (!row) {
+        hair_complain(tool, "there is no setting %s; --help lists them", *key ? key : "without a name");
+        return false;
+    }
+    if (row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value)) return true;
+    complain_of_value(tool, row, value);
+    return false;
+}
+
+void hair_settings_print(FILE* file)
+{
+    struct hair_settings settings = hair_settings_default();
+    for (size_t i = 0; i < ROW_COUNT; ++i) {
+        const struct row* row   = &rows[i];
+        const char*       value = (const char*)&settings + row->target[0];
+        uint32_t          count;
+        float             number;
+        memcpy(&count, value, sizeof count);
+        memcpy(&number, value, sizeof number);
+        char text[32];
+        if (row->choice[0])
+            snprintf(text, sizeof text, "%s", row->choice[count]);
+        else if (row->kind == COUNT)
+            snprintf(text, sizeof text, "%u", count);
+        else
+            snprintf(text, sizeof text, "%g", (double)number);
+        fprintf(file, "  %-16s %-12s %s\n", row->key, text, row->about);
+    }
+}
