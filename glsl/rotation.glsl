@@ -1,4 +1,7 @@
 // rotation.glsl - unit quaternions, xyzw.
+#ifndef HAIR_ROTATION_GLSL
+#define HAIR_ROTATION_GLSL
+
 
 vec4 quat_conjugate(vec4 q) { return vec4(-q.xyz, q.w); }
 
@@ -29,3 +32,5 @@ vec3 direction_or(vec3 v, vec3 fallback)
     float l = length(v);
     return l > 1e-12 ? v / l : fallback;
 }
+
+#endif

@@ -11,6 +11,7 @@
 #define hair_vec4 vec4
 #define hair_mat4 mat4
 #define hair_uint uint
+#define HAIR_STRUCT(T) T
 #define HAIR_SIZE(T, n)
 #else
 #include <stdint.h>
@@ -21,6 +22,7 @@ typedef struct hair_mat4 {
     hair_vec4 column[4];
 } hair_mat4;
 typedef uint32_t hair_uint;
+#define HAIR_STRUCT(T) struct T
 #ifdef __cplusplus
 #define HAIR_SIZE(T, n) static_assert(sizeof(struct T) == n, #T " is not as GLSL lays it out");
 #else
@@ -117,8 +119,8 @@ struct hair_step_params {
     hair_vec4    rotation_after;  // head at its end
     hair_vec4    rotation_now;
     hair_vec4    last_displacement; // xyz: of the head's origin over the last substep, m
-    hair_substep substep[HAIR_STEP_SUBSTEPS];
-    hair_capsule solid[HAIR_STEP_SOLIDS];
+    HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
+    HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
 };
 HAIR_SIZE(hair_step_params, 128 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 64)
 

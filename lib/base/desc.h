@@ -21,12 +21,15 @@ struct hair_fields {
 };
 
 // Fill what the caller knows of the struct, all of it or a shorter older one: zeros, `made`, the defaults.
-void hair_desc_init(void* desc, hair_made made, struct hair_fields fields);
+void hair_fields_init(void* desc, hair_made made, struct hair_fields fields);
+
+// HAIR_ERROR_VERSION unless a default function of this major version filled it in.
+hair_result hair_made_check(const hair_host* host, const char* name, hair_made made);
 
 // Take a caller's desc into `own`: what the caller's is too short to hold gets its default. Fails with
 // HAIR_ERROR_VERSION when `made` was not filled in by a default function of this major version, with
 // HAIR_ERROR_ARGUMENT when a number is outside its range. `name` is the struct's.
-hair_result hair_desc_take(const hair_host* host, const char* name, const void* desc, void* own,
-                           struct hair_fields fields);
+hair_result hair_fields_take(const hair_host* host, const char* name, const void* desc, void* own,
+                             struct hair_fields fields);
 
 #endif

@@ -13,15 +13,42 @@ typedef struct hair_quat {
     float x, y, z, w;
 } hair_quat;
 
-static inline hair_vec3 hair_v3(float x, float y, float z) { return (hair_vec3){x, y, z}; }
-static inline hair_vec3 hair_load3(const float* p) { return (hair_vec3){p[0], p[1], p[2]}; }
-static inline void      hair_store3(float* p, hair_vec3 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z; }
-static inline hair_vec3 hair_add(hair_vec3 a, hair_vec3 b) { return (hair_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static inline hair_vec3 hair_sub(hair_vec3 a, hair_vec3 b) { return (hair_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static inline hair_vec3 hair_scale(hair_vec3 a, float s) { return (hair_vec3){a.x * s, a.y * s, a.z * s}; }
-static inline float     hair_dot(hair_vec3 a, hair_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline float     hair_length(hair_vec3 a) { return sqrtf(hair_dot(a, a)); }
-static inline float     hair_distance(hair_vec3 a, hair_vec3 b) { return hair_length(hair_sub(a, b)); }
+static inline hair_vec3 hair_v3(float x, float y, float z)
+{
+    return (hair_vec3){x, y, z};
+}
+static inline hair_vec3 hair_load3(const float* p)
+{
+    return (hair_vec3){p[0], p[1], p[2]};
+}
+static inline void hair_store3(float* p, hair_vec3 a)
+{
+    p[0] = a.x, p[1] = a.y, p[2] = a.z;
+}
+static inline hair_vec3 hair_add(hair_vec3 a, hair_vec3 b)
+{
+    return (hair_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline hair_vec3 hair_sub(hair_vec3 a, hair_vec3 b)
+{
+    return (hair_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline hair_vec3 hair_scale(hair_vec3 a, float s)
+{
+    return (hair_vec3){a.x * s, a.y * s, a.z * s};
+}
+static inline float hair_dot(hair_vec3 a, hair_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline float hair_length(hair_vec3 a)
+{
+    return sqrtf(hair_dot(a, a));
+}
+static inline float hair_distance(hair_vec3 a, hair_vec3 b)
+{
+    return hair_length(hair_sub(a, b));
+}
 
 static inline hair_vec3 hair_lerp(hair_vec3 a, hair_vec3 b, float t)
 {
@@ -50,11 +77,15 @@ static inline hair_vec3 hair_perpendicular(hair_vec3 a)
 
 static inline hair_quat hair_quat_multiply(hair_quat a, hair_quat b)
 {
-    return (hair_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+    return (hair_quat){
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+        a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-static inline hair_quat hair_quat_conjugate(hair_quat q) { return (hair_quat){-q.x, -q.y, -q.z, q.w}; }
+static inline hair_quat hair_quat_conjugate(hair_quat q)
+{
+    return (hair_quat){-q.x, -q.y, -q.z, q.w};
+}
 
 static inline hair_quat hair_quat_normalize(hair_quat q)
 {
@@ -94,7 +125,8 @@ static inline hair_quat hair_slerp(hair_quat a, hair_quat b, float t)
         v           = sinf(v * angle) / sinf(angle);
     }
     v *= s;
-    return hair_quat_normalize((hair_quat){u * a.x + v * b.x, u * a.y + v * b.y, u * a.z + v * b.z, u * a.w + v * b.w});
+    return hair_quat_normalize(
+        (hair_quat){u * a.x + v * b.x, u * a.y + v * b.y, u * a.z + v * b.z, u * a.w + v * b.w});
 }
 
 // Of the rotation whose columns are the unit vectors x, y, z (Shepperd 1978: divide by the largest component).
@@ -118,7 +150,8 @@ static inline void hair_mat4_multiply(const float a[16], const float b[16], floa
 {
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
-            c[4 * j + i] = a[i] * b[4 * j] + a[4 + i] * b[4 * j + 1] + a[8 + i] * b[4 * j + 2] + a[12 + i] * b[4 * j + 3];
+            c[4 * j + i] = a[i] * b[4 * j] + a[4 + i] * b[4 * j + 1] + a[8 + i] * b[4 * j + 2] +
+                           a[12 + i] * b[4 * j + 3];
 }
 
 // A hash of 32 bits that C and GLSL share (glsl/random.glsl): the PCG output of Jarzynski and Olano 2020.

@@ -8,31 +8,37 @@ _Static_assert(HAIR_MAX_SOLIDS == HAIR_STEP_SOLIDS, "hair.h and shared.h promise
 static hair_result check(const hair_host* host, const hair_solid* solid, uint32_t i)
 {
     if ((uint32_t)solid->shape > HAIR_SHAPE_CAPSULE)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].shape is %d, not in [0, %d]", i, (int)solid->shape,
-                         HAIR_SHAPE_CAPSULE);
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].shape is %d, not in [0, %d]", i,
+                         (int)solid->shape, HAIR_SHAPE_CAPSULE);
     for (int k = 0; k < 3; ++k)
         if (!(fabsf(solid->position[k]) <= 1e9f))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].position[%d] is %g, not in [-1e9, 1e9]", i, k,
-                             (double)solid->position[k]);
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].position[%d] is %g, not in [-1e9, 1e9]",
+                             i, k, (double)solid->position[k]);
     float norm = 0;
     for (int k = 0; k < 4; ++k) norm += solid->rotation[k] * solid->rotation[k];
     if (!(fabsf(norm - 1) <= 1e-3f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].rotation has norm %g, not 1", i, (double)sqrtf(norm));
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].rotation has norm %g, not 1", i,
+                         (double)sqrtf(norm));
     if (!(solid->size[0] > 0 && solid->size[0] <= 1e6f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[0] is %g, not in (0, 1e6]", i, (double)solid->size[0]);
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[0] is %g, not in (0, 1e6]", i,
+                         (double)solid->size[0]);
     if (solid->shape == HAIR_SHAPE_CAPSULE && !(solid->size[1] >= 0 && solid->size[1] <= 1e6f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[1] is %g, not in [0, 1e6]", i, (double)solid->size[1]);
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[1] is %g, not in [0, 1e6]", i,
+                         (double)solid->size[1]);
     return HAIR_OK;
 }
 
-hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from, uint32_t count,
-                            size_t stride)
+hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from,
+                            uint32_t count, size_t stride)
 {
     if (count > HAIR_MAX_SOLIDS)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid count is %u, not in [0, %d]", count, HAIR_MAX_SOLIDS);
-    if (count && !from) return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids is NULL but their count is %u", count);
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid count is %u, not in [0, %d]", count,
+                         HAIR_MAX_SOLIDS);
+    if (count && !from)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids is NULL but their count is %u", count);
     if (count && (stride < sizeof(hair_solid) || stride > 4096))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid stride is %zu, not in [%zu, 4096]", stride, sizeof(hair_solid));
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid stride is %zu, not in [%zu, 4096]", stride,
+                         sizeof(hair_solid));
     hair_solid taken[HAIR_MAX_SOLIDS];
     for (uint32_t i = 0; i < count; ++i) {
         memcpy(&taken[i], (const unsigned char*)from + i * stride, sizeof taken[i]);

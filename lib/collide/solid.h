@@ -13,8 +13,8 @@ struct hair_solids {
 };
 
 // Take `count` solids, each `stride` bytes from the next. On failure nothing has changed.
-hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from, uint32_t count,
-                            size_t stride);
+hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from,
+                            uint32_t count, size_t stride);
 
 // As capsules from where the head was to where it is. Returns how many.
 uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,

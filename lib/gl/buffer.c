@@ -3,35 +3,48 @@
 
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
-    GLuint buffer = 0;
+    GLuint  buffer = 0;
     GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
-    void*  zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
+    void*   zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
     if (!data && !zeros) return hair_fail_memory(&gl->host, label);
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
-        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, data && size >= 16 ? data : zeros, GL_DYNAMIC_STORAGE_BIT);
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, data && size >= 16 ? data : zeros,
+                               GL_DYNAMIC_STORAGE_BIT);
         gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
         if (data && size && size < 16) gl->NamedBufferSubData(buffer, 0, (GLsizeiptr)size, data);
     }
     hair_free(&gl->host, zeros);
     if (got != want) {
         if (buffer) gl->DeleteBuffers(1, &buffer);
-        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want, label);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want,
+                         label);
     }
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     return HAIR_OK;
 }
 
-hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer, GLuint* out)
+hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
+{
+    GLint most = 0;
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (size > (size_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
+                         size, most);
+    return hair_gl_buffer(gl, label, size, data, out);
+}
+
+hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
+                                   GLuint* out)
 {
     GLint64 size = 0;
     GLint   most = 0;
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (size / 16 > most) // Texels of 16 bytes: the four-component formats that the library uses.
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %lld texels, more than the driver's %d", label,
-                         (long long)(size / 16), most);
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %lld texels, more than the driver's %d",
+                         label, (long long)(size / 16), most);
     GLuint texture = 0;
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);

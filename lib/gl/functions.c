@@ -22,9 +22,10 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     gl->GetIntegerv(GL_MAJOR_VERSION, &major);
     gl->GetIntegerv(GL_MINOR_VERSION, &minor);
     if (major * 10 + minor < 45)
-        return hair_fail(host, HAIR_ERROR_OPENGL, "the OpenGL context is version %d.%d, not 4.5 or newer", major, minor);
-#define FUNCTION(type, name, parameters)                                                                               \
-    if (!find(desc, "gl" #name, &gl->name))                                                                            \
+        return hair_fail(host, HAIR_ERROR_OPENGL, "the OpenGL context is version %d.%d, not 4.5 or newer",
+                         major, minor);
+#define FUNCTION(type, name, parameters)                                                                     \
+    if (!find(desc, "gl" #name, &gl->name))                                                                  \
         return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find gl" #name);
 #include "lib/gl/functions.inl"
 #undef FUNCTION

@@ -24,10 +24,10 @@ struct hair_gl_timer {
 
 // What a draw or a dispatch changes, to be put back. See state.c.
 struct hair_gl_saved {
-    GLint    program, vertex_array, patch_vertices, active_texture, cull;
-    GLint    texture[HAIR_UNIT_SHADOW + 1], sampler;
-    GLuint   storage[HAIR_BIND_EXPANDED + 1], uniform[HAIR_BIND_DRAW + 1];
-    GLintptr storage_first[HAIR_BIND_EXPANDED + 1], uniform_first[HAIR_BIND_DRAW + 1];
+    GLint      program, vertex_array, patch_vertices, active_texture, cull;
+    GLint      texture[HAIR_UNIT_SHADOW + 1], sampler;
+    GLuint     storage[HAIR_BIND_EXPANDED + 1], uniform[HAIR_BIND_DRAW + 1];
+    GLintptr   storage_first[HAIR_BIND_EXPANDED + 1], uniform_first[HAIR_BIND_DRAW + 1];
     GLsizeiptr storage_size[HAIR_BIND_EXPANDED + 1], uniform_size[HAIR_BIND_DRAW + 1];
 };
 
@@ -41,7 +41,7 @@ struct hair_gl {
     GLuint               vertex_array; // empty: every vertex comes from its number
     GLuint               shadow_sampler;
     uint32_t             max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
-    int                  lines_level;       // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
+    int lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
@@ -59,7 +59,8 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 hair_result hair_gl_compile(struct hair_gl* gl);
 
 // One program of stages such as "draw/patch.vert draw/patch.tesc"; `captured`: outputs for transform feedback, or NULL.
-hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured, GLuint* out);
+hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
+                         GLuint* out);
 hair_result hair_gl_selftest(struct hair_gl* gl);
 
 // source.c --------------------------------------------------------------------------------------------------
@@ -74,8 +75,8 @@ struct hair_gl_source {
 
 // The text of glsl/NAME with its includes, each once, and #line directives that number the files as `file` does.
 // `prefix` follows the #version line. glsl_dir NULL: the text built in.
-hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name, const char* prefix,
-                                struct hair_gl_source* out);
+hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name,
+                                const char* prefix, struct hair_gl_source* out);
 
 // state.c ---------------------------------------------------------------------------------------------------
 
@@ -86,7 +87,11 @@ void hair_gl_leave(struct hair_gl* gl);
 
 // A buffer of `size` bytes (at least 16) holding `data`, or zeros when NULL. 0 and an error when the driver refuses.
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out);
-hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer, GLuint* out);
+// The same, for a shader to read or write as storage: fails when the driver's largest block is smaller.
+hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                            GLuint* out);
+hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
+                                   GLuint* out);
 void        hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
 void        hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 

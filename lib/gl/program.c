@@ -14,16 +14,19 @@ static const struct {
 #undef PASS
 };
 
-const char* hair_gl_pass_label(hair_gl_pass pass) { return passes[pass].label; }
+const char* hair_gl_pass_label(hair_gl_pass pass)
+{
+    return passes[pass].label;
+}
 
 static GLenum stage_of(const char* name)
 {
     static const struct {
         char   suffix[6];
         GLenum stage;
-    } stages[] = {{".comp", GL_COMPUTE_SHADER},      {".vert", GL_VERTEX_SHADER},
-                  {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
-                  {".geom", GL_GEOMETRY_SHADER},     {".frag", GL_FRAGMENT_SHADER}};
+    } stages[]      = {{".comp", GL_COMPUTE_SHADER},      {".vert", GL_VERTEX_SHADER},
+                       {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
+                       {".geom", GL_GEOMETRY_SHADER},     {".frag", GL_FRAGMENT_SHADER}};
     const char* dot = strrchr(name, '.');
     for (size_t i = 0; dot && i < sizeof stages / sizeof *stages; ++i)
         if (strcmp(dot, stages[i].suffix) == 0) return stages[i].stage;
@@ -40,9 +43,11 @@ static void report(struct hair_gl* gl, const struct hair_gl_source* source, cons
         char* after = NULL;
         long  line  = strtol(rest + 1, &after, 10);
         while (*after && strchr("(): 0123456789", *after)) ++after;
-        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s:%ld: %.*s", source->file[file], line, (int)strcspn(after, "\n"), after);
+        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s:%ld: %.*s", source->file[file], line,
+                 (int)strcspn(after, "\n"), after);
     } else {
-        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s: %.*s", source->file[0], (int)strcspn(message, "\n"), message);
+        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s: %.*s", source->file[0], (int)strcspn(message, "\n"),
+                 message);
     }
 }
 
@@ -74,7 +79,8 @@ static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char*
     return done ? HAIR_OK : hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
-hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured, GLuint* out)
+hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
+                         GLuint* out)
 {
     GLuint program = gl->CreateProgram();
     if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);

@@ -6,8 +6,8 @@
 
 #define LINES 64
 #define SEGMENTS 32
-#define PATCHES 32                 // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
-#define SAFE_DRAW_VERTICES 33000u  // Under 65,536, and where llvmpipe was measured to be fastest
+#define PATCHES 32                // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
+#define SAFE_DRAW_VERTICES 33000u // Under 65,536, and where llvmpipe was measured to be fastest
 
 struct captured {
     float patch, v;
@@ -25,19 +25,20 @@ static hair_result judge(struct hair_gl* gl, const struct captured* captured, si
     else if (lines > SEGMENTS - 2 && lines < SEGMENTS + 2)
         gl->lines_level = 1;
     else
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver made %.1f isolines where %d were asked for",
-                         (double)lines, LINES);
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "the driver made %.1f isolines where %d were asked for", (double)lines, LINES);
     int wraps             = captured[count - 1].patch < PATCHES - 0.5f;
     gl->max_draw_vertices = wraps ? SAFE_DRAW_VERTICES : UINT32_MAX;
     if (wraps)
-        hair_log(&gl->host, HAIR_LOG_INFO, "this driver loses isolines beyond 65536 vertices in a draw: drawing in batches of %u",
+        hair_log(&gl->host, HAIR_LOG_INFO,
+                 "this driver loses isolines beyond 65536 vertices in a draw: drawing in batches of %u",
                  SAFE_DRAW_VERTICES);
     return HAIR_OK;
 }
 
 static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint framebuffer)
 {
-    GLint   old_framebuffer = 0, old_feedback = 0;
+    GLint     old_framebuffer = 0, old_feedback = 0;
     GLboolean discard = gl->IsEnabled(GL_RASTERIZER_DISCARD);
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &old_framebuffer);
     gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &old_feedback);
@@ -64,8 +65,8 @@ hair_result hair_gl_selftest(struct hair_gl* gl)
     if (!captured) return hair_fail_memory(&gl->host, "the self-test");
 
     GLuint      program = 0, buffer = 0, feedback = 0, framebuffer = 0;
-    hair_result result = hair_gl_link(gl, "gl/selftest", "draw/patch.vert gl/selftest.tesc gl/selftest.tese", "captured",
-                                      &program);
+    hair_result result = hair_gl_link(gl, "gl/selftest", "draw/patch.vert gl/selftest.tesc gl/selftest.tese",
+                                      "captured", &program);
     if (!result) result = hair_gl_buffer(gl, "self-test", count * sizeof *captured, NULL, &buffer);
     if (!result) {
         gl->CreateFramebuffers(1, &framebuffer);

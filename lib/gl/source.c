@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const unsigned char hair_sources[]; // name, 0, text, 0, and so on; an empty name ends it (tools/embed.c)
+extern const unsigned char
+    hair_sources[]; // name, 0, text, 0, and so on; an empty name ends it (tools/embed.c)
 
 #define MAX_FILE (1u << 20)
 
@@ -128,19 +129,21 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
     if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);
     if (number > 0) {
         char directive[32];
-        append(&reader->text, directive, (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", number));
+        append(&reader->text, directive,
+               (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", number));
     }
     hair_result result = put_lines(reader, text, number);
     hair_free(reader->host, read);
     return result;
 }
 
-hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name, const char* prefix,
-                                struct hair_gl_source* out)
+hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name,
+                                const char* prefix, struct hair_gl_source* out)
 {
     memset(out, 0, sizeof *out);
-    struct reader reader = {.host = host, .folder = glsl_dir, .prefix = prefix, .text = {.host = host}, .out = out};
-    hair_result   result = read_one(&reader, name, strlen(name));
+    struct reader reader = {
+        .host = host, .folder = glsl_dir, .prefix = prefix, .text = {.host = host}, .out = out};
+    hair_result result = read_one(&reader, name, strlen(name));
     if (!result && reader.text.failed) result = hair_fail_memory(host, "shader text");
     if (result) {
         hair_free(host, reader.text.bytes);

@@ -2,12 +2,12 @@
 // saved here and nowhere else; objects are edited without being bound.
 #include "lib/gl/gl.h"
 
-static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLsizei count, GLuint* buffers,
-                         GLintptr* firsts, GLsizeiptr* sizes)
+static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLsizei count,
+                         GLuint* buffers, GLintptr* firsts, GLsizeiptr* sizes)
 {
     for (GLsizei i = 0; i < count; ++i) {
-        GLint   buffer    = 0;
-        GLint64 first_64  = 0, size_64 = 0;
+        GLint   buffer   = 0;
+        GLint64 first_64 = 0, size_64 = 0;
         gl->GetIntegeri_v(binding, (GLuint)i, &buffer);
         gl->GetInteger64i_v(first, (GLuint)i, &first_64);
         gl->GetInteger64i_v(size, (GLuint)i, &size_64);
@@ -17,8 +17,8 @@ static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenu
     }
 }
 
-static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, const GLuint* buffers, const GLintptr* firsts,
-                            const GLsizeiptr* sizes)
+static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, const GLuint* buffers,
+                            const GLintptr* firsts, const GLsizeiptr* sizes)
 {
     for (GLsizei i = 0; i < count; ++i) {
         if (sizes[i] > 0) // A size of 0 stands for the whole buffer.
@@ -42,10 +42,11 @@ void hair_gl_enter(struct hair_gl* gl)
         gl->GetIntegeri_v(binding, unit, &saved->texture[unit]);
     }
     gl->GetIntegeri_v(GL_SAMPLER_BINDING, HAIR_UNIT_SHADOW, &saved->sampler);
-    save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE,
-                 HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first, saved->storage_size);
-    save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, HAIR_BIND_DRAW + 1,
-                 saved->uniform, saved->uniform_first, saved->uniform_size);
+    save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                 GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first,
+                 saved->storage_size);
+    save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
+                 HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
 void hair_gl_leave(struct hair_gl* gl)
@@ -59,11 +60,13 @@ void hair_gl_leave(struct hair_gl* gl)
     for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit) {
         // By target: glBindTextureUnit(unit, 0) would empty the unit's other targets too.
         gl->ActiveTexture(GL_TEXTURE0 + unit);
-        gl->BindTexture(unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER, (GLuint)saved->texture[unit]);
+        gl->BindTexture(unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER,
+                        (GLuint)saved->texture[unit]);
     }
     gl->ActiveTexture((GLenum)saved->active_texture);
     gl->BindSampler(HAIR_UNIT_SHADOW, (GLuint)saved->sampler);
-    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first,
-                    saved->storage_size);
-    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
+    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED + 1, saved->storage,
+                    saved->storage_first, saved->storage_size);
+    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first,
+                    saved->uniform_size);
 }

@@ -4,10 +4,11 @@
 hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
 {
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
-    smooth->gl       = gl;
-    smooth->vertices = sim->guides * sim->smooth_vertices;
+    smooth->gl                     = gl;
+    smooth->vertices               = sim->guides * sim->smooth_vertices;
     for (int i = 0; i < 3; ++i) {
-        hair_result result = hair_gl_buffer(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
+        hair_result result =
+            hair_gl_storage(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
         if (!result)
             result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
         if (result) return result;

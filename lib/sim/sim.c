@@ -12,10 +12,12 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->guide_vertices  = groom->info.guide_vertex_count;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     size_t      state    = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result result   = hair_gl_buffer(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide);
+    hair_result result =
+        hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide);
     if (!result)
-        result = hair_gl_buffer(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest);
-    if (!result) result = hair_gl_buffer(gl, "hair state", state, NULL, &sim->state);
+        result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
+                                 &sim->rest);
+    if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
     if (!result) result = hair_gl_buffer(gl, "hair step", sizeof(struct hair_step_params), NULL, &sim->step);
     return result;
 }
@@ -36,15 +38,25 @@ void hair_sim_bind(struct hair_sim* sim)
     sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
 }
 
-static hair_vec4 vec4_of(hair_vec3 v, float w) { return (hair_vec4){v.x, v.y, v.z, w}; }
-static hair_vec4 vec4_of_quat(hair_quat q) { return (hair_vec4){q.x, q.y, q.z, q.w}; }
+static hair_vec4 vec4_of(hair_vec3 v, float w)
+{
+    return (hair_vec4){v.x, v.y, v.z, w};
+}
+static hair_vec4 vec4_of_quat(hair_quat q)
+{
+    return (hair_vec4){q.x, q.y, q.z, q.w};
+}
 
-static float squared_frequency(float hertz) { return TWO_PI * TWO_PI * hertz * hertz; }
+static float squared_frequency(float hertz)
+{
+    return TWO_PI * TWO_PI * hertz * hertz;
+}
 
 static void write_physics(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const hair_physics* physics = &sim->physics;
-    params->gravity         = (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
+    params->gravity =
+        (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
     params->keep            = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
     params->pull_root       = TWO_PI * physics->pull_root;
     params->pull_tip        = TWO_PI * physics->pull_tip;
@@ -72,14 +84,16 @@ static void upload(struct hair_sim* sim, const struct hair_step_params* params)
 }
 
 // The next `count` substeps, of which the first ends `first` seconds into a step of `dt`.
-static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double first, double dt)
+static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count,
+                           double first, double dt)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        double share     = (first + i * sim->substep) / dt;
-        sim->last_before = sim->last_after;
-        sim->last_after  = hair_pose_between(&sim->at_step, &sim->head, share < 1 ? share : 1);
-        params->substep[i].rotation     = vec4_of_quat(sim->last_after.rotation);
-        params->substep[i].displacement = vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
+        double share                = (first + i * sim->substep) / dt;
+        sim->last_before            = sim->last_after;
+        sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share < 1 ? share : 1);
+        params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
+        params->substep[i].displacement =
+            vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
     }
     params->substeps = count;
 }
@@ -90,10 +104,11 @@ void hair_sim_step(struct hair_sim* sim, double dt)
     write_physics(sim, &params);
     params.solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params.solid);
 
-    double   time  = sim->left + dt;
-    uint32_t total = (uint32_t)(time / sim->substep + 1e-6); // A hair's breadth early, so that 2/120 s holds two 1/120 s.
-    double   first = sim->substep - sim->left;
-    sim->left      = fmax(time - total * sim->substep, 0);
+    double   time = sim->left + dt;
+    uint32_t total =
+        (uint32_t)(time / sim->substep + 1e-6); // A hair's breadth early, so that 2/120 s holds two 1/120 s.
+    double first = sim->substep - sim->left;
+    sim->left    = fmax(time - total * sim->substep, 0);
     hair_sim_bind(sim);
     for (uint32_t done = 0; done < total;) {
         uint32_t count = total - done < HAIR_STEP_SUBSTEPS ? total - done : HAIR_STEP_SUBSTEPS;
@@ -115,7 +130,7 @@ void hair_sim_step(struct hair_sim* sim, double dt)
 static void settle(struct hair_sim* sim)
 {
     sim->last_before = sim->last_after = sim->at_step = sim->head;
-    sim->left                                        = 0;
+    sim->left                                         = 0;
     hair_solids_settle(&sim->solids);
 }
 
@@ -135,17 +150,24 @@ void hair_sim_reset(struct hair_sim* sim)
     run_over_vertices(sim, HAIR_GL_RESET, &params);
 }
 
-// The state is that of the end of the last substep: what turns it is the way from there. What was left of the
-// head's motion until now is dropped with the jump.
+// The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
-    struct hair_step_params params = {0};
-    hair_quat from = sim->last_after.rotation;
-    sim->head      = *to;
-    settle(sim);
+    struct hair_step_params params  = {0};
+    struct hair_pose        from    = sim->head;
+    struct hair_pose*       moved[] = {&sim->last_before, &sim->last_after, &sim->at_step, &sim->head};
+    hair_quat               turn    = hair_quat_multiply(to->rotation, hair_quat_conjugate(from.rotation));
+    for (int i = 0; i < 4; ++i) {
+        hair_vec3 arm         = hair_rotate(turn, hair_pose_offset(moved[i], &from));
+        moved[i]->rotation    = hair_quat_normalize(hair_quat_multiply(turn, moved[i]->rotation));
+        moved[i]->position[0] = to->position[0] + (double)arm.x;
+        moved[i]->position[1] = to->position[1] + (double)arm.y;
+        moved[i]->position[2] = to->position[2] + (double)arm.z;
+    }
+    sim->solids.count_before = 0; // Where solids were says nothing about how they move now.
     write_physics(sim, &params);
-    write_now(sim, &params);
-    params.rotation_before = vec4_of_quat(from);
+    params.rotation_before = vec4_of_quat(from.rotation);
+    params.rotation_now    = vec4_of_quat(to->rotation);
     run_over_vertices(sim, HAIR_GL_TURN, &params);
     write_now(sim, &params);
     upload(sim, &params);

@@ -8,17 +8,17 @@
 #include "lib/groom/groom.h"
 
 struct hair_sim {
-    struct hair_gl*  gl;
-    hair_solver      solver;
-    hair_physics     physics;
-    double           substep; // s
-    GLuint           guide, rest, state, step; // buffers, as in shared.h
-    uint32_t         guides, guide_vertices, smooth_vertices;
-    double           left;        // s: since the end of the last substep, less than a substep
-    struct hair_pose last_before; // the head at the start of the last substep,
-    struct hair_pose last_after;  // at its end,
-    struct hair_pose at_step;     // at the last step, and
-    struct hair_pose head;        // where it is to be at the next
+    struct hair_gl*    gl;
+    hair_solver        solver;
+    hair_physics       physics;
+    double             substep;                  // s
+    GLuint             guide, rest, state, step; // buffers, as in shared.h
+    uint32_t           guides, guide_vertices, smooth_vertices;
+    double             left;        // s: since the end of the last substep, less than a substep
+    struct hair_pose   last_before; // the head at the start of the last substep,
+    struct hair_pose   last_after;  // at its end,
+    struct hair_pose   at_step;     // at the last step, and
+    struct hair_pose   head;        // where it is to be at the next
     struct hair_solids solids;
 };
 
@@ -29,6 +29,6 @@ void        hair_sim_destroy(struct hair_sim* sim);
 void hair_sim_step(struct hair_sim* sim, double dt);
 void hair_sim_reset(struct hair_sim* sim);                                // rest pose under sim->head
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
-void hair_sim_bind(struct hair_sim* sim);                                 // buffers of passes that read the guides
+void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
 
 #endif

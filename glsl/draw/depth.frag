@@ -1,0 +1,4 @@
+// depth.frag - nothing but depth: shadow maps and pre-passes.
+#version 450 core
+
+void main() {}

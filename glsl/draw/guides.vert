@@ -1,0 +1,17 @@
+// guides.vert - the simulated strands as lines, coloured by stretch: blue -2 %, grey 0, red +2 %. One instance per
+// guide, one vertex per sample.
+#version 450 core
+#include "draw_params.glsl"
+
+layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
+layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
+
+layout(location = 0) out vec3 line_color;
+
+void main()
+{
+    int   at      = gl_InstanceID * int(draw.smooth_vertices) + gl_VertexID;
+    float stretch = clamp(texelFetch(tangent_texture, at).w / 0.02, -1.0, 1.0);
+    line_color    = mix(vec3(0.5), stretch > 0.0 ? vec3(1.0, 0.1, 0.05) : vec3(0.05, 0.2, 1.0), abs(stretch));
+    gl_Position   = draw.view_to_clip * (draw.view * vec4(texelFetch(position_texture, at).xyz, 1.0));
+}

@@ -1,0 +1,103 @@
+// follower.glsl - where a follower is: the one function that every path of drawing evaluates (shared.h says how a
+// follower is made of guides). Reads the smoothed guides and the followers as textures.
+#include "rotation.glsl"
+#include "random.glsl"
+#include "draw_params.glsl"
+
+layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
+layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
+layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
+layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
+
+struct hair_point {
+    vec3  position; // m, from the head's origin
+    vec3  tangent;  // unit
+    float radius;   // m
+};
+
+hair_follower fetch_follower(uint number)
+{
+    int           at = int(number) * HAIR_FOLLOWER_TEXELS;
+    hair_follower follower;
+    uvec4         ids   = texelFetch(follower_texture, at);
+    vec4          reals = uintBitsToFloat(texelFetch(follower_texture, at + 1));
+    follower.guide0 = ids.x, follower.guide1 = ids.y, follower.guide2 = ids.z, follower.seed = ids.w;
+    follower.weight1 = reals.x, follower.weight2 = reals.y, follower.length_ratio = reals.z, follower.multi = reals.w;
+    for (int i = 0; i < 4; ++i) follower.offset[i] = uintBitsToFloat(texelFetch(follower_texture, at + 2 + i));
+    return follower;
+}
+
+struct guide_point {
+    vec3  position, tangent;
+    float to_root; // m, along the guide
+};
+
+// Beyond its tip (u > 1) a guide goes on straight.
+guide_point fetch_guide(uint number, float u)
+{
+    int   first = int(number * draw.smooth_vertices);
+    float at    = min(u, 1.0) * float(draw.smooth_vertices - 1u);
+    int   k     = min(int(at), int(draw.smooth_vertices) - 2);
+    vec4  a     = texelFetch(position_texture, first + k);
+    vec4  b     = texelFetch(position_texture, first + k + 1);
+    vec3  ta    = texelFetch(tangent_texture, first + k).xyz;
+    vec3  tb    = texelFetch(tangent_texture, first + k + 1).xyz;
+    float w     = at - float(k);
+    vec4  p     = mix(a, b, w);
+    vec3  t     = direction_or(mix(ta, tb, w), ta);
+    float more  = max(u - 1.0, 0.0) * b.w;
+    return guide_point(p.xyz + more * t, t, p.w + more);
+}
+
+vec4 fetch_frame(uint number, float u)
+{
+    int   first = int(number * draw.smooth_vertices);
+    float at    = min(u, 1.0) * float(draw.smooth_vertices - 1u);
+    int   k     = min(int(at), int(draw.smooth_vertices) - 2);
+    vec4  a     = texelFetch(frame_texture, first + k);
+    vec4  b     = texelFetch(frame_texture, first + k + 1);
+    return normalize(mix(a, dot(a, b) < 0.0 ? -b : b, at - float(k)));
+}
+
+// The strand's own smooth deviation across it, growing from the root, as a share of the length.
+vec2 deviation(uint seed, float t)
+{
+    vec4 r = vec4(random(seed), random(seed + 1u), random(seed + 2u), random(seed + 3u));
+    vec2 waves = sin(6.2831853 * (r.xy + t * (0.6 + 1.4 * r.zw)));
+    return draw.frizz * t * sqrt(t) * (0.3 + 2.2 * r.w * r.w) * waves;
+}
+
+hair_point evaluate(hair_follower follower, float t)
+{
+    float       u     = t * follower.length_ratio;
+    guide_point g0    = fetch_guide(follower.guide0, u);
+    vec4        frame = fetch_frame(follower.guide0, u);
+    float       s     = 1.0 - t;
+
+    vec3 offset = s * s * s * follower.offset[0].xyz + 3.0 * s * s * t * follower.offset[1].xyz +
+                  3.0 * s * t * t * follower.offset[2].xyz + t * t * t * follower.offset[3].xyz;
+    vec3 slope = 3.0 * (s * s * (follower.offset[1].xyz - follower.offset[0].xyz) +
+                        2.0 * s * t * (follower.offset[2].xyz - follower.offset[1].xyz) +
+                        t * t * (follower.offset[3].xyz - follower.offset[2].xyz));
+    float length_ = max(g0.to_root / max(t, 1e-3), 1e-6); // Of this strand: the guide has come so far at t.
+    vec2  wave    = deviation(follower.seed, t) * length_;
+    offset.xz += wave;
+
+    vec3 position = g0.position + rotate(frame, offset);
+    vec3 tangent  = g0.tangent + rotate(frame, slope) / length_;
+
+    // Multi-strand at the root, single-strand where it clumps.
+    float multi = follower.multi * (1.0 - draw.clump * smoothstep(0.1, 1.0, t));
+    if (multi > 0.0) {
+        guide_point g1 = fetch_guide(follower.guide1, u);
+        guide_point g2 = fetch_guide(follower.guide2, u);
+        float       w1 = follower.weight1, w2 = follower.weight2, w0 = 1.0 - w1 - w2;
+        vec3        own     = vec3(follower.offset[1].w, follower.offset[2].w, follower.offset[3].w);
+        vec3        blended = w0 * g0.position + w1 * g1.position + w2 * g2.position +
+                       rotate(frame, own + vec3(wave.x, 0.0, wave.y));
+        position = mix(position, blended, multi);
+        tangent  = mix(tangent, w0 * g0.tangent + w1 * g1.tangent + w2 * g2.tangent, multi);
+    }
+    float taper = mix(1.0, draw.tip_radius, t * t);
+    return hair_point(position, direction_or(tangent, g0.tangent), draw.radius * follower.offset[0].w * taper);
+}

@@ -1,0 +1,26 @@
+// api.h - what the opaque handles are.
+#ifndef HAIR_API_API_H
+#define HAIR_API_API_H
+
+#include "lib/api/fields.h"
+#include "lib/draw/draw.h"
+
+struct hair_context {
+    hair_host      host;
+    struct hair_gl gl;
+};
+
+struct hair_instance {
+    hair_context*      context;
+    char               label[64];
+    double             max_dt;     // s
+    int                has_slowed; // dt was beyond max_dt, and the log has said so
+    struct hair_sim    sim;
+    struct hair_smooth smooth;
+    struct hair_draw   draw;
+};
+
+// HAIR_ERROR_OPENGL unless a context is current: OpenGL without one does nothing, or worse.
+hair_result hair_check_current(const hair_context* context);
+
+#endif

@@ -1,0 +1,136 @@
+// asset.c - public calls on haircuts as plain arrays.
+#include "lib/api/api.h"
+#include "lib/asset/asset.h"
+#include "lib/groom/style.h"
+
+hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size, hair_asset** out)
+{
+    hair_host       host = HAIR_HOST_OF(desc);
+    hair_asset_desc own;
+    hair_import     import;
+    hair_result     result = HAIR_TAKE(&host, hair_asset_desc, desc, &own);
+    if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
+    if (result) return result;
+    if (!bytes) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "bytes is NULL");
+    if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    return hair_asset_decode(&host, &import, bytes, size, out);
+}
+
+void hair_asset_destroy(hair_asset* asset)
+{
+    if (asset) hair_asset_free(asset);
+}
+
+hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,
+                             size_t* size)
+{
+    if (!asset) return HAIR_ERROR_ARGUMENT;
+    if (!size) return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "size is NULL");
+    if (!bytes && capacity)
+        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "bytes is NULL but capacity is %zu", capacity);
+    return hair_asset_encode(asset, format, bytes, capacity, size);
+}
+
+hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out)
+{
+    hair_host       host = HAIR_HOST_OF(desc);
+    hair_style_desc own;
+    hair_result     result = HAIR_TAKE(&host, hair_style_desc, desc, &own);
+    if (result) return result;
+    if (own.strand_vertices == 1)
+        return hair_fail(&host, HAIR_ERROR_ARGUMENT,
+                         "hair_style_desc.strand_vertices is 1, not 0 or in [2, 256]");
+    if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    return hair_style_build(&host, &own, out);
+}
+
+const char* hair_style_name(hair_style style)
+{
+    switch (style) {
+    case HAIR_STYLE_LONG: return "long";
+    case HAIR_STYLE_BOB: return "bob";
+    case HAIR_STYLE_SHORT: return "short";
+    case HAIR_STYLE_PONYTAIL: return "ponytail";
+    case HAIR_STYLE_CURLY: return "curly";
+    case HAIR_STYLE_AFRO: return "afro";
+    case HAIR_STYLE_COUNT: break;
+    }
+    return NULL;
+}
+
+const char* hair_format_name(hair_format format)
+{
+    switch (format) {
+    case HAIR_FORMAT_NONE: return "none";
+    case HAIR_FORMAT_HAIR: return "hair";
+    case HAIR_FORMAT_TFX4: return "tfx4";
+    case HAIR_FORMAT_TFX3: return "tfx3";
+    case HAIR_FORMAT_TFX2: return "tfx2";
+    }
+    return NULL;
+}
+
+// Lengths and bounds of the strands.
+static void measure(const struct hair_strands* strands, hair_asset_info* info)
+{
+    double       sum = 0;
+    const float* at  = strands->positions;
+    for (uint32_t s = 0; s < strands->strand_count; ++s) {
+        uint32_t count  = strands->vertices[s];
+        double   length = 0;
+        for (uint32_t v = 0; v < count; ++v, at += 3) {
+            if (v) length += (double)hair_distance(hair_load3(at), hair_load3(at - 3));
+            for (int k = 0; k < 3; ++k) {
+                int first      = s == 0 && v == 0;
+                info->lower[k] = first ? at[k] : fminf(info->lower[k], at[k]);
+                info->upper[k] = first ? at[k] : fmaxf(info->upper[k], at[k]);
+            }
+        }
+        sum += length;
+        info->length[0] = s ? fminf(info->length[0], (float)length) : (float)length;
+        info->length[2] = fmaxf(info->length[2], (float)length);
+        info->fewest    = s && info->fewest < count ? info->fewest : count;
+        info->most      = info->most > count ? info->most : count;
+    }
+    if (strands->strand_count) info->length[1] = (float)(sum / strands->strand_count);
+}
+
+hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
+{
+    if (!asset) return HAIR_ERROR_ARGUMENT;
+    hair_asset_info info = {
+        .format               = asset->format,
+        .strands_are          = asset->strands_are,
+        .strand_count         = asset->strands.strand_count,
+        .vertex_count         = asset->strands.vertex_count,
+        .file_strands         = asset->file_strands,
+        .file_vertices        = asset->file_vertices,
+        .repairs              = asset->repairs,
+        .positions            = asset->strands.positions,
+        .strand_vertices      = asset->strands.vertices,
+        .strand_radii         = asset->strands.radii,
+        .scalp_positions      = asset->scalp_positions,
+        .scalp_triangles      = asset->scalp_triangles,
+        .scalp_vertex_count   = asset->scalp_vertex_count,
+        .scalp_triangle_count = asset->scalp_triangle_count,
+    };
+    measure(&asset->strands, &info);
+    return HAIR_GIVE(&asset->host, hair_asset_info, &info, out);
+}
+
+hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc)
+{
+    if (!asset) return HAIR_ERROR_ARGUMENT;
+    if (!desc) return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc is NULL");
+    hair_result result = hair_made_check(&asset->host, "hair_groom_desc", desc->made);
+    if (result) return result;
+    desc->positions            = asset->strands.positions;
+    desc->strand_vertices      = asset->strands.vertices;
+    desc->strand_count         = asset->strands.strand_count;
+    desc->strands_are          = asset->strands_are;
+    desc->scalp_positions      = asset->scalp_positions;
+    desc->scalp_triangles      = asset->scalp_triangles;
+    desc->scalp_vertex_count   = asset->scalp_vertex_count;
+    desc->scalp_triangle_count = asset->scalp_triangle_count;
+    return HAIR_OK;
+}

@@ -1,0 +1,58 @@
+// context.c - the library's hold on one OpenGL context.
+#include "lib/api/api.h"
+
+hair_result hair_context_create(const hair_context_desc* desc, hair_context** out)
+{
+    hair_host         host = HAIR_HOST_OF(desc);
+    hair_context_desc own;
+    hair_result       result = HAIR_TAKE(&host, hair_context_desc, desc, &own);
+    if (result) return result;
+    if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
+    hair_context* context = hair_alloc(&host, 1, sizeof *context);
+    if (!context) return hair_fail_memory(&host, "a context");
+    context->host = host;
+    result        = hair_gl_create(&context->gl, &host, &own);
+    if (result) {
+        hair_free(&host, context);
+        return result;
+    }
+    *out = context;
+    return HAIR_OK;
+}
+
+void hair_context_destroy(hair_context* context)
+{
+    if (!context) return;
+    hair_host host = context->host;
+    hair_gl_destroy(&context->gl);
+    hair_free(&host, context);
+}
+
+hair_result hair_check_current(const hair_context* context)
+{
+    if (context->gl.GetString(GL_VERSION)) return HAIR_OK;
+    return hair_fail(&context->host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
+}
+
+hair_result hair_context_reload(hair_context* context)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    hair_result result = hair_check_current(context);
+    if (result) return result;
+    hair_gl_enter(&context->gl);
+    result = hair_gl_compile(&context->gl);
+    hair_gl_leave(&context->gl);
+    return result;
+}
+
+uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity)
+{
+    if (!context) return 0;
+    for (uint32_t pass = 0; out && pass < capacity && pass < HAIR_GL_PASS_COUNT; ++pass) {
+        out[pass].pass = hair_gl_pass_label((hair_gl_pass)pass);
+        out[pass].ms   = hair_gl_pass_ms(&context->gl, (hair_gl_pass)pass);
+        out[pass].runs = context->gl.timer[pass].begun;
+    }
+    return HAIR_GL_PASS_COUNT;
+}

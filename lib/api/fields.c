@@ -1,0 +1,42 @@
+// fields.c - the default functions of every desc, from the table.
+#include "lib/api/fields.h"
+
+#include <float.h>
+#include <string.h>
+
+#define CELL(S, member, i)                                                                                   \
+    {#S "." #member "[" #i "]", offsetof(S, member[i]), HAIR_FIELD_FLOAT, (i) % 5 == 0, -FLT_MAX, FLT_MAX},
+#define COLUMN(S, member, a, b, c, d)                                                                        \
+    CELL(S, member, a) CELL(S, member, b) CELL(S, member, c) CELL(S, member, d)
+
+#define BEGIN(S) static const struct hair_field S##_rows[] = {
+#define FIELD(S, member, type, value, min, max)                                                              \
+    {#S "." #member, offsetof(S, member), HAIR_FIELD_##type, value, min, max},
+#define MATRIX(S, member)                                                                                    \
+    COLUMN(S, member, 0, 1, 2, 3)                                                                            \
+    COLUMN(S, member, 4, 5, 6, 7) COLUMN(S, member, 8, 9, 10, 11) COLUMN(S, member, 12, 13, 14, 15)
+#define END(S)                                                                                               \
+    {                                                                                                        \
+        "", 0, HAIR_FIELD_FLOAT, 0, 0, 0                                                                     \
+    } /* a table must not be empty */                                                                        \
+    }                                                                                                        \
+    ;                                                                                                        \
+    struct hair_fields hair_fields_of_##S(void) {                                                            \
+        return (struct hair_fields){S##_rows, sizeof S##_rows / sizeof *S##_rows - 1, sizeof(S)};            \
+    } void S##_init(S* desc, hair_made made)                                                                 \
+    {                                                                                                        \
+        hair_fields_init(desc, made, hair_fields_of_##S());                                                  \
+    }
+#include "lib/api/fields.inl"
+
+hair_result hair_fields_give(const hair_host* host, const char* name, const void* own, size_t size, void* out)
+{
+    if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
+    hair_made made;
+    memcpy(&made, out, sizeof made);
+    hair_result result = hair_made_check(host, name, made);
+    if (result) return result;
+    memcpy(out, own, made.size < size ? made.size : size);
+    memcpy(out, &made, sizeof made);
+    return HAIR_OK;
+}

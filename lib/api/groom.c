@@ -1,0 +1,48 @@
+// groom.c - public calls on grooms.
+#include "lib/api/api.h"
+
+static hair_result check_arrays(const hair_host* host, const hair_groom_desc* desc)
+{
+    if (!desc->positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.positions is NULL");
+    if (!desc->strand_vertices)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.strand_vertices is NULL");
+    if (!desc->scalp_positions) {
+        if (desc->scalp_vertex_count || desc->scalp_triangle_count || desc->scalp_triangles ||
+            desc->scalp_density)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_positions is NULL but other scalp fields are not");
+        return HAIR_OK;
+    }
+    if (!desc->scalp_triangles)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.scalp_triangles is NULL");
+    if (desc->scalp_vertex_count < 3 || desc->scalp_triangle_count < 1)
+        return hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "hair_groom_desc has a scalp of %u vertices and %u triangles, not of 3 and 1 or more",
+            desc->scalp_vertex_count, desc->scalp_triangle_count);
+    return HAIR_OK;
+}
+
+hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
+{
+    hair_host       host = HAIR_HOST_OF(desc);
+    hair_groom_desc own;
+    hair_import     import;
+    hair_result     result = HAIR_TAKE(&host, hair_groom_desc, desc, &own);
+    if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
+    if (!result) result = check_arrays(&host, &own);
+    if (result) return result;
+    if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    return hair_groom_build(&host, &own, &import, out);
+}
+
+void hair_groom_destroy(hair_groom* groom)
+{
+    if (groom) hair_groom_free(groom);
+}
+
+hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out)
+{
+    if (!groom) return HAIR_ERROR_ARGUMENT;
+    return HAIR_GIVE(&groom->host, hair_groom_info, &groom->info, out);
+}

@@ -1,0 +1,158 @@
+// instance.c - one head of living hair: created, moved, stepped.
+#include "lib/api/api.h"
+
+#include <string.h>
+
+static hair_result check_transform(const hair_instance* hair, const char* name, const float* transform,
+                                   struct hair_pose* out)
+{
+    const hair_host* host = &hair->context->host;
+    if (!transform) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: %s is NULL", hair->label, name);
+    if (!hair_pose_from_matrix(transform, out))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "%s: %s is not a rigid motion to 1e-3: no scale, no shear, no mirror", hair->label,
+                         name);
+    return HAIR_OK;
+}
+
+static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
+                        const hair_desc* desc)
+{
+    const hair_host* host = &context->host;
+    hair->context         = context;
+    hair->max_dt          = (double)desc->max_dt;
+    hair->sim.substep     = (double)desc->substep;
+    hair->sim.solver      = desc->solver;
+    strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
+    hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
+    if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
+    if (!result) result = check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
+    if (!result) result = hair_check_current(context);
+    if (result) return result;
+
+    hair_gl_enter(&context->gl);
+    result = hair_sim_create(&hair->sim, &context->gl, groom);
+    if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
+    if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
+    if (!result) {
+        hair_sim_reset(&hair->sim);
+        hair_smooth_run(&hair->smooth, &hair->sim);
+    }
+    hair_gl_leave(&context->gl);
+    return result;
+}
+
+hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
+                        hair_instance** out)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &context->host;
+    hair_desc        own;
+    hair_result      result = HAIR_TAKE(host, hair_desc, desc, &own);
+    if (result) return result;
+    if (!groom) return hair_fail(host, HAIR_ERROR_ARGUMENT, "groom is NULL");
+    if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    hair_instance* hair = hair_alloc(host, 1, sizeof *hair);
+    if (!hair) return hair_fail_memory(host, "an instance");
+    result = fill(hair, context, groom, &own);
+    if (result) {
+        hair_destroy(hair);
+        return result;
+    }
+    *out = hair;
+    return HAIR_OK;
+}
+
+void hair_destroy(hair_instance* hair)
+{
+    if (!hair) return;
+    hair_draw_destroy(&hair->draw);
+    hair_smooth_destroy(&hair->smooth);
+    hair_sim_destroy(&hair->sim);
+    hair_free(&hair->context->host, hair);
+}
+
+hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_physics own;
+    hair_result  result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
+    if (!result) hair->sim.physics = own;
+    return result;
+}
+
+hair_result hair_set_look(hair_instance* hair, const hair_look* look)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_look   own;
+    hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
+    if (!result) hair->draw.look = own;
+    return result;
+}
+
+hair_result hair_set_transform(hair_instance* hair, const float transform[16])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    struct hair_pose pose;
+    hair_result      result = check_transform(hair, "transform", transform, &pose);
+    if (!result) hair->sim.head = pose;
+    return result;
+}
+
+hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    return hair_solids_set(&hair->context->host, &hair->sim.solids, solids, count, stride);
+}
+
+hair_result hair_step(hair_instance* hair, float dt)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_context* context = hair->context;
+    if (!(dt >= 0)) // NaN too.
+        return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: dt is %g, not 0 or more", hair->label,
+                         (double)dt);
+    if (dt == 0) return HAIR_OK;
+    hair_result result = hair_check_current(context);
+    if (result) return result;
+
+    double time = (double)dt;
+    if (time > hair->max_dt) {
+        if (!hair->has_slowed)
+            hair_log(&context->host, HAIR_LOG_WARNING, "%s: dt is %g s, beyond max_dt %g s: time slows",
+                     hair->label, time, hair->max_dt);
+        hair->has_slowed = 1;
+        time             = hair->max_dt;
+    }
+    hair_gl_enter(&context->gl);
+    hair_sim_step(&hair->sim, time);
+    hair_smooth_run(&hair->smooth, &hair->sim);
+    hair_gl_leave(&context->gl);
+    return HAIR_OK;
+}
+
+hair_result hair_reset(hair_instance* hair)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_result result = hair_check_current(hair->context);
+    if (result) return result;
+    hair_gl_enter(&hair->context->gl);
+    hair_sim_reset(&hair->sim);
+    hair_smooth_run(&hair->smooth, &hair->sim);
+    hair_gl_leave(&hair->context->gl);
+    return HAIR_OK;
+}
+
+hair_result hair_teleport(hair_instance* hair, const float transform[16])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    struct hair_pose pose;
+    hair_result      result = check_transform(hair, "transform", transform, &pose);
+    if (!result) result = hair_check_current(hair->context);
+    if (result) return result;
+    hair_gl_enter(&hair->context->gl);
+    hair_sim_teleport(&hair->sim, &pose);
+    hair_smooth_run(&hair->smooth, &hair->sim);
+    hair_gl_leave(&hair->context->gl);
+    return HAIR_OK;
+}

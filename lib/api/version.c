@@ -1,0 +1,20 @@
+// version.c - what library this is, and its results in words.
+#include <hair/hair.h>
+
+uint32_t hair_version(void)
+{
+    return HAIR_VERSION;
+}
+
+const char* hair_result_string(hair_result result)
+{
+    switch (result) {
+    case HAIR_OK: return "no error";
+    case HAIR_ERROR_ARGUMENT: return "a value outside its documented range";
+    case HAIR_ERROR_MEMORY: return "out of memory";
+    case HAIR_ERROR_OPENGL: return "OpenGL is missing, too old or refused a shader";
+    case HAIR_ERROR_FILE: return "the file is unreadable or not in the format it claims";
+    case HAIR_ERROR_VERSION: return "the caller was compiled against another version";
+    }
+    return "an unknown result";
+}

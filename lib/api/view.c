@@ -1,0 +1,100 @@
+// view.c - looking at an instance: drawn, or read back.
+#include "lib/api/api.h"
+
+#include <string.h>
+
+static hair_result check_view(const hair_instance* hair, const hair_view* view)
+{
+    const hair_host* host = &hair->context->host;
+    hair_vec3        to   = hair_load3(view->light_to);
+    if (!(hair_length(to) > 1e-12f))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.light_to has no direction", hair->label);
+    const float* m = view->shadow_matrix;
+    if (view->shadow_texture && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "%s: hair_view.shadow_matrix is not orthographic: its last row is not (0, 0, 0, 1)",
+                         hair->label);
+    return HAIR_OK;
+}
+
+hair_result hair_draw(hair_instance* hair, const hair_view* view)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_context* context = hair->context;
+    hair_view     own;
+    hair_result   result = HAIR_TAKE(&context->host, hair_view, view, &own);
+    if (!result) result = check_view(hair, &own);
+    if (!result) result = hair_check_current(context);
+    if (result) return result;
+    hair_gl_enter(&context->gl);
+    hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
+    hair_gl_leave(&context->gl);
+    return HAIR_OK;
+}
+
+// `from`: xyz from the head's origin in the first three floats of every `stride`.
+static void copy_to_world(const float* from, size_t stride, uint32_t count, const struct hair_pose* head,
+                          float* out)
+{
+    for (uint32_t i = 0; i < count; ++i, from += stride, out += 3)
+        for (int k = 0; k < 3; ++k) out[k] = (float)(head->position[k] + (double)from[k]);
+}
+
+static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t count, size_t stride,
+                               const struct hair_pose* head, float* positions)
+{
+    struct hair_gl* gl   = &hair->context->gl;
+    float*          copy = hair_alloc(&gl->host, count, stride * sizeof *copy);
+    if (!copy) return hair_fail_memory(&gl->host, "the vertices to read");
+    gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * stride * sizeof *copy), copy);
+    copy_to_world(copy, stride, count, head, positions);
+    hair_free(&gl->host, copy);
+    return HAIR_OK;
+}
+
+static hair_result read_followers(hair_instance* hair, uint32_t count, float* positions)
+{
+    hair_vec4* vertices = NULL;
+    hair_gl_enter(&hair->context->gl);
+    hair_result result = hair_draw_expand(&hair->draw, &hair->smooth, &vertices);
+    hair_gl_leave(&hair->context->gl);
+    if (result) return result;
+    copy_to_world(&vertices->x, 4, count, &hair->sim.at_step, positions);
+    hair_free(&hair->context->host, vertices);
+    return HAIR_OK;
+}
+
+hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity,
+                      uint32_t* count)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &hair->context->host;
+    if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
+    if (!positions && capacity)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL but capacity is %u", hair->label,
+                         capacity);
+    hair_result result = hair_check_current(hair->context);
+    if (result) return result;
+
+    const struct hair_sim* sim = &hair->sim;
+    uint64_t               all = 0;
+    switch (what) {
+    case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
+    case HAIR_READ_SMOOTH: all = hair->smooth.vertices; break;
+    case HAIR_READ_FOLLOWERS: all = (uint64_t)hair->draw.followers * (hair->draw.look.segments + 1); break;
+    default:
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: what is %d, not in [0, %d]", hair->label, (int)what,
+                         HAIR_READ_FOLLOWERS);
+    }
+    if (all > UINT32_MAX)
+        return hair_fail(host, HAIR_ERROR_MEMORY, "%s: %llu vertices are too many to read", hair->label,
+                         (unsigned long long)all);
+    *count          = (uint32_t)all;
+    uint32_t number = *count < capacity ? *count : capacity;
+    if (number == 0) return HAIR_OK;
+    if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
+    if (what == HAIR_READ_SMOOTH)
+        return read_buffer(hair, hair->smooth.buffer[0], number, 4, &sim->at_step, positions);
+    return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,
+                       positions);
+}

@@ -1,0 +1,26 @@
+// draw.h - guides to pixels: what patches are drawn in which batches, with which parameters.
+#ifndef HAIR_DRAW_DRAW_H
+#define HAIR_DRAW_DRAW_H
+
+#include "lib/interpolate/interpolate.h"
+
+struct hair_draw {
+    struct hair_gl* gl;
+    hair_look       look;
+    GLuint          follower, patch, params;         // buffers
+    GLuint          follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t        followers, patches, smooth_vertices, guides;
+};
+
+hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
+                             const struct hair_sim* sim);
+void        hair_draw_destroy(struct hair_draw* draw);
+
+// Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
+void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, const struct hair_pose* head,
+                   const hair_view* view);
+
+// Vertices of all followers, look.segments + 1 each: xyz from the head's origin, radius. The caller frees *out.
+hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out);
+
+#endif

@@ -1,0 +1,86 @@
+// params.c - matrices that take positions from the head's origin, the eye, the light, the look.
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+// The world matrix `m` for positions from the head's origin: its last column gains m times that origin. In double,
+// since far out both are large and their sum is small.
+static hair_mat4 from_head(const float m[16], const struct hair_pose* head)
+{
+    hair_mat4 out;
+    float     copy[16];
+    memcpy(copy, m, sizeof copy);
+    for (int i = 0; i < 4; ++i) {
+        double sum = (double)m[12 + i];
+        for (int k = 0; k < 3; ++k) sum += (double)m[4 * k + i] * head->position[k];
+        copy[12 + i] = (float)sum;
+    }
+    memcpy(&out, copy, sizeof out);
+    return out;
+}
+
+// The eye is where the view matrix maps to the origin: -R^-1 t. With an orthographic projection, whose last row is
+// (0, 0, 0, 1), every ray goes one way instead.
+static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
+{
+    const hair_vec4* c = view->column;
+    hair_vec3        x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
+    hair_vec3        t = {c[3].x, c[3].y, c[3].z};
+    if (projection[3] == 0 && projection[7] == 0 && projection[11] == 0) {
+        hair_vec3 back = hair_normalize(hair_v3(x.z, y.z, z.z), hair_v3(0, 0, 1));
+        return (hair_vec4){back.x, back.y, back.z, 0};
+    }
+    return (hair_vec4){-hair_dot(x, t), -hair_dot(y, t), -hair_dot(z, t), 1};
+}
+
+// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says.
+static void write_shadow(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                         struct hair_draw_params* out)
+{
+    GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
+    draw->gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
+    float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
+    if (depth_mode == GL_ZERO_TO_ONE) {
+        halve[10] = 1;
+        halve[14] = 0;
+    }
+    float texture[16];
+    hair_mat4_multiply(halve, view->shadow_matrix, texture);
+    out->shadow = from_head(texture, head);
+    // Depth per metre along the light turns absorption per metre into absorption per unit of depth.
+    float per_metre = hair_length(hair_v3(texture[2], texture[6], texture[10]));
+    out->light.w    = per_metre > 0 ? draw->look.absorption / per_metre : 0;
+}
+
+static void write_view(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                       struct hair_draw_params* out)
+{
+    hair_vec3 light = hair_normalize(hair_load3(view->light_to), hair_v3(0, 1, 0));
+    out->view       = from_head(view->view, head);
+    out->eye        = find_eye(&out->view, view->projection);
+    out->light_to   = (hair_vec4){light.x, light.y, light.z, 0};
+    out->light      = (hair_vec4){view->light[0], view->light[1], view->light[2], 0};
+    out->ambient    = (hair_vec4){view->ambient[0], view->ambient[1], view->ambient[2], 0};
+    memcpy(&out->view_to_clip, view->projection, sizeof out->view_to_clip);
+    if (view->shadow_texture && view->pass == HAIR_PASS_COLOR) write_shadow(draw, head, view, out);
+}
+
+void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                            struct hair_draw_params* out)
+{
+    const hair_look* look = &draw->look;
+    memset(out, 0, sizeof *out);
+    if (view) write_view(draw, head, view, out);
+    out->root_color =
+        (hair_vec4){look->root_color[0], look->root_color[1], look->root_color[2], look->color_spread};
+    out->tip_color       = (hair_vec4){look->tip_color[0], look->tip_color[1], look->tip_color[2], 0};
+    out->specular        = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    out->radius          = look->radius;
+    out->tip_radius      = look->tip_radius;
+    out->clump           = look->clump;
+    out->frizz           = look->frizz;
+    out->density         = look->density;
+    out->segments        = look->segments;
+    out->followers       = draw->followers;
+    out->smooth_vertices = draw->smooth_vertices;
+}

@@ -1,0 +1,11 @@
+// params.h - one draw's parameters, from the application's view and look to the head's own coordinates.
+#ifndef HAIR_DRAW_PARAMS_H
+#define HAIR_DRAW_PARAMS_H
+
+#include "lib/draw/draw.h"
+
+// `view` NULL: only what places followers.
+void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                            struct hair_draw_params* out);
+
+#endif
