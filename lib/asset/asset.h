@@ -18,9 +18,10 @@ struct hair_asset {
 };
 
 // `import` has been checked. On failure *out is untouched.
-hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes, size_t size,
-                              hair_asset** out);
-hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity, size_t* size);
+hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes,
+                              size_t size, hair_asset** out);
+hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,
+                              size_t* size);
 void        hair_asset_free(hair_asset* asset);
 
 #endif

@@ -1,0 +1,121 @@
+// asset.c - from bytes of any format to a clean haircut, and back.
+#include "lib/asset/formats.h"
+
+#define MOST_STRANDS 4194304 // As hair_groom_desc.strand_count.
+
+static const struct format {
+    bool (*is)(const unsigned char* bytes, size_t size);
+    hair_result (*decode)(const struct hair_source* source, hair_asset* asset);
+} formats[] = {
+    {hair_is_hairfile, hair_decode_hairfile},
+    {hair_is_tfx4, hair_decode_tfx4},
+    {hair_is_tfx3, hair_decode_tfx3},
+    {hair_is_tfx_text, hair_decode_tfx_text},
+};
+
+hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
+                               uint64_t count, uint32_t size)
+{
+    if (offset <= source->size && count <= (source->size - offset) / size) return HAIR_OK;
+    return hair_fail(source->host, HAIR_ERROR_FILE,
+                     "the file ends at byte %zu, within the %s at byte %llu, which need %llu times %u bytes",
+                     source->size, what, (unsigned long long)offset, (unsigned long long)count, size);
+}
+
+hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
+                                  uint32_t vertex_count)
+{
+    strands->positions    = hair_alloc(host, vertex_count, 3 * sizeof *strands->positions);
+    strands->vertices     = hair_alloc(host, strand_count, sizeof *strands->vertices);
+    strands->strand_count = strand_count;
+    strands->vertex_count = vertex_count;
+    if (strands->positions && strands->vertices) return HAIR_OK;
+    return hair_fail_memory(host, "the strands of a file");
+}
+
+static hair_result refuse(const struct hair_source* source)
+{
+    if (source->size == 0)
+        return hair_fail(source->host, HAIR_ERROR_FILE, "the file ends at byte 0: it is empty");
+    return hair_fail(
+        source->host, HAIR_ERROR_FILE,
+        "at byte 0 stands neither \"HAIR\" nor a version of .tfx that can be read (3, 4, or 2 as text)");
+}
+
+static hair_result decode_raw(const struct hair_source* source, hair_asset* asset)
+{
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
+        if (formats[i].is(source->bytes, source->size)) return formats[i].decode(source, asset);
+    return refuse(source);
+}
+
+static hair_result check_cleaned(const struct hair_source* source, const hair_asset* asset)
+{
+    const hair_repairs* repairs = &asset->repairs;
+    if (asset->strands.strand_count == 0)
+        return hair_fail(
+            source->host, HAIR_ERROR_FILE,
+            "none of the %u strands between byte 0 and byte %zu can be used: %u have fewer than two "
+            "good vertices, %u are shorter than 10 micrometres",
+            asset->file_strands, source->size, repairs->dropped_single, repairs->dropped_short);
+    if (asset->strands.strand_count > MOST_STRANDS)
+        return hair_fail(source->host, HAIR_ERROR_FILE,
+                         "the %zu bytes hold %u strands, more than %u: keep fewer by hair_import.share",
+                         source->size, asset->strands.strand_count, MOST_STRANDS);
+    return HAIR_OK;
+}
+
+static hair_result decode(const struct hair_source* source, hair_asset* asset)
+{
+    hair_result result = decode_raw(source, asset);
+    if (result) return result;
+    asset->file_strands  = asset->strands.strand_count;
+    asset->file_vertices = asset->strands.vertex_count;
+    result               = hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs);
+    return result ? result : check_cleaned(source, asset);
+}
+
+hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes,
+                              size_t size, hair_asset** out)
+{
+    hair_asset* asset = hair_alloc(host, 1, sizeof *asset);
+    if (!asset) return hair_fail_memory(host, "hair_asset");
+    asset->host = *host;
+
+    struct hair_source source = {host, import, bytes, size};
+    hair_result        result = decode(&source, asset);
+    if (result)
+        hair_asset_free(asset);
+    else
+        *out = asset;
+    return result;
+}
+
+hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,
+                              size_t* size)
+{
+    bool hairfile = format == HAIR_FORMAT_HAIR;
+    if (!hairfile && format != HAIR_FORMAT_TFX4)
+        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
+                         "format is %u, not HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4", (unsigned)format);
+    size_t      needed;
+    hair_result result = hairfile ? hair_size_hairfile(asset, &needed) : hair_size_tfx4(asset, &needed);
+    if (result) return result;
+    *size = needed;
+    if (!bytes || capacity < needed) return HAIR_OK;
+    if (hairfile)
+        hair_encode_hairfile(asset, bytes);
+    else
+        hair_encode_tfx4(asset, bytes);
+    return HAIR_OK;
+}
+
+void hair_asset_free(hair_asset* asset)
+{
+    if (!asset) return;
+    hair_host host = asset->host;
+    hair_strands_free(&host, &asset->strands);
+    hair_free(&host, asset->scalp_positions);
+    hair_free(&host, asset->scalp_triangles);
+    hair_free(&host, asset);
+}

@@ -1,0 +1,82 @@
+// formats.h - what the readers and writers of the single formats share.
+#ifndef HAIR_ASSET_FORMATS_H
+#define HAIR_ASSET_FORMATS_H
+
+#include "lib/asset/asset.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+// A file being read.
+struct hair_source {
+    const hair_host*     host;
+    const hair_import*   import;
+    const unsigned char* bytes;
+    size_t               size;
+};
+
+// Whether the first bytes are of the format.
+bool hair_is_hairfile(const unsigned char* bytes, size_t size);
+bool hair_is_tfx3(const unsigned char* bytes, size_t size);
+bool hair_is_tfx4(const unsigned char* bytes, size_t size);
+bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
+
+// Fill the asset's strands as the file has them. What a failure leaves in them is freed by the caller.
+hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset);
+hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset);
+hair_result hair_decode_tfx4(const struct hair_source* source, hair_asset* asset);
+hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset);
+
+// Bytes needed; HAIR_ERROR_ARGUMENT where the format cannot hold the asset.
+hair_result hair_size_hairfile(const hair_asset* asset, size_t* size);
+hair_result hair_size_tfx4(const hair_asset* asset, size_t* size);
+void        hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
+void        hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
+
+// Fails, naming `what`, unless `count` items of `size` bytes each lie within the file from `offset` on.
+hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
+                               uint64_t count, uint32_t size);
+
+// Memory for the strands of a file whose size has been checked to hold them.
+hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
+                                  uint32_t vertex_count);
+
+// Numbers in files are little-endian and need not be aligned.
+static inline uint32_t hair_read_u16(const unsigned char* at)
+{
+    return at[0] | (uint32_t)at[1] << 8;
+}
+static inline uint32_t hair_read_u32(const unsigned char* at)
+{
+    return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+static inline float hair_read_float(const unsigned char* at)
+{
+    uint32_t bits = hair_read_u32(at);
+    float    value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+// Return where the next number goes.
+static inline unsigned char* hair_write_u16(unsigned char* at, uint32_t value)
+{
+    for (int i = 0; i < 2; ++i) at[i] = (unsigned char)(value >> 8 * i);
+    return at + 2;
+}
+
+static inline unsigned char* hair_write_u32(unsigned char* at, uint32_t value)
+{
+    for (int i = 0; i < 4; ++i) at[i] = (unsigned char)(value >> 8 * i);
+    return at + 4;
+}
+
+static inline unsigned char* hair_write_float(unsigned char* at, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return hair_write_u32(at, bits);
+}
+
+#endif

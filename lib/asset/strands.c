@@ -1,0 +1,233 @@
+// strands.c - foreign strands made fit to simulate: scaled, turned, thinned out, repaired, resampled.
+//
+// Everything but resampling to more vertices happens in place: what is kept moves to the front.
+#include "lib/asset/strands.h"
+
+#include <string.h>
+
+#define FARTHEST 1e6 // m from the origin; beyond, floats are too coarse for hair by far.
+
+void hair_strands_free(const hair_host* host, struct hair_strands* strands)
+{
+    hair_free(host, strands->positions);
+    hair_free(host, strands->vertices);
+    hair_free(host, strands->radii);
+    memset(strands, 0, sizeof *strands);
+}
+
+static void place(const hair_import* import, struct hair_strands* strands)
+{
+    for (size_t i = 0; i < strands->vertex_count; ++i) {
+        float* p = strands->positions + 3 * i;
+        hair_store3(p, hair_import_point(import, hair_load3(p)));
+    }
+    for (uint32_t i = 0; strands->radii && i < strands->strand_count; ++i) strands->radii[i] *= import->scale;
+}
+
+static void reverse(float* p, uint32_t vertices)
+{
+    if (vertices < 2) return;
+    for (size_t i = 0, j = vertices - 1; i < j; ++i, --j) {
+        hair_vec3 swap = hair_load3(p + 3 * i);
+        memcpy(p + 3 * i, p + 3 * j, sizeof swap);
+        hair_store3(p + 3 * j, swap);
+    }
+}
+
+static void reverse_all(struct hair_strands* strands)
+{
+    size_t first = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        reverse(strands->positions + 3 * first, strands->vertices[i]);
+        first += strands->vertices[i];
+    }
+}
+
+// What is kept so far; never ahead of what is read.
+struct kept {
+    uint32_t strands, vertices;
+};
+
+static void keep(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
+                 uint32_t vertices)
+{
+    float* from = strands->positions + 3 * first;
+    memmove(strands->positions + 3 * (size_t)kept->vertices, from, 3 * (size_t)vertices * sizeof *from);
+    strands->vertices[kept->strands] = vertices;
+    if (strands->radii) strands->radii[kept->strands] = strands->radii[strand];
+    ++kept->strands;
+    kept->vertices += vertices;
+}
+
+static void cut(struct hair_strands* strands, struct kept kept)
+{
+    strands->strand_count = kept.strands;
+    strands->vertex_count = kept.vertices;
+}
+
+// One strand at random out of each of `wanted` runs of equal length: even along the file, whatever its order,
+// and without a rhythm that could meet one in the file.
+static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
+{
+    uint32_t begin = (uint32_t)((uint64_t)run * count / wanted);
+    uint32_t end   = (uint32_t)(((uint64_t)run + 1) * count / wanted);
+    return begin + (uint32_t)((double)hair_random(random) * (end - begin));
+}
+
+static void thin_out(const hair_import* import, struct hair_strands* strands)
+{
+    uint32_t count  = strands->strand_count;
+    uint32_t wanted = (uint32_t)((double)import->share * count + 0.5);
+    if (wanted >= count) return;
+    if (wanted == 0) wanted = 1;
+
+    uint32_t    random = import->seed;
+    uint32_t    drawn  = draw(count, wanted, 0, &random);
+    struct kept kept   = {0};
+    size_t      first  = 0;
+    for (uint32_t i = 0; i < count && kept.strands < wanted; ++i) {
+        uint32_t vertices = strands->vertices[i]; // Before `keep` may write there.
+        if (i == drawn) {
+            keep(strands, &kept, i, first, vertices);
+            if (kept.strands < wanted) drawn = draw(count, wanted, kept.strands, &random);
+        }
+        first += vertices;
+    }
+    cut(strands, kept);
+}
+
+static uint32_t remove_nonfinite(float* p, uint32_t vertices)
+{
+    uint32_t left = 0;
+    for (size_t i = 0; i < vertices; ++i) {
+        double x = p[3 * i], y = p[3 * i + 1], z = p[3 * i + 2];
+        if (!(x * x + y * y + z * z <= FARTHEST * FARTHEST)) continue; // NaN too.
+        memmove(p + 3 * (size_t)left++, p + 3 * i, 3 * sizeof *p);
+    }
+    return left;
+}
+
+// Sample at `count` points, out of place. Where a strand folds back on itself samples may coincide: they are
+// merged and segments split instead. Returns the vertices left: `count`, or 0 when it is dropped.
+static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t count, hair_repairs* repairs)
+{
+    hair_strand_resample(p, vertices, out, count);
+    uint32_t left = hair_strand_merge(out, count);
+    if (left < 2) {
+        ++repairs->dropped_single;
+        return 0;
+    }
+    hair_strand_split(out, left, count);
+    if (hair_strand_is_fit(out, count)) return count;
+    // Ends that meet, or so far from the origin that floats have no room for this many vertices.
+    ++repairs->dropped_short;
+    return 0;
+}
+
+static uint32_t bring_down(float* p, uint32_t vertices, hair_repairs* repairs)
+{
+    float sampled[3 * HAIR_STRAND_MAX_VERTICES];
+    ++repairs->resampled;
+    uint32_t left = sample(p, vertices, sampled, HAIR_STRAND_MAX_VERTICES, repairs);
+    memcpy(p, sampled, 3 * (size_t)left * sizeof *p);
+    return left;
+}
+
+// Returns the vertices left, 0 when the strand is dropped.
+static uint32_t repair_strand(float* p, uint32_t vertices, hair_repairs* repairs)
+{
+    uint32_t finite = remove_nonfinite(p, vertices);
+    repairs->removed_nonfinite += vertices - finite;
+    uint32_t left = hair_strand_merge(p, finite);
+    repairs->removed_repeated += finite - left;
+    if (left < 2) {
+        ++repairs->dropped_single;
+        return 0;
+    }
+    if (!hair_strand_is_fit(p, left)) {
+        ++repairs->dropped_short;
+        return 0;
+    }
+    return left;
+}
+
+static void repair_all(const hair_import* import, struct hair_strands* strands, hair_repairs* repairs)
+{
+    struct kept kept  = {0};
+    size_t      first = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        float*   p        = strands->positions + 3 * first;
+        uint32_t vertices = strands->vertices[i];
+        uint32_t left     = repair_strand(p, vertices, repairs);
+        if (left > HAIR_STRAND_MAX_VERTICES && import->strand_vertices == 0)
+            left = bring_down(p, left, repairs);
+        if (left) keep(strands, &kept, i, first, left);
+        first += vertices;
+    }
+    cut(strands, kept);
+}
+
+static hair_result resample_all(const hair_host* host, uint32_t count, struct hair_strands* strands,
+                                hair_repairs* repairs)
+{
+    float* sampled = hair_alloc(host, strands->strand_count, 3 * (size_t)count * sizeof *sampled);
+    if (!sampled) return hair_fail_memory(host, "resampled strands");
+
+    struct kept kept  = {0};
+    size_t      first = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        uint32_t vertices = strands->vertices[i];
+        float*   out      = sampled + 3 * (size_t)kept.vertices;
+        if (sample(strands->positions + 3 * first, vertices, out, count, repairs)) {
+            strands->vertices[kept.strands] = count;
+            if (strands->radii) strands->radii[kept.strands] = strands->radii[i];
+            ++kept.strands;
+            kept.vertices += count;
+        }
+        first += vertices;
+    }
+    hair_free(host, strands->positions);
+    strands->positions = sampled;
+    cut(strands, kept);
+    return HAIR_OK;
+}
+
+static hair_result shrink(const hair_host* host, void** memory, size_t count, size_t size)
+{
+    if (!*memory) return HAIR_OK;
+    void* smaller = hair_alloc(host, count, size);
+    if (!smaller) return hair_fail_memory(host, "strands");
+    memcpy(smaller, *memory, count * size);
+    hair_free(host, *memory);
+    *memory = smaller;
+    return HAIR_OK;
+}
+
+// Give back what thinning out and repairs have freed.
+static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
+{
+    void *      positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii;
+    hair_result result = shrink(host, &positions, strands->vertex_count, 3 * sizeof(float));
+    if (!result) result = shrink(host, &vertices, strands->strand_count, sizeof(uint32_t));
+    if (!result) result = shrink(host, &radii, strands->strand_count, sizeof(float));
+    strands->positions = positions;
+    strands->vertices  = vertices;
+    strands->radii     = radii;
+    return result;
+}
+
+hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
+                               hair_repairs* repairs)
+{
+    uint32_t vertices = strands->vertex_count;
+    *repairs          = (hair_repairs){0};
+    place(import, strands);
+    if (import->tip_first) reverse_all(strands);
+    thin_out(import, strands);
+    repair_all(import, strands, repairs);
+    hair_result result = HAIR_OK;
+    uint32_t    count  = import->strand_vertices == 1 ? 2 : import->strand_vertices;
+    if (count) result = resample_all(host, count, strands, repairs);
+    if (!result && strands->vertex_count < vertices / 2) result = shrink_all(host, strands);
+    return result;
+}

@@ -1,0 +1,227 @@
+// tfx_text.c - the text .tfx format of AMD's TressFX, versions 1 and 2: guides.
+//
+//   version 2.0                       then for every strand
+//   scale 1.0                           strand 0 numVerts 3 texcoord 0.25 0.5
+//   rotation 0 0 0                      0.0 1.0 0.0
+//   translation 0 0 0                   0.0 0.9 0.1
+//   numStrands 1                        0.0 0.8 0.3
+//   is sorted 1
+//
+// A strand needs its numVerts; every other line may be missing, in version 1 all before numStrands. Positions
+// are scaled, then turned by rotation (radians; about z by the third, about x by the first, about y by the
+// second), then moved by translation, as TressFX does. Lines about followers and texture coordinates are not
+// used.
+// The text is read twice: to count, then to fill memory of the right size.
+#include "lib/asset/formats.h"
+#include "lib/asset/text.h"
+
+#include <math.h>
+
+struct reader {
+    const struct hair_source* source;
+    struct hair_text          text;
+    struct hair_strands*      fill; // NULL: count only
+    uint32_t                  strands, vertices;
+    bool                      has_count, warned;
+    uint32_t                  count; // numStrands
+    float                     scale, rotation[3], translation[3];
+};
+
+static hair_result complain(const struct reader* reader, size_t at, const char* sentence)
+{
+    return hair_fail(reader->source->host, HAIR_ERROR_FILE, "at byte %zu %s", at, sentence);
+}
+
+static hair_result read_numbers(const struct reader* reader, struct hair_line* line, float* out,
+                                uint32_t count)
+{
+    struct hair_token token;
+    for (uint32_t i = 0; i < count; ++i) {
+        double value;
+        if (!hair_line_next(line, &token))
+            return complain(reader, line->end, "the line ends before its last number");
+        if (!hair_token_number(&token, &value)) return complain(reader, token.at, "stands no number");
+        out[i] = (float)value;
+    }
+    if (hair_line_next(line, &token))
+        return complain(reader, token.at, "stands more than the numbers of the line");
+    return HAIR_OK;
+}
+
+// Numbers that turn the whole haircut must be good ones.
+static hair_result read_finite(const struct reader* reader, struct hair_line* line, float* out,
+                               uint32_t count)
+{
+    hair_result result = read_numbers(reader, line, out, count);
+    for (uint32_t i = 0; i < count && !result; ++i)
+        if (!isfinite(out[i])) result = complain(reader, line->start, "a number of the line is not finite");
+    return result;
+}
+
+static hair_result read_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
+{
+    struct hair_token token;
+    double            value;
+    if (!hair_line_next(line, &token)) return complain(reader, line->end, "the line ends before its count");
+    if (!hair_token_number(&token, &value) || !(value >= 0 && value <= UINT32_MAX) || value != floor(value))
+        return complain(reader, token.at, "stands no count");
+    *out = (uint32_t)value;
+    return HAIR_OK;
+}
+
+static bool is_unused(const struct hair_token* name)
+{
+    static const char* const names[] = {"version",
+                                        "bothEndsImmovable",
+                                        "maxNumVerticesInStrand",
+                                        "numFollowHairsPerGuideHair",
+                                        "maxRadiusAroundGuideHair",
+                                        "is",
+                                        "isSorted"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (hair_token_is(name, names[i])) return true;
+    return false;
+}
+
+static hair_result read_setting(struct reader* reader, const struct hair_token* name, struct hair_line* line)
+{
+    if (hair_token_is(name, "scale")) return read_finite(reader, line, &reader->scale, 1);
+    if (hair_token_is(name, "rotation")) return read_finite(reader, line, reader->rotation, 3);
+    if (hair_token_is(name, "translation")) return read_finite(reader, line, reader->translation, 3);
+    if (hair_token_is(name, "numStrands")) {
+        reader->has_count = true;
+        return read_count(reader, line, &reader->count);
+    }
+    double number;
+    if (hair_token_number(name, &number))
+        return complain(reader, name->at, "stands a number outside of any strand");
+    if (!is_unused(name) && !reader->warned) {
+        hair_log(reader->source->host, HAIR_LOG_WARNING, "the line at byte %zu is not known and not read",
+                 name->at);
+        reader->warned = true;
+    }
+    return HAIR_OK;
+}
+
+static hair_result find_vertex_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
+{
+    struct hair_token token;
+    while (hair_line_next(line, &token))
+        if (hair_token_is(&token, "numVerts")) return read_count(reader, line, out);
+    return complain(reader, line->start, "the strand does not say its numVerts");
+}
+
+// Row vectors times the matrices Rz Rx Ry.
+static void turn(const float rotation[3], double p[3])
+{
+    static const int order[3] = {2, 0, 1};
+    for (int i = 0; i < 3; ++i) {
+        int    axis = order[i], u = (axis + 1) % 3, v = (axis + 2) % 3;
+        double c = cos(rotation[axis]), s = sin(rotation[axis]);
+        double x = c * p[u] - s * p[v], y = s * p[u] + c * p[v];
+        p[u] = x;
+        p[v] = y;
+    }
+}
+
+static void place(const struct reader* reader, float* position)
+{
+    const float *r = reader->rotation, *t = reader->translation;
+    double       p[3] = {position[0], position[1], position[2]};
+    for (int i = 0; i < 3; ++i) p[i] *= reader->scale;
+    if (r[0] != 0 || r[1] != 0 || r[2] != 0) turn(r, p);
+    for (int i = 0; i < 3; ++i) position[i] = (float)(p[i] + t[i]);
+}
+
+static hair_result read_vertex(struct reader* reader, size_t strand_at)
+{
+    struct hair_line line;
+    float            position[3];
+    if (!hair_text_next(&reader->text, &line))
+        return hair_fail(reader->source->host, HAIR_ERROR_FILE,
+                         "the file ends at byte %zu, within the strand at byte %zu", reader->source->size,
+                         strand_at);
+    hair_result result = read_numbers(reader, &line, position, 3);
+    if (result) return result;
+    if (reader->fill) {
+        place(reader, position);
+        memcpy(reader->fill->positions + 3 * (size_t)reader->vertices, position, sizeof position);
+    }
+    ++reader->vertices;
+    return HAIR_OK;
+}
+
+static hair_result read_strand(struct reader* reader, struct hair_line* line)
+{
+    uint32_t    count  = 0;
+    hair_result result = find_vertex_count(reader, line, &count);
+    if (!result && count > UINT32_MAX - reader->vertices)
+        result = complain(reader, line->start, "the strand makes too many vertices");
+    for (uint32_t i = 0; i < count && !result; ++i) result = read_vertex(reader, line->start);
+    if (result) return result;
+    if (reader->fill) reader->fill->vertices[reader->strands] = count;
+    ++reader->strands;
+    return HAIR_OK;
+}
+
+static void rewind_to_start(struct reader* reader, struct hair_strands* fill)
+{
+    bool bom         = reader->source->size >= 3 && memcmp(reader->source->bytes, "\xef\xbb\xbf", 3) == 0;
+    reader->text     = (struct hair_text){reader->source->bytes, reader->source->size, bom ? 3 : 0};
+    reader->fill     = fill;
+    reader->strands  = 0;
+    reader->vertices = 0;
+}
+
+static hair_result read_all(struct reader* reader)
+{
+    struct hair_line line;
+    hair_result      result = HAIR_OK;
+    while (!result && hair_text_next(&reader->text, &line)) {
+        struct hair_token name;
+        if (!hair_line_next(&line, &name)) continue;
+        result =
+            hair_token_is(&name, "strand") ? read_strand(reader, &line) : read_setting(reader, &name, &line);
+    }
+    return result;
+}
+
+static hair_result check_counts(const struct reader* reader)
+{
+    size_t end = reader->source->size;
+    if (reader->has_count && reader->count != reader->strands)
+        return hair_fail(reader->source->host, HAIR_ERROR_FILE,
+                         "the file ends at byte %zu after %u strands, but numStrands is %u", end,
+                         reader->strands, reader->count);
+    if (reader->vertices == 0)
+        return hair_fail(reader->source->host, HAIR_ERROR_FILE, "the file ends at byte %zu without a strand",
+                         end);
+    return HAIR_OK;
+}
+
+bool hair_is_tfx_text(const unsigned char* bytes, size_t size)
+{
+    bool              bom  = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
+    struct hair_text  text = {bytes, size, bom ? 3 : 0};
+    struct hair_line  line;
+    struct hair_token name;
+    return hair_text_next(&text, &line) && hair_line_next(&line, &name) &&
+           (hair_token_is(&name, "version") || hair_token_is(&name, "numStrands"));
+}
+
+hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset)
+{
+    struct reader reader = {.source = source, .scale = 1};
+    rewind_to_start(&reader, NULL);
+    hair_result result = read_all(&reader);
+    if (!result) result = check_counts(&reader);
+    if (!result)
+        result = hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices);
+    if (result) return result;
+
+    asset->format      = HAIR_FORMAT_TFX2;
+    asset->strands_are = HAIR_STRANDS_GUIDES;
+    reader.warned      = true;
+    rewind_to_start(&reader, &asset->strands);
+    return read_all(&reader);
+}

@@ -1,0 +1,41 @@
+// host.c - a host that counts and refuses memory on demand, and remembers what was logged.
+#include "tests/support/host.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void* take(size_t size, size_t align, void* user)
+{
+    struct hair_test_host* host = user;
+    if (++host->allocations == host->refuse) return NULL;
+    void* memory = aligned_alloc(align, (size + align - 1) / align * align);
+    if (!memory) return NULL;
+    memset(memory, 0xa5, size);
+    host->live += size;
+    if (host->live > host->peak) host->peak = host->live;
+    ++host->blocks;
+    return memory;
+}
+
+static void give_back(void* memory, size_t size, void* user)
+{
+    struct hair_test_host* host = user;
+    host->live -= size;
+    --host->blocks;
+    free(memory);
+}
+
+static void listen(hair_log_level level, const char* sentence, void* user)
+{
+    struct hair_test_host* host = user;
+    host->errors += level == HAIR_LOG_ERROR;
+    host->warnings += level == HAIR_LOG_WARNING;
+    if (level == HAIR_LOG_ERROR) snprintf(host->sentence, sizeof host->sentence, "%s", sentence);
+}
+
+void hair_test_host_init(struct hair_test_host* host)
+{
+    memset(host, 0, sizeof *host);
+    host->host = (hair_host){take, give_back, listen, host};
+}

@@ -1,0 +1,524 @@
+// strands_test.c - foreign strands become fit to simulate, whatever they were.
+#include "lib/asset/strands.h"
+#include "lib/base/math.h"
+#include "tests/support/host.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static struct hair_test_host test;
+static hair_repairs          repairs;
+
+static hair_import defaults(void)
+{
+    return (hair_import){.scale = 1, .share = 1, .seed = 1};
+}
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return test.blocks ? -1 : 0;
+}
+
+// Straight strands along x, 1 cm a segment, strand i at z = i.
+static struct hair_strands make(uint32_t count, uint32_t each)
+{
+    struct hair_strands strands = {.strand_count = count, .vertex_count = count * each};
+    strands.positions           = hair_alloc(&test.host, strands.vertex_count, 12);
+    strands.vertices            = hair_alloc(&test.host, count, 4);
+    strands.radii               = hair_alloc(&test.host, count, 4);
+    for (uint32_t i = 0; i < count; ++i) {
+        strands.vertices[i] = each;
+        strands.radii[i]    = (float)i;
+        for (uint32_t j = 0; j < each; ++j)
+            hair_store3(strands.positions + 3 * (size_t)(i * each + j),
+                        hair_v3(0.01f * (float)j, 0, (float)i));
+    }
+    return strands;
+}
+
+static void clean(const hair_import* import, struct hair_strands* strands)
+{
+    assert_int_equal(hair_strands_clean(&test.host, import, strands, &repairs), HAIR_OK);
+}
+
+static void drop(struct hair_strands* strands)
+{
+    hair_strands_free(&test.host, strands);
+}
+
+// What strands.h promises of every strand.
+static void assert_fit(const struct hair_strands* strands)
+{
+    size_t first = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        uint32_t     vertices = strands->vertices[i];
+        const float* p        = strands->positions + 3 * first;
+        assert_in_range(vertices, 2, 256);
+        double length = hair_strand_length(p, vertices);
+        assert_true(length >= 1e-5);
+        for (uint32_t j = 0; j < 3 * vertices; ++j) assert_true(fabsf(p[j]) <= 1e6f);
+        for (uint32_t j = 1; j < vertices; ++j)
+            assert_true(hair_strand_length(p + 3 * (j - 1), 2) >= 1e-5 * length);
+        first += vertices;
+    }
+    assert_int_equal(first, strands->vertex_count);
+}
+
+static void clean_strands_are_left_as_they_are(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(10, 20), same = make(10, 20);
+    clean(&import, &strands);
+    assert_int_equal(strands.strand_count, 10);
+    assert_memory_equal(strands.positions, same.positions, 12 * 200);
+    assert_memory_equal(strands.vertices, same.vertices, 40);
+    hair_repairs none = {0};
+    assert_memory_equal(&repairs, &none, sizeof none);
+    drop(&strands);
+    drop(&same);
+}
+
+static void scale_turns_units_into_metres(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.scale                = 0.01f;
+    struct hair_strands strands = make(3, 3);
+    clean(&import, &strands);
+    assert_float_equal(strands.positions[3], 1e-4f, 1e-9);
+    assert_float_equal(strands.positions[3 * 8 + 2], 0.02f, 1e-8);
+    assert_float_equal(strands.radii[2], 0.02f, 1e-8);
+    drop(&strands);
+}
+
+static void the_up_axis_turns_to_y_without_mirroring(void** state)
+{
+    (void)state;
+    hair_up   ups[2]  = {HAIR_UP_Z, HAIR_UP_X};
+    hair_vec3 want[2] = {{1, 3, -2}, {-2, 1, 3}};
+    for (int i = 0; i < 2; ++i) {
+        hair_import import          = defaults();
+        import.up                   = ups[i];
+        struct hair_strands strands = make(1, 4);
+        // A corner of the axes, whose handedness shows mirroring.
+        float corner[12] = {1, 2, 3, 2, 2, 3, 2, 3, 3, 2, 3, 4};
+        memcpy(strands.positions, corner, sizeof corner);
+        clean(&import, &strands);
+        hair_vec3 p = hair_load3(strands.positions);
+        assert_memory_equal(&p, &want[i], sizeof p);
+        hair_vec3 a = hair_sub(hair_load3(strands.positions + 3), p);
+        hair_vec3 b = hair_sub(hair_load3(strands.positions + 6), hair_load3(strands.positions + 3));
+        hair_vec3 c = hair_sub(hair_load3(strands.positions + 9), hair_load3(strands.positions + 6));
+        assert_float_equal(hair_dot(hair_cross(a, b), c), 1, 1e-6);
+        assert_float_equal(i ? a.y : c.y, 1, 1e-6); // The up axis itself.
+        drop(&strands);
+    }
+}
+
+static void tip_first_strands_are_turned_round(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.tip_first            = 1;
+    struct hair_strands strands = make(2, 5);
+    clean(&import, &strands);
+    for (uint32_t i = 0; i < 10; ++i) {
+        assert_float_equal(strands.positions[3 * i], 0.01f * (float)(4 - i % 5), 0);
+        assert_float_equal(strands.positions[3 * i + 2], (float)(i / 5), 0);
+    }
+    drop(&strands);
+}
+
+static void a_share_keeps_so_many_strands_evenly(void** state)
+{
+    (void)state;
+    const float    shares[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
+    const uint32_t counts[] = {1, 2, 3, 10, 97, 1000};
+    for (size_t s = 0; s < 8; ++s)
+        for (size_t c = 0; c < 6; ++c) {
+            hair_import import          = defaults();
+            import.share                = shares[s];
+            struct hair_strands strands = make(counts[c], 3);
+            clean(&import, &strands);
+            double wanted = (double)shares[s] * counts[c];
+            assert_true(strands.strand_count >= fmax(1, floor(wanted)));
+            assert_true(strands.strand_count <= fmax(1, ceil(wanted)));
+            // z tells which strand it was: in order, none twice, no gap wider than two runs; radii go along.
+            float last = -1;
+            for (uint32_t i = 0; i < strands.strand_count; ++i) {
+                float z = strands.positions[9 * i + 2];
+                assert_true(z > last && z - last <= 2.0 * counts[c] / strands.strand_count + 1);
+                assert_float_equal(strands.radii[i], z, 0);
+                last = z;
+            }
+            drop(&strands);
+        }
+}
+
+static void the_seed_alone_decides_which_strands_are_kept(void** state)
+{
+    (void)state;
+    hair_import import = defaults();
+    import.share       = 0.1f;
+    struct hair_strands strands[3];
+    for (uint32_t i = 0; i < 3; ++i) {
+        import.seed = i / 2;
+        strands[i]  = make(1000, 3);
+        clean(&import, &strands[i]);
+        assert_int_equal(strands[i].strand_count, 100);
+    }
+    assert_memory_equal(strands[0].positions, strands[1].positions, 9 * 4 * 100);
+    assert_memory_not_equal(strands[0].positions, strands[2].positions, 9 * 4 * 100);
+    for (uint32_t i = 0; i < 3; ++i) drop(&strands[i]);
+}
+
+static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(2, 8);
+    strands.positions[0]        = NAN;
+    strands.positions[3 + 1]    = INFINITY;
+    strands.positions[9 + 2]    = -1e38f;
+    strands.positions[12]       = 1.1e6f;
+    strands.positions[15 + 2]   = 1e-45f; // Denormal: as good as any.
+    clean(&import, &strands);
+    assert_int_equal(repairs.removed_nonfinite, 4);
+    assert_int_equal(strands.vertices[0], 4);
+    assert_int_equal(strands.vertices[1], 8);
+    assert_float_equal(strands.positions[0], 0.02f, 0);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void scaling_beyond_the_range_of_floats_removes_vertices(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.scale                = 1e6f;
+    struct hair_strands strands = make(1, 3);
+    strands.positions[3]        = 1e38f;
+    clean(&import, &strands);
+    assert_int_equal(repairs.removed_nonfinite, 1);
+    assert_int_equal(strands.vertices[0], 2);
+    drop(&strands);
+}
+
+static void repeated_vertices_are_merged_and_counted(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(1, 10); // 9 cm: nearer than 0.9 micrometres is repeated.
+    strands.positions[3 * 1]    = strands.positions[0];
+    strands.positions[3 * 2]    = strands.positions[0] + 0.8e-6f;
+    strands.positions[3 * 5]    = strands.positions[3 * 4] + 1e-6f;
+    clean(&import, &strands);
+    assert_int_equal(repairs.removed_repeated, 2);
+    assert_int_equal(strands.vertices[0], 8);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void creeping_strands_keep_their_shape(void** state)
+{
+    (void)state;
+    // Each step is below the limit; together they are most of the strand.
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(1, 200001);
+    for (uint32_t i = 0; i < 200001; ++i) strands.positions[3 * i] = 1e-6f * (float)i;
+    clean(&import, &strands);
+    assert_float_equal(hair_strand_length(strands.positions, strands.vertices[0]), 0.2, 1e-3);
+    assert_true(repairs.removed_repeated > 1000);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void strands_of_one_vertex_are_dropped_and_counted(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(4, 3);
+    strands.vertices[0]         = 1; // 1 + 5 + 0 + 6 vertices
+    strands.vertices[1]         = 5;
+    strands.vertices[2]         = 0;
+    strands.vertices[3]         = 6;
+    for (uint32_t i = 1; i < 5; ++i) strands.positions[3 * i + 1] = NAN;
+    clean(&import, &strands);
+    assert_int_equal(repairs.dropped_single, 3);
+    assert_int_equal(repairs.removed_nonfinite, 4);
+    assert_int_equal(strands.strand_count, 1);
+    assert_float_equal(strands.radii[0], 3, 0);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(3, 2);
+    strands.positions[3]        = 0.9e-5f;
+    strands.positions[9]        = 0; // No length at all.
+    strands.positions[15]       = 1.1e-5f;
+    clean(&import, &strands);
+    assert_int_equal(repairs.dropped_short, 2);
+    assert_int_equal(strands.strand_count, 1);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void nothing_may_be_left(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(5, 2);
+    for (uint32_t i = 0; i < 30; ++i) strands.positions[i] = NAN;
+    import.strand_vertices = 16;
+    clean(&import, &strands);
+    assert_int_equal(strands.strand_count, 0);
+    assert_int_equal(strands.vertex_count, 0);
+    assert_int_equal(repairs.dropped_single, 5);
+    drop(&strands);
+}
+
+static void long_strands_come_down_to_256_vertices(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(3, 65536);
+    // A helix of 50 turns, 65 m long.
+    for (uint32_t i = 0; i < 3 * 65536; ++i) {
+        float a = 6.2831853f * 50 * (float)(i % 65536) / 65535;
+        hair_store3(strands.positions + 3 * (size_t)i, hair_v3(0.01f * cosf(a), a, 0.01f * sinf(a)));
+    }
+    float tip[3];
+    memcpy(tip, strands.positions + 3 * 65535, sizeof tip);
+    clean(&import, &strands);
+    assert_int_equal(repairs.resampled, 3);
+    assert_int_equal(strands.vertices[2], 256);
+    assert_float_equal(strands.positions[0], 0.01f, 0);
+    assert_memory_equal(strands.positions + 3 * 255, tip, sizeof tip);
+    assert_fit(&strands);
+    drop(&strands);
+}
+
+static void strands_of_256_vertices_stay(void** state)
+{
+    (void)state;
+    hair_import         import  = defaults();
+    struct hair_strands strands = make(1, 256);
+    clean(&import, &strands);
+    assert_int_equal(repairs.resampled, 0);
+    assert_int_equal(strands.vertices[0], 256);
+    drop(&strands);
+}
+
+static void resampling_puts_vertices_at_equal_distances(void** state)
+{
+    (void)state;
+    // Three sides of a rectangle, 1 + 2 + 1 long; nine samples lie half a unit apart along it.
+    const float corners[12] = {0, 0, 0, 0, 1, 0, 2, 1, 0, 2, 0, 0};
+    const float want[27]    = {0, 0,    0, 0, 0.5f, 0, 0, 1, 0,    0.5f, 1, 0, 1, 1,
+                               0, 1.5f, 1, 0, 2,    1, 0, 2, 0.5f, 0,    2, 0, 0};
+    float       out[27];
+    hair_strand_resample(corners, 4, out, 9);
+    for (int i = 0; i < 27; ++i) assert_float_equal(out[i], want[i], 1e-6);
+    hair_strand_resample(corners, 4, out, 2);
+    assert_memory_equal(out + 3, corners + 9, 12);
+}
+
+static void resampling_reaches_every_count(void** state)
+{
+    (void)state;
+    for (uint32_t count = 1; count <= 256; ++count) {
+        hair_import import          = defaults();
+        import.strand_vertices      = count;
+        struct hair_strands strands = make(3, 7);
+        clean(&import, &strands);
+        assert_int_equal(strands.strand_count, 3);
+        for (uint32_t i = 0; i < 3; ++i) {
+            const float* p = strands.positions + 3 * (size_t)strands.vertices[0] * i;
+            assert_int_equal(strands.vertices[i], count == 1 ? 2 : count);
+            assert_float_equal(hair_strand_length(p, strands.vertices[i]), 0.06, 1e-7);
+            assert_float_equal(p[2], (float)i, 0);
+        }
+        assert_fit(&strands);
+        drop(&strands);
+    }
+}
+
+static void strands_that_fold_back_keep_distinct_vertices(void** state)
+{
+    (void)state;
+    for (uint32_t count = 2; count <= 256; ++count) {
+        hair_import import          = defaults();
+        import.strand_vertices      = count;
+        struct hair_strands strands = make(1, 6);
+        // There, back, there, back, and a little further: samples of many counts coincide.
+        const float x[6] = {0, 1, 0, 1, 0, 0.5f};
+        for (int i = 0; i < 6; ++i) strands.positions[3 * i] = x[i];
+        clean(&import, &strands);
+        assert_int_equal(strands.strand_count, 1);
+        assert_int_equal(strands.vertices[0], count);
+        assert_fit(&strands);
+        drop(&strands);
+    }
+}
+
+static void strands_that_cannot_be_resampled_are_dropped(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.strand_vertices      = 2;
+    struct hair_strands strands = make(2, 3);
+    strands.positions[6]        = 0; // The tip of the first strand is at its root.
+    clean(&import, &strands);
+    assert_int_equal(strands.strand_count, 1);
+    assert_int_equal(repairs.dropped_short, 1);
+    assert_float_equal(strands.radii[0], 1, 0);
+    drop(&strands);
+
+    // At 1e6 m floats are 6 cm apart: no room for 256 vertices on 25 cm.
+    strands                = make(1, 2);
+    import.strand_vertices = 256;
+    strands.positions[0]   = 9e5f;
+    strands.positions[3]   = 9e5f + 0.25f;
+    clean(&import, &strands);
+    assert_int_equal(strands.strand_count, 0);
+    drop(&strands);
+}
+
+static float random_float(uint32_t* random)
+{
+    // All bit patterns, then ordinary numbers, then few enough to repeat.
+    *random       = hair_hash(*random);
+    uint32_t kind = *random % 4, bits = hair_hash(*random + 1);
+    float    value;
+    memcpy(&value, &bits, sizeof value);
+    if (kind == 0) return value;
+    if (kind == 1) return (float)(bits % 4) * 1e-5f;
+    return (float)(bits % 1000) * 0.001f;
+}
+
+static void any_bits_whatever_come_out_fit(void** state)
+{
+    (void)state;
+    uint32_t random = 7, kept = 0;
+    for (uint32_t round = 0; round < 2000; ++round) {
+        hair_import import          = defaults();
+        import.strand_vertices      = round % 3 ? 0 : round % 257;
+        import.tip_first            = round & 1;
+        import.up                   = (hair_up)(round % 3);
+        import.share                = round % 5 ? 1 : 0.5f;
+        uint32_t            each    = 1 + hair_hash(round) % (round % 50 ? 12 : 600);
+        struct hair_strands strands = make(20, each);
+        for (uint32_t i = 0; i < 3 * strands.vertex_count; ++i) strands.positions[i] = random_float(&random);
+        clean(&import, &strands);
+        assert_fit(&strands);
+        kept += strands.strand_count;
+
+        import                   = defaults();
+        struct hair_strands same = {.strand_count = strands.strand_count,
+                                    .vertex_count = strands.vertex_count};
+        same.positions           = hair_alloc(&test.host, strands.vertex_count, 12);
+        memcpy(same.positions, strands.positions, 12 * (size_t)strands.vertex_count);
+        clean(&import, &strands);
+        assert_int_equal(strands.vertex_count, same.vertex_count);
+        assert_memory_equal(strands.positions, same.positions, 12 * (size_t)strands.vertex_count);
+        drop(&same);
+        drop(&strands);
+    }
+    assert_true(kept > 10000);
+}
+
+static void four_million_strands_take_no_longer_than_their_number(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.share                = 0.5f;
+    import.scale                = 0.1f; // So that none lies beyond 1e6 m.
+    struct hair_strands strands = make(4194304, 2);
+    size_t              before  = test.live;
+    clean(&import, &strands);
+    assert_int_equal(strands.strand_count, 2097152);
+    assert_true(test.peak < before + (1 << 20));
+    drop(&strands);
+}
+
+static void memory_that_is_no_longer_needed_is_given_back(void** state)
+{
+    (void)state;
+    hair_import import          = defaults();
+    import.share                = 0.01f;
+    struct hair_strands strands = make(10000, 10);
+    clean(&import, &strands);
+    assert_true(test.live < 100 * 10 * 12 + 100 * 8 + 3 * 16 + 16);
+    drop(&strands);
+}
+
+static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
+{
+    (void)state;
+    uint32_t failures = 0;
+    for (uint32_t refuse = 1;; ++refuse) {
+        hair_import import          = defaults();
+        import.strand_vertices      = 8;
+        import.share                = 0.1f;
+        struct hair_strands strands = make(1000, 16);
+        test.allocations            = 0;
+        test.refuse                 = refuse;
+        hair_result result          = hair_strands_clean(&test.host, &import, &strands, &repairs);
+        test.refuse                 = 0;
+        drop(&strands);
+        assert_int_equal(test.blocks, 0);
+        if (result == HAIR_OK) break;
+        assert_int_equal(result, HAIR_ERROR_MEMORY);
+        assert_int_equal(test.errors, ++failures);
+    }
+    assert_true(failures >= 3);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(clean_strands_are_left_as_they_are),
+        TEST(scale_turns_units_into_metres),
+        TEST(the_up_axis_turns_to_y_without_mirroring),
+        TEST(tip_first_strands_are_turned_round),
+        TEST(a_share_keeps_so_many_strands_evenly),
+        TEST(the_seed_alone_decides_which_strands_are_kept),
+        TEST(nonfinite_and_far_vertices_are_removed_and_counted),
+        TEST(scaling_beyond_the_range_of_floats_removes_vertices),
+        TEST(repeated_vertices_are_merged_and_counted),
+        TEST(creeping_strands_keep_their_shape),
+        TEST(strands_of_one_vertex_are_dropped_and_counted),
+        TEST(strands_shorter_than_10_micrometres_are_dropped_and_counted),
+        TEST(nothing_may_be_left),
+        TEST(long_strands_come_down_to_256_vertices),
+        TEST(strands_of_256_vertices_stay),
+        TEST(resampling_puts_vertices_at_equal_distances),
+        TEST(resampling_reaches_every_count),
+        TEST(strands_that_fold_back_keep_distinct_vertices),
+        TEST(strands_that_cannot_be_resampled_are_dropped),
+        TEST(any_bits_whatever_come_out_fit),
+        TEST(four_million_strands_take_no_longer_than_their_number),
+        TEST(memory_that_is_no_longer_needed_is_given_back),
+        TEST(every_refused_allocation_is_an_error_and_leaks_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
