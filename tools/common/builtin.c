@@ -1,0 +1,30 @@
+// builtin.c - the text of the scenes and motions that are built in.
+#include "tools/common/builtin.h"
+
+#include <stddef.h>
+
+// Three-quarter front, with the angle of a 50 mm lens on 35 mm film: 27 degrees high.
+#define CAMERA "'camera': {'eye': [0.62, 1.60, 1.25], 'target': [0.0, 1.50, 0.0], 'fov': 27}"
+
+const struct hair_builtin hair_builtin_scenes[] = {
+    {"demo", "{'style': 'long', 'motion': 'demo', 'frames': 120, 'picture': 45, " CAMERA "}"},
+    {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
+    {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
+            "'picture': 20,"
+            " 'settings': {'clump': 0.3, 'radius': 1e-4, 'segments': 8, 'pull_root': 8, 'pull_tip': 6}}"},
+    {NULL, NULL},
+};
+
+const struct hair_builtin hair_builtin_motions[] = {
+    {"still", "[]"},
+    {"shake", "[{'time': 0}, {'time': 0.3, 'rotation': [30, 0, 4]}, {'time': 0.8, 'rotation': [-32, 0, -4]},"
+              " {'time': 1.3, 'rotation': [28, 0, 4]}, {'time': 1.7}]"},
+    {"turn",
+     "[{'time': 0}, {'time': 0.8, 'rotation': [-35, 4, 0]}, {'time': 1.4, 'rotation': [-35, 4, 0]},"
+     " {'time': 2.4, 'rotation': [35, -2, 0]}, {'time': 3.0, 'rotation': [35, -2, 0]}, {'time': 3.8}]"},
+    {"demo",
+     "[{'time': 0}, {'time': 0.35, 'rotation': [26, 2, 6]}, {'time': 0.85, 'rotation': [-32, 0, -8]},"
+     " {'time': 1.35, 'rotation': [34, 2, 8]}, {'time': 1.8, 'rotation': [-20, 0, -5]},"
+     " {'time': 2.2, 'rotation': [0, 4, 0]}, {'time': 3.0, 'rotation': [35, -6, 10]}, {'time': 4.0}]"},
+    {NULL, NULL},
+};

@@ -1,0 +1,113 @@
+// json.c - JSON objects into structs, by tables of keys.
+#include "tools/common/json.h"
+#include "tools/common/file.h"
+
+#include <string.h>
+
+bool hair_json_wrong(const struct hair_json* json, const char* key, const char* must)
+{
+    hair_complain(json->tool, "%s: %s%s must be %s", json->path, json->place, key, must);
+    return false;
+}
+
+static bool is_within(const json_t* value, const struct hair_json_entry* entry)
+{
+    bool   kind   = entry->kind == HAIR_JSON_COUNTS ? json_is_integer(value) : json_is_number(value);
+    double number = json_number_value(value);
+    return kind && number >= entry->min && number <= entry->max;
+}
+
+static bool read_number(const struct hair_json* json, const char* key, const json_t* value,
+                        const struct hair_json_entry* entry, void* out)
+{
+    if (!is_within(value, entry)) {
+        char        must[96];
+        const char* kind = entry->kind == HAIR_JSON_COUNTS ? "a whole number" : "a number";
+        snprintf(must, sizeof must, "%s in [%.10g, %.10g]", kind, entry->min, entry->max);
+        return hair_json_wrong(json, key, must);
+    }
+    float    number = (float)json_number_value(value);
+    uint32_t count  = (uint32_t)json_integer_value(value);
+    memcpy(out, entry->kind == HAIR_JSON_COUNTS ? (const void*)&count : (const void*)&number, 4);
+    return true;
+}
+
+static bool read_numbers(const struct hair_json* json, const json_t* value,
+                         const struct hair_json_entry* entry, char* out)
+{
+    if (entry->count == 1) return read_number(json, entry->key, value, entry, out);
+    if (!json_is_array(value) || json_array_size(value) != entry->count) {
+        char must[32];
+        snprintf(must, sizeof must, "%u numbers", entry->count);
+        return hair_json_wrong(json, entry->key, must);
+    }
+    for (uint32_t i = 0; i < entry->count; ++i) {
+        char key[64];
+        snprintf(key, sizeof key, "%s[%u]", entry->key, i);
+        if (!read_number(json, key, json_array_get(value, i), entry, out + 4 * i)) return false;
+    }
+    return true;
+}
+
+static bool read_entry(const struct hair_json* json, const json_t* value, const struct hair_json_entry* entry,
+                       void* out)
+{
+    char* at = (char*)out + entry->at;
+    switch (entry->kind) {
+    case HAIR_JSON_NUMBERS:
+    case HAIR_JSON_COUNTS: return read_numbers(json, value, entry, at);
+    case HAIR_JSON_OBJECT: return hair_json_object(json, entry->key, value, entry->object, out);
+    case HAIR_JSON_OTHER: return entry->read(json, entry->key, value, out);
+    case HAIR_JSON_BOOLEAN: break;
+    }
+    if (!json_is_boolean(value)) return hair_json_wrong(json, entry->key, "true or false");
+    *(bool*)at = json_is_true(value);
+    return true;
+}
+
+static const struct hair_json_entry* find(const struct hair_json_entry* entries, const char* key)
+{
+    while (entries->key && strcmp(entries->key, key)) ++entries;
+    return entries->key ? entries : NULL;
+}
+
+bool hair_json_object(const struct hair_json* json, const char* name, const json_t* object,
+                      const struct hair_json_entry* entries, void* out)
+{
+    if (!json_is_object(object)) return hair_json_wrong(json, *name ? name : "the scene", "an object");
+    char place[128];
+    snprintf(place, sizeof place, "%s%s%s", json->place, name, *name ? "." : "");
+    struct hair_json inside = {json->tool, json->path, place};
+    const char*      key;
+    json_t*          value;
+    json_object_foreach((json_t*)(uintptr_t)object, key, value)
+    {
+        const struct hair_json_entry* entry = find(entries, key);
+        if (!entry) {
+            hair_complain(json->tool, "%s: there is no %s%s", json->path, place, key);
+            return false;
+        }
+        if (!read_entry(&inside, value, entry, out)) return false;
+    }
+    return true;
+}
+
+bool hair_json_array(const struct hair_json* json, const char* name, const json_t* array,
+                     const struct hair_json_entry* entries, void* out, size_t size, uint32_t most,
+                     uint32_t* count)
+{
+    size_t length = json_array_size(array);
+    if (!json_is_array(array) || length > most) {
+        char must[64];
+        snprintf(must, sizeof must, "an array of at most %u objects", most);
+        return hair_json_wrong(json, name, must);
+    }
+    for (size_t i = 0; i < length; ++i) {
+        char element[64];
+        snprintf(element, sizeof element, "%s[%zu]", name, i);
+        if (!hair_json_object(json, element, json_array_get(array, i), entries, (char*)out + i * size))
+            return false;
+    }
+    *count = (uint32_t)length;
+    return true;
+}

@@ -1,0 +1,326 @@
+// scene.c - what a capture shows, from JSON.
+#include "tools/common/scene.h"
+#include "tools/common/builtin.h"
+#include "tools/common/file.h"
+#include "tools/common/json.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_BYTES ((size_t)16 << 20)
+#define FAR 1e6 // Of any coordinate, m.
+
+typedef struct hair_json       place;
+typedef struct hair_json_entry entry;
+
+#define AT(member) offsetof(struct hair_scene, member)
+#define NUMBERS(key, struct_at, count, min, max)                                                             \
+    {                                                                                                        \
+        key, HAIR_JSON_NUMBERS, struct_at, count, min, max, NULL, NULL                                       \
+    }
+#define COUNTS(key, struct_at, count, min, max)                                                              \
+    {                                                                                                        \
+        key, HAIR_JSON_COUNTS, struct_at, count, min, max, NULL, NULL                                        \
+    }
+#define BOOLEAN(key, struct_at)                                                                              \
+    {                                                                                                        \
+        key, HAIR_JSON_BOOLEAN, struct_at, 1, 0, 0, NULL, NULL                                               \
+    }
+#define OBJECT(key, entries)                                                                                 \
+    {                                                                                                        \
+        key, HAIR_JSON_OBJECT, 0, 1, 0, 0, entries, NULL                                                     \
+    }
+#define OTHER(key, read)                                                                                     \
+    {                                                                                                        \
+        key, HAIR_JSON_OTHER, 0, 1, 0, 0, NULL, read                                                         \
+    }
+#define END                                                                                                  \
+    {                                                                                                        \
+        NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
+    }
+
+void hair_scene_default(struct hair_scene* scene)
+{
+    static const struct hair_scene fresh = {.subject       = HAIR_SUBJECT_STYLE,
+                                            .head          = true,
+                                            .fur_strands   = 50000,
+                                            .fur_length    = 0.03f,
+                                            .ball_radius   = 0.1f,
+                                            .field_of_view = 27,
+                                            .background = {{0.13f, 0.14f, 0.155f}, {0.035f, 0.037f, 0.042f}},
+                                            .exposure   = 1,
+                                            .motion     = {.pivot = {0, 1.50f, -0.01f}},
+                                            .fps        = 30,
+                                            .frames     = 120,
+                                            .width      = 1280,
+                                            .height     = 720};
+    *scene                               = fresh;
+    scene->settings                      = hair_settings_default();
+}
+
+void hair_scene_set_groom(const char* path, struct hair_scene* scene)
+{
+    scene->subject = HAIR_SUBJECT_FILE;
+    snprintf(scene->groom, sizeof scene->groom, "%s", path);
+    if (!scene->head_is_said) scene->head = false;
+}
+
+static hair_style style_named(const char* name) // HAIR_STYLE_COUNT: none
+{
+    int i = 0;
+    while (i < HAIR_STYLE_COUNT && strcmp(hair_style_name((hair_style)i), name)) ++i;
+    return (hair_style)i;
+}
+
+bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene* scene)
+{
+    hair_style style = style_named(name);
+    if (style == HAIR_STYLE_COUNT) {
+        hair_complain(tool, "there is no style %s; --help lists them", name);
+        return false;
+    }
+    scene->subject              = HAIR_SUBJECT_STYLE;
+    scene->settings.style.style = style;
+    if (!scene->head_is_said) scene->head = true;
+    return true;
+}
+
+// Subject ---------------------------------------------------------------------------------------------------
+
+// Relative names start at the scene's folder.
+static bool read_groom(const place* json, const char* key, const json_t* value, void* out)
+{
+    const char* name = json_string_value(value);
+    if (!name || !*name) return hair_json_wrong(json, key, "the name of a file");
+    const char* slash  = strrchr(json->path, '/');
+    int         folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
+    char        path[HAIR_SCENE_PATH];
+    int         length = snprintf(path, sizeof path, "%.*s%s", folder, json->path, name);
+    if (length >= HAIR_SCENE_PATH) return hair_json_wrong(json, key, "a shorter name");
+    hair_scene_set_groom(path, out);
+    return true;
+}
+
+static bool read_style(const place* json, const char* key, const json_t* value, void* out)
+{
+    const char* name = json_string_value(value);
+    return name ? hair_scene_set_style(json->tool, name, out)
+                : hair_json_wrong(json, key, "the name of a style");
+}
+
+static bool read_fur(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const entry entries[] = {COUNTS("strands", AT(fur_strands), 1, 1, 4194304),
+                                    NUMBERS("length", AT(fur_length), 1, 1e-4, 10),
+                                    NUMBERS("ball", AT(ball_radius), 1, 1e-3, 100), END};
+    struct hair_scene* scene     = out;
+    scene->subject               = HAIR_SUBJECT_FUR;
+    return hair_json_object(json, key, value, entries, out);
+}
+
+static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
+{
+    hair_solid* solid = out;
+    const char* name  = json_is_string(value) ? json_string_value(value) : "";
+    if (strcmp(name, "sphere") && strcmp(name, "capsule"))
+        return hair_json_wrong(json, key, "\"sphere\" or \"capsule\"");
+    solid->shape = *name == 's' ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
+    return true;
+}
+
+static bool read_solids(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const entry entries[] = {OTHER("shape", read_shape),
+                                    NUMBERS("position", offsetof(hair_solid, position), 3, -FAR, FAR),
+                                    NUMBERS("rotation", offsetof(hair_solid, rotation), 4, -1, 1),
+                                    NUMBERS("radius", offsetof(hair_solid, size[0]), 1, 1e-6, FAR),
+                                    NUMBERS("half_length", offsetof(hair_solid, size[1]), 1, 0, FAR),
+                                    END};
+    struct hair_scene* scene     = out;
+    for (uint32_t i = 0; i < HAIR_SCENE_SOLIDS; ++i)
+        scene->solids[i] = (hair_solid){.rotation = {0, 0, 0, 1}, .size = {0.1f, 0.1f}};
+    return hair_json_array(json, key, value, entries, scene->solids, sizeof *scene->solids, HAIR_SCENE_SOLIDS,
+                           &scene->solid_count);
+}
+
+// Motion, camera, settings ----------------------------------------------------------------------------------
+
+static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const entry  entries[] = {NUMBERS("time", offsetof(struct hair_key, time), 1, 0, FAR),
+                                     NUMBERS("rotation", offsetof(struct hair_key, rotation), 3, -FAR, FAR),
+                                     NUMBERS("position", offsetof(struct hair_key, position), 3, -FAR, FAR),
+                                     END};
+    struct hair_scene*  scene     = out;
+    struct hair_motion* motion    = &scene->motion;
+    if (json_is_string(value)) return hair_scene_set_motion(json->tool, json_string_value(value), scene);
+    memset(motion->key, 0, sizeof motion->key);
+    if (!hair_json_array(json, key, value, entries, motion->key, sizeof *motion->key, HAIR_MOTION_MAX_KEYS,
+                         &motion->count))
+        return false;
+    for (uint32_t i = 1; i < motion->count; ++i)
+        if (motion->key[i].time <= motion->key[i - 1].time)
+            return hair_json_wrong(json, key, "in order of time");
+    return true;
+}
+
+static bool read_camera(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const entry entries[] = {NUMBERS("eye", AT(eye), 3, -FAR, FAR),
+                                    NUMBERS("target", AT(target), 3, -FAR, FAR),
+                                    NUMBERS("fov", AT(field_of_view), 1, 1, 150), END};
+    struct hair_scene* scene     = out;
+    if (!hair_json_object(json, key, value, entries, out)) return false;
+    bool eye = json_object_get(value, "eye"), target = json_object_get(value, "target");
+    if (eye != target) return hair_json_wrong(json, key, "given with both eye and target, or neither");
+    scene->framed = eye;
+    if (!eye || memcmp(scene->eye, scene->target, sizeof scene->eye)) return true;
+    return hair_json_wrong(json, key, "given with an eye that is not its target");
+}
+
+// Numbers as the same text that --set takes.
+static bool read_settings(const place* json, const char* key, const json_t* value, void* out)
+{
+    struct hair_scene* scene = out;
+    const char*        name;
+    json_t*            member;
+    if (!json_is_object(value)) return hair_json_wrong(json, key, "an object");
+    json_object_foreach((json_t*)(uintptr_t)value, name, member)
+    {
+        char text[64];
+        if (json_is_string(member))
+            snprintf(text, sizeof text, "%s", json_string_value(member));
+        else if (json_is_number(member))
+            snprintf(text, sizeof text, "%.17g", json_number_value(member));
+        else
+            return hair_json_wrong(json, name, "a number or the name of a choice");
+        if (!hair_settings_set(json->tool, &scene->settings, name, text)) return false;
+    }
+    return true;
+}
+
+// The whole -------------------------------------------------------------------------------------------------
+
+static const entry light[]      = {NUMBERS("to", AT(settings.view.light_to), 3, -FAR, FAR),
+                                   NUMBERS("color", AT(settings.view.light), 3, 0, FAR),
+                                   NUMBERS("ambient", AT(settings.view.ambient), 3, 0, FAR), END};
+static const entry background[] = {NUMBERS("centre", AT(background[0]), 3, 0, 100),
+                                   NUMBERS("edge", AT(background[1]), 3, 0, 100), END};
+static const entry whole[]      = {OTHER("style", read_style),
+                                   OTHER("groom", read_groom),
+                                   OTHER("fur", read_fur),
+                                   BOOLEAN("head", AT(head)),
+                                   OTHER("solids", read_solids),
+                                   OTHER("motion", read_motion),
+                                   NUMBERS("pivot", AT(motion.pivot), 3, -FAR, FAR),
+                                   OTHER("camera", read_camera),
+                                   OBJECT("light", light),
+                                   OBJECT("background", background),
+                                   NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
+                                   NUMBERS("fps", AT(fps), 1, 1, 1000),
+                                   COUNTS("frames", AT(frames), 1, 1, 1000000),
+                                   COUNTS("picture", AT(picture), 1, 0, 999999),
+                                   COUNTS("size", AT(width), 2, 1, 16384),
+                                   OTHER("settings", read_settings),
+                                   END};
+
+static json_t* load(const char* tool, const char* path, const char* text, size_t size)
+{
+    json_error_t error;
+    json_t*      root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    if (!root) hair_complain(tool, "%s: line %d, column %d: %s", path, error.line, error.column, error.text);
+    return root;
+}
+
+static bool read_scene(const char* tool, const char* path, const json_t* root, struct hair_scene* scene)
+{
+    hair_scene_default(scene);
+    struct hair_json json = {tool, path, ""};
+    if (!hair_json_object(&json, "", root, whole, scene)) return false;
+    scene->head_is_said  = json_object_get(root, "head");
+    scene->pivot_is_said = json_object_get(root, "pivot");
+    if (!scene->head_is_said) scene->head = scene->subject == HAIR_SUBJECT_STYLE;
+    return true;
+}
+
+bool hair_scene_parse(const char* tool, const char* path, const char* text, size_t size,
+                      struct hair_scene* scene)
+{
+    json_t* root = load(tool, path, text, size);
+    bool    ok   = root && read_scene(tool, path, root, scene);
+    json_decref(root);
+    return ok;
+}
+
+bool hair_scene_read(const char* tool, const char* path, struct hair_scene* scene)
+{
+    struct hair_bytes bytes;
+    if (!hair_file_read(tool, path, MAX_BYTES, &bytes)) return false;
+    bool ok = hair_scene_parse(tool, path, (const char*)bytes.data, bytes.size, scene);
+    free(bytes.data);
+    return ok;
+}
+
+// What is built in ------------------------------------------------------------------------------------------
+
+static const char* text_of(const struct hair_builtin* builtin, const char* name)
+{
+    while (builtin->name && strcmp(builtin->name, name)) ++builtin;
+    return builtin->text;
+}
+
+// The JSON of a text whose quotes are written '.
+static json_t* load_builtin(const char* tool, const char* name, const char* text)
+{
+    char   quoted[2048];
+    size_t size = 0;
+    for (; text[size] && size < sizeof quoted; ++size) quoted[size] = text[size];
+    for (size_t i = 0; i < size; ++i)
+        if (quoted[i] == '\'') quoted[i] = '"';
+    return load(tool, name, quoted, size);
+}
+
+bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene* scene)
+{
+    const char* text = text_of(hair_builtin_motions, name);
+    if (!text) {
+        hair_complain(tool, "there is no motion %s; --help lists them", name);
+        return false;
+    }
+    json_t* keys = load_builtin(tool, name, text);
+    if (!keys) return false;
+    struct hair_json json = {tool, name, ""};
+    bool             ok   = read_motion(&json, "motion", keys, scene);
+    json_decref(keys);
+    return ok;
+}
+
+// A style is shown as the first scene shows its own.
+bool hair_scene_named(const char* tool, const char* name, struct hair_scene* scene)
+{
+    const char* text  = text_of(hair_builtin_scenes, name);
+    bool        style = !text && style_named(name) != HAIR_STYLE_COUNT;
+    if (style) text = hair_builtin_scenes[0].text;
+    if (!text) {
+        hair_complain(tool, "there is no scene %s; --help lists them", name);
+        return false;
+    }
+    json_t* root = load_builtin(tool, name, text);
+    if (!root) return false;
+    bool ok = read_scene(tool, name, root, scene);
+    json_decref(root);
+    return ok && (!style || hair_scene_set_style(tool, name, scene));
+}
+
+void hair_scene_print_names(FILE* file)
+{
+    fprintf(file, "Scenes:");
+    for (const struct hair_builtin* scene = hair_builtin_scenes; scene->name; ++scene)
+        fprintf(file, " %s", scene->name);
+    fprintf(file, "\nStyles, each a scene as well:");
+    for (int i = 0; i < HAIR_STYLE_COUNT; ++i) fprintf(file, " %s", hair_style_name((hair_style)i));
+    fprintf(file, "\nMotions:");
+    for (const struct hair_builtin* motion = hair_builtin_motions; motion->name; ++motion)
+        fprintf(file, " %s", motion->name);
+    fprintf(file, "\n");
+}
