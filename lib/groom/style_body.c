@@ -1,0 +1,101 @@
+// style_body.c - the bust under the built-in haircuts, as a smooth union of ellipsoids and capsules.
+// Based on: Quilez, "Distance functions" and "Smooth minimum"; proportions of an adult head, 0.23 m high.
+#include "lib/groom/style_body.h"
+
+#define BLEND 0.012f // Radius of the fillets between the parts. m.
+
+struct ellipsoid {
+    hair_vec3 center, axes;
+};
+
+struct capsule {
+    hair_vec3 a, b;
+    float     radius;
+};
+
+static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X, HAIR_SKULL_Y, HAIR_SKULL_Z}};
+static const struct ellipsoid jaw   = {{0, 1.560f, 0.038f}, {0.056f, 0.068f, 0.058f}};
+static const struct ellipsoid chest = {{0, 1.270f, -0.010f}, {0.165f, 0.150f, 0.105f}};
+static const struct ellipsoid face  = {{0, 1.565f, 0.085f}, {0.052f, 0.120f, 0.060f}};
+
+// On the left side; the bust is symmetrical, so they are met by |x|.
+static const struct capsule neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.050f};
+static const struct capsule shoulder = {{0.030f, 1.440f, -0.030f}, {0.155f, 1.375f, -0.025f}, 0.045f};
+static const struct capsule arm      = {{0.160f, 1.360f, -0.025f}, {0.180f, 1.220f, -0.020f}, 0.042f};
+
+// First order: |p/a| (|p/a| - 1) / |p/a^2|, exact on the surface.
+static float ellipsoid_distance(const struct ellipsoid* e, hair_vec3 p)
+{
+    hair_vec3 q     = hair_sub(p, e->center);
+    hair_vec3 once  = {q.x / e->axes.x, q.y / e->axes.y, q.z / e->axes.z};
+    hair_vec3 twice = {once.x / e->axes.x, once.y / e->axes.y, once.z / e->axes.z};
+    float     k     = hair_length(once);
+    float     slope = hair_length(twice);
+    return slope > 1e-6f ? k * (k - 1) / slope : -fminf(e->axes.x, fminf(e->axes.y, e->axes.z));
+}
+
+static float capsule_distance(const struct capsule* c, hair_vec3 p)
+{
+    hair_vec3 axis = hair_sub(c->b, c->a);
+    float     t    = hair_dot(hair_sub(p, c->a), axis) / hair_dot(axis, axis);
+    return hair_distance(p, hair_lerp(c->a, c->b, fminf(fmaxf(t, 0), 1))) - c->radius;
+}
+
+static float blend(float a, float b)
+{
+    float h = fmaxf(BLEND - fabsf(a - b), 0) / BLEND;
+    return fminf(a, b) - h * h * BLEND * 0.25f;
+}
+
+hair_vec3 hair_skull_point(hair_vec3 unit)
+{
+    return (hair_vec3){HAIR_SKULL_X * unit.x, HAIR_SKULL_HEIGHT + HAIR_SKULL_Y * unit.y,
+                       HAIR_SKULL_Z * unit.z};
+}
+
+hair_vec3 hair_skull_unit(hair_vec3 p)
+{
+    hair_vec3 q = {p.x / HAIR_SKULL_X, (p.y - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y, p.z / HAIR_SKULL_Z};
+    return hair_normalize(q, hair_v3(0, 1, 0));
+}
+
+hair_vec3 hair_skull_normal(hair_vec3 p)
+{
+    hair_vec3 u = hair_skull_unit(p);
+    return hair_normalize(hair_v3(u.x / HAIR_SKULL_X, u.y / HAIR_SKULL_Y, u.z / HAIR_SKULL_Z), u);
+}
+
+float hair_body_distance(hair_vec3 p)
+{
+    hair_vec3 m = {fabsf(p.x), p.y, p.z};
+    float     d = capsule_distance(&neck, m);
+    d           = blend(d, ellipsoid_distance(&jaw, m));
+    d           = blend(d, capsule_distance(&shoulder, m));
+    d           = blend(d, capsule_distance(&arm, m));
+    d           = blend(d, ellipsoid_distance(&chest, m));
+    return fminf(d, ellipsoid_distance(&skull, m)); // No fillet here: roots stay on the surface.
+}
+
+static hair_vec3 gradient(float (*distance)(hair_vec3), hair_vec3 p)
+{
+    const float h = 5e-4f;
+    hair_vec3   g = {distance(hair_v3(p.x + h, p.y, p.z)) - distance(hair_v3(p.x - h, p.y, p.z)),
+                     distance(hair_v3(p.x, p.y + h, p.z)) - distance(hair_v3(p.x, p.y - h, p.z)),
+                     distance(hair_v3(p.x, p.y, p.z + h)) - distance(hair_v3(p.x, p.y, p.z - h))};
+    return hair_normalize(g, hair_v3(0, 1, 0));
+}
+
+hair_vec3 hair_body_normal(hair_vec3 p)
+{
+    return gradient(hair_body_distance, p);
+}
+
+float hair_face_distance(hair_vec3 p)
+{
+    return ellipsoid_distance(&face, p);
+}
+
+hair_vec3 hair_face_normal(hair_vec3 p)
+{
+    return gradient(hair_face_distance, p);
+}

@@ -1,0 +1,320 @@
+// style_scalp.c - an even mesh of the hair-bearing part of the skull: outline, inner vertices, triangles.
+//
+// The outline is spaced evenly along the hairline (and along the parting, there and back); inner vertices are
+// put where the largest gap is, then moved to the middle of their triangles a few times.
+// Based on: Gonzalez 1985, "Clustering to minimize the maximum intercluster distance" (farthest points).
+#include "lib/groom/style_scalp.h"
+#include "lib/groom/style_body.h"
+
+#include <string.h>
+
+#define PI 3.14159265f
+#define FINE 1024            // Samples of the hairline that the outline is measured by.
+#define CANDIDATES 12        // Places tried per vertex.
+#define RELAXATIONS 6        // The spacing of 166 vertices is even to a fifth after as many.
+#define PARTING_HALF 0.0016f // Half its width at the hairline, m: a comb's line.
+
+struct build {
+    const hair_host*    host;
+    struct hair_parting parting;
+    uint32_t            seed;
+    float               spacing;
+    struct hair_scalp   scalp;
+    uint32_t            outline_count; // vertices, first in the scalp, clockwise seen from above
+    hair_vec3*          candidates;
+    float*              gap; // from each candidate to the nearest vertex
+    uint32_t            candidate_count;
+    hair_vec3*          sum; // of the middles of a vertex's triangles, by area
+    float*              area;
+    double*             plane;
+};
+
+// Azimuth in degrees, height in metres: forehead, the corner above the temple, sideburn, round the ear, nape.
+static const float hairline[][2] = {{0, 1.689f},   {22, 1.690f},  {40, 1.691f},  {52, 1.676f},
+                                    {62, 1.650f},  {71, 1.622f},  {80, 1.610f},  {89, 1.624f},
+                                    {98, 1.636f},  {108, 1.630f}, {117, 1.604f}, {127, 1.575f},
+                                    {142, 1.558f}, {160, 1.553f}, {180, 1.552f}};
+#define HAIRLINE_KNOTS ((int)(sizeof hairline / sizeof *hairline))
+
+float hair_scalp_hairline(float azimuth)
+{
+    float degrees = fabsf(remainderf(azimuth, 2 * PI)) * (180 / PI);
+    int   i       = 0;
+    while (i < HAIRLINE_KNOTS - 2 && hairline[i + 1][0] < degrees) ++i;
+    // Catmull and Rom 1974, with level ends.
+    float p = hairline[i > 0 ? i - 1 : 1][1], q = hairline[i][1], r = hairline[i + 1][1];
+    float s = hairline[i + 2 < HAIRLINE_KNOTS ? i + 2 : i][1];
+    float t = (degrees - hairline[i][0]) / (hairline[i + 1][0] - hairline[i][0]);
+    return q + 0.5f * t * (r - p + t * (2 * p - 5 * q + 4 * r - s + t * (3 * (q - r) + s - p)));
+}
+
+static hair_vec3 hairline_point(float azimuth)
+{
+    float y = (hair_scalp_hairline(azimuth) - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y;
+    float r = sqrtf(1 - y * y);
+    return hair_skull_point(hair_v3(r * sinf(azimuth), y, r * cosf(azimuth)));
+}
+
+static int bears_hair(hair_vec3 unit)
+{
+    return hair_skull_point(unit).y > hair_scalp_hairline(atan2f(unit.x, unit.z));
+}
+
+// Outline --------------------------------------------------------------------------------------------------
+
+static void add_vertex(struct build* build, hair_vec3 p)
+{
+    hair_store3(build->scalp.positions + 3 * build->scalp.vertex_count++, p);
+}
+
+// Azimuth at which the parting meets the hairline, on either side of it.
+static float parting_azimuth(const struct build* build, float side)
+{
+    float x       = build->parting.front + side * PARTING_HALF;
+    float azimuth = 0;
+    for (int i = 0; i < 4;
+         ++i) { // The hairline is nearly level there: a few turns settle it to a micrometre.
+        float y = (hair_scalp_hairline(azimuth) - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y;
+        azimuth = asinf(x / (HAIR_SKULL_X * sqrtf(1 - y * y)));
+    }
+    return azimuth;
+}
+
+static uint32_t pieces(float length, float spacing, uint32_t least)
+{
+    uint32_t count = (uint32_t)(length / spacing + 0.5f);
+    return count > least ? count : least;
+}
+
+// From one azimuth up to another. Adds the first end and not the last.
+static void add_hairline(struct build* build, float from, float to)
+{
+    float     along[FINE + 1] = {0};
+    hair_vec3 last            = hairline_point(from);
+    for (int i = 1; i <= FINE; ++i) {
+        hair_vec3 p = hairline_point(from + (to - from) * (float)i / FINE);
+        along[i]    = along[i - 1] + hair_distance(p, last);
+        last        = p;
+    }
+    uint32_t count = pieces(along[FINE], build->spacing, 7);
+    int      i     = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        float target = along[FINE] * (float)k / (float)count;
+        while (along[i + 1] < target) ++i;
+        float t = ((float)i + (target - along[i]) / (along[i + 1] - along[i])) / FINE;
+        add_vertex(build, hairline_point(from + (to - from) * t));
+    }
+}
+
+float hair_parting_x(struct hair_parting parting, float z)
+{
+    float t = (HAIR_PARTING_FRONT_Z - z) / (HAIR_PARTING_FRONT_Z - parting.crown_z);
+    return parting.front + (parting.crown - parting.front) * fminf(fmaxf(t, 0), 1);
+}
+
+// t: 0 at the hairline, 1 at the crown; side: -1, 1, or 0 for the line itself.
+static hair_vec3 parting_point(const struct build* build, float t, float side)
+{
+    float front = hairline_point(parting_azimuth(build, side)).z;
+    float z     = front + (build->parting.crown_z - front) * t;
+    float x     = (hair_parting_x(build->parting, z) + side * PARTING_HALF) / HAIR_SKULL_X;
+    z /= HAIR_SKULL_Z;
+    return hair_skull_point(hair_v3(x, sqrtf(1 - x * x - z * z), z));
+}
+
+static void add_outline(struct build* build)
+{
+    uint32_t seed = build->seed;
+    if (!build->parting.exists) {
+        float start = 2 * PI * hair_random(&seed);
+        add_hairline(build, start - 2 * PI, start);
+        build->outline_count = build->scalp.vertex_count;
+        return;
+    }
+    add_hairline(build, parting_azimuth(build, 1), 2 * PI + parting_azimuth(build, -1));
+    float    length = hair_distance(parting_point(build, 0, 0), parting_point(build, 1, 0));
+    uint32_t count  = pieces(length, build->spacing, 1);
+    for (uint32_t k = 0; k < count; ++k) add_vertex(build, parting_point(build, (float)k / (float)count, -1));
+    add_vertex(build, parting_point(build, 1, 0));
+    for (uint32_t k = count - 1; k > 0; --k)
+        add_vertex(build, parting_point(build, (float)k / (float)count, 1));
+    build->outline_count = build->scalp.vertex_count;
+}
+
+// Inner vertices -------------------------------------------------------------------------------------------
+
+// Evenly by area: a direction is kept in proportion to how much the skull stretches the sphere there.
+static void draw_candidates(struct build* build, float* share)
+{
+    const float most = HAIR_SKULL_Y * HAIR_SKULL_Z;
+    uint32_t    seed = hair_hash(build->seed + 17u), tried = 0, kept = 0;
+    while (kept < build->candidate_count) {
+        float     y = 2 * hair_random(&seed) - 1, azimuth = 2 * PI * hair_random(&seed);
+        float     r       = sqrtf(fmaxf(1 - y * y, 0));
+        hair_vec3 unit    = {r * sinf(azimuth), y, r * cosf(azimuth)};
+        hair_vec3 stretch = {HAIR_SKULL_Y * HAIR_SKULL_Z * unit.x, HAIR_SKULL_X * HAIR_SKULL_Z * unit.y,
+                             HAIR_SKULL_X * HAIR_SKULL_Y * unit.z};
+        ++tried;
+        if (hair_random(&seed) * most > hair_length(stretch) || !bears_hair(unit)) continue;
+        build->candidates[kept++] = hair_skull_point(unit);
+    }
+    *share = (float)kept / (float)tried;
+}
+
+static void shrink_gaps(struct build* build, uint32_t vertex)
+{
+    hair_vec3 p = hair_load3(build->scalp.positions + 3 * vertex);
+    for (uint32_t i = 0; i < build->candidate_count; ++i) {
+        hair_vec3 d   = hair_sub(build->candidates[i], p);
+        build->gap[i] = fminf(build->gap[i], hair_dot(d, d));
+    }
+}
+
+static void fill_gaps(struct build* build, uint32_t vertex_count)
+{
+    for (uint32_t i = 0; i < build->candidate_count; ++i) build->gap[i] = INFINITY;
+    for (uint32_t i = 0; i < build->outline_count; ++i) shrink_gaps(build, i);
+    while (build->scalp.vertex_count < vertex_count) {
+        uint32_t widest = 0;
+        for (uint32_t i = 1; i < build->candidate_count; ++i)
+            if (build->gap[i] > build->gap[widest]) widest = i;
+        add_vertex(build, build->candidates[widest]);
+        shrink_gaps(build, build->scalp.vertex_count - 1);
+    }
+}
+
+// Triangles ------------------------------------------------------------------------------------------------
+
+// Seen from below through the sphere, which keeps angles and has all of the scalp on the near side; the first
+// coordinate is z, so that counter-clockwise in the plane is counter-clockwise from outside.
+static void project(struct build* build)
+{
+    for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
+        hair_vec3 u             = hair_skull_unit(hair_load3(build->scalp.positions + 3 * i));
+        build->plane[2 * i]     = (double)u.z / (1.0 + (double)u.y);
+        build->plane[2 * i + 1] = (double)u.x / (1.0 + (double)u.y);
+    }
+}
+
+static int is_inside_outline(const struct build* build, double x, double y)
+{
+    int inside = 0;
+    for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
+        const double *p = build->plane + 2 * i, *q = build->plane + 2 * j;
+        if ((p[1] > y) != (q[1] > y) && x < p[0] + (q[0] - p[0]) * (y - p[1]) / (q[1] - p[1]))
+            inside = !inside;
+    }
+    return inside;
+}
+
+static hair_result triangulate(struct build* build)
+{
+    uint32_t* triangles = build->scalp.triangles;
+    project(build);
+    uint32_t count = hair_triangulate(build->host, build->plane, build->scalp.vertex_count, triangles);
+    if (!count) return hair_fail_memory(build->host, "the scalp's triangles");
+
+    build->scalp.triangle_count = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        const double* p = build->plane + 2 * (size_t)triangles[3 * i];
+        const double* q = build->plane + 2 * (size_t)triangles[3 * i + 1];
+        const double* r = build->plane + 2 * (size_t)triangles[3 * i + 2];
+        if (is_inside_outline(build, (p[0] + q[0] + r[0]) / 3, (p[1] + q[1] + r[1]) / 3))
+            memmove(triangles + 3 * build->scalp.triangle_count++, triangles + 3 * i, 3 * sizeof *triangles);
+    }
+    return HAIR_OK;
+}
+
+static void relax(struct build* build)
+{
+    memset(build->sum, 0, build->scalp.vertex_count * sizeof *build->sum);
+    memset(build->area, 0, build->scalp.vertex_count * sizeof *build->area);
+    for (uint32_t i = 0; i < build->scalp.triangle_count; ++i) {
+        const uint32_t* corner = build->scalp.triangles + 3 * i;
+        hair_vec3       a      = hair_load3(build->scalp.positions + 3 * corner[0]);
+        hair_vec3       b      = hair_load3(build->scalp.positions + 3 * corner[1]);
+        hair_vec3       c      = hair_load3(build->scalp.positions + 3 * corner[2]);
+        float           area   = hair_length(hair_cross(hair_sub(b, a), hair_sub(c, a)));
+        hair_vec3       middle = hair_scale(hair_add(a, hair_add(b, c)), area / 3);
+        for (int k = 0; k < 3; ++k) {
+            build->sum[corner[k]] = hair_add(build->sum[corner[k]], middle);
+            build->area[corner[k]] += area;
+        }
+    }
+    for (uint32_t i = build->outline_count; i < build->scalp.vertex_count; ++i)
+        if (build->area[i] > 0)
+            hair_store3(build->scalp.positions + 3 * i,
+                        hair_skull_point(hair_skull_unit(hair_scale(build->sum[i], 1 / build->area[i]))));
+}
+
+// Whole ----------------------------------------------------------------------------------------------------
+
+// In a hexagonal lattice a vertex has sqrt(3)/2 spacing^2 to itself; one on the outline has half of that.
+static void choose_spacing(struct build* build, float area, uint32_t vertex_count)
+{
+    build->spacing = sqrtf(area * 1.1547f / (float)vertex_count);
+    for (int i = 0; i < 8; ++i) {
+        build->scalp.vertex_count = 0;
+        add_outline(build);
+        float inner =
+            fmaxf((float)vertex_count - 0.5f * (float)build->outline_count, 0.3f * (float)vertex_count);
+        build->spacing = sqrtf(area * 1.1547f / inner);
+    }
+    build->scalp.vertex_count = 0;
+    add_outline(build);
+}
+
+static hair_result fill(struct build* build, uint32_t vertex_count)
+{
+    float share;
+    draw_candidates(build, &share);
+    // Of the area that the least stretched box of directions would have, all of it hair.
+    float area = share * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
+    choose_spacing(build, area, vertex_count);
+    fill_gaps(build, vertex_count);
+    hair_result result = triangulate(build);
+    for (int i = 0; i < RELAXATIONS && !result; ++i) {
+        relax(build);
+        result = triangulate(build);
+    }
+    return result;
+}
+
+hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struct hair_parting parting,
+                             uint32_t seed, struct hair_scalp* out)
+{
+    struct build build = {.host = host, .parting = parting, .seed = seed};
+    size_t       most  = (size_t)vertex_count + 64; // The outline of the fewest vertices may outnumber them.
+    build.candidate_count = CANDIDATES * vertex_count + 2048;
+    build.scalp.positions = hair_alloc(host, most, 3 * sizeof(float));
+    build.scalp.triangles = hair_alloc(host, 2 * most, 3 * sizeof(uint32_t));
+    build.candidates      = hair_alloc(host, build.candidate_count, sizeof(hair_vec3));
+    build.gap             = hair_alloc(host, build.candidate_count, sizeof(float));
+    build.sum             = hair_alloc(host, most, sizeof(hair_vec3));
+    build.area            = hair_alloc(host, most, sizeof(float));
+    build.plane           = hair_alloc(host, 2 * most, sizeof(double));
+
+    hair_result result = HAIR_OK;
+    if (!build.scalp.positions || !build.scalp.triangles || !build.candidates || !build.gap || !build.sum ||
+        !build.area || !build.plane)
+        result = hair_fail_memory(host, "the scalp");
+    else
+        result = fill(&build, vertex_count);
+
+    hair_free(host, build.plane);
+    hair_free(host, build.area);
+    hair_free(host, build.sum);
+    hair_free(host, build.gap);
+    hair_free(host, build.candidates);
+    if (result)
+        hair_scalp_free(host, &build.scalp);
+    else
+        *out = build.scalp;
+    return result;
+}
+
+void hair_scalp_free(const hair_host* host, struct hair_scalp* scalp)
+{
+    hair_free(host, scalp->triangles);
+    hair_free(host, scalp->positions);
+}
