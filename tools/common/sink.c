@@ -94,16 +94,9 @@ static bool open_video(struct hair_sink* sink, double fps)
     return hair_y4m_begin(file, sink->width, sink->height, fps) || broke(sink);
 }
 
-bool hair_sink_open(struct hair_sink* sink, uint32_t width, uint32_t height, double fps)
+bool hair_sink_open(struct hair_sink* sink, double fps)
 {
-    sink->width  = width;
-    sink->height = height;
     if (sink->kind == HAIR_SINK_NONE || sink->number) return true;
-    if (sink->kind == HAIR_SINK_MP4 && (width % 2 || height % 2)) {
-        hair_complain(sink->tool, "%s needs an even width and height, not %u x %u", sink->path, width,
-                      height);
-        return false;
-    }
     if (!hair_output_open(sink->tool, sink->path, &sink->output)) return false;
     if (sink->kind == HAIR_SINK_PNG || sink->kind == HAIR_SINK_EXR || open_video(sink, fps)) return true;
     hair_sink_discard(sink);
