@@ -162,8 +162,8 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
-    HAIR_GL_CLOBBER      ///< It may change: program, vertex array, storage buffers 0-7, uniform buffers 0-1,
-                         ///< textures of units 0-7, patch vertices, blend, depth mask, cull, polygon mode.
+    HAIR_GL_CLOBBER      ///< It may change: program, vertex array, patch vertices, face culling, storage buffers 0-6,
+                         ///< uniform buffers 0-1, buffer textures of units 0-4, 2D texture and sampler of unit 5.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
