@@ -1,0 +1,189 @@
+// cloud.c - points sorted into halves, and the tree of halves searched for the nearest.
+#include "lib/groom/cloud.h"
+
+#include "lib/base/math.h"
+
+#include <float.h>
+#include <stdbool.h>
+
+#define LEAF 8 // Points that are scanned rather than split; from 4 to 16 the time of a search is flat.
+
+static float coordinate(struct hair_cloud cloud, uint32_t point, uint32_t axis)
+{
+    return cloud.points[(size_t)point * cloud.dimensions + axis];
+}
+
+static void swap(uint32_t* order, uint32_t i, uint32_t j)
+{
+    uint32_t kept = order[i];
+    order[i]      = order[j];
+    order[j]      = kept;
+}
+
+uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint32_t count)
+{
+    float lower[HAIR_CLOUD_DIMENSIONS], upper[HAIR_CLOUD_DIMENSIONS];
+    for (uint32_t axis = 0; axis < cloud.dimensions; ++axis) {
+        lower[axis] = FLT_MAX;
+        upper[axis] = -FLT_MAX;
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        for (uint32_t axis = 0; axis < cloud.dimensions; ++axis) {
+            float x     = coordinate(cloud, order[i], axis);
+            lower[axis] = fminf(lower[axis], x);
+            upper[axis] = fmaxf(upper[axis], x);
+        }
+    uint32_t widest = 0;
+    for (uint32_t axis = 1; axis < cloud.dimensions; ++axis)
+        if (upper[axis] - lower[axis] > upper[widest] - lower[widest]) widest = axis;
+    return widest;
+}
+
+// Points [low, equal) lie before the pivot, [equal, after) on it, [after, high) behind it.
+struct thirds {
+    uint32_t equal, after;
+    uint64_t weight_before, weight_equal;
+};
+
+static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t low, uint32_t high,
+                            uint32_t axis, const uint32_t* weights)
+{
+    // A pivot at random, so that no order of the points is slow.
+    uint32_t      at     = low + hair_hash(low ^ hair_hash(high)) % (high - low);
+    float         pivot  = coordinate(cloud, order[at], axis);
+    struct thirds thirds = {.equal = low, .after = high};
+    for (uint32_t i = low; i < thirds.after;) {
+        float    x      = coordinate(cloud, order[i], axis);
+        uint32_t weight = weights ? weights[order[i]] : 1;
+        if (x < pivot) {
+            thirds.weight_before += weight;
+            swap(order, i++, thirds.equal++);
+        } else if (x > pivot) {
+            swap(order, i, --thirds.after);
+        } else {
+            thirds.weight_equal += weight;
+            ++i;
+        }
+    }
+    return thirds;
+}
+
+uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t count, uint32_t axis,
+                          const uint32_t* weights, uint64_t target)
+{
+    // Hoare's selection: only the part where the target falls is divided further.
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        struct thirds thirds = divide(cloud, order, low, high, axis, weights);
+        if (thirds.weight_before > target) {
+            high = thirds.equal;
+            continue;
+        }
+        target -= thirds.weight_before;
+        if (thirds.weight_equal <= target) {
+            target -= thirds.weight_equal;
+            low = thirds.after;
+            continue;
+        }
+        low = thirds.equal;
+        for (uint32_t i = low; i < thirds.after; ++i) {
+            uint32_t weight = weights ? weights[order[i]] : 1;
+            if (weight > target) break;
+            target -= weight;
+            ++low;
+        }
+        break;
+    }
+    if (low == 0) return 1;
+    return low < count ? low : count - 1;
+}
+
+static void plant(struct hair_tree* tree, uint32_t low, uint32_t high)
+{
+    while (high - low > LEAF) {
+        uint32_t middle = low + (high - low) / 2;
+        uint32_t axis   = hair_cloud_widest(tree->cloud, tree->order + low, high - low);
+        hair_cloud_split(tree->cloud, tree->order + low, high - low, axis, NULL, middle - low);
+        tree->axis[middle] = (uint8_t)axis;
+        plant(tree, low, middle);
+        low = middle;
+    }
+}
+
+hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint32_t count,
+                            struct hair_tree* tree)
+{
+    *tree       = (struct hair_tree){.cloud = cloud, .count = count};
+    tree->order = hair_alloc(host, count, sizeof *tree->order);
+    tree->axis  = hair_alloc(host, count, sizeof *tree->axis);
+    if (!tree->order || !tree->axis) {
+        hair_tree_free(host, tree);
+        return hair_fail_memory(host, "the search for near strands");
+    }
+    for (uint32_t i = 0; i < count; ++i) tree->order[i] = i;
+    plant(tree, 0, count);
+    return HAIR_OK;
+}
+
+void hair_tree_free(const hair_host* host, struct hair_tree* tree)
+{
+    hair_free(host, tree->order);
+    hair_free(host, tree->axis);
+    *tree = (struct hair_tree){0};
+}
+
+struct search {
+    const struct hair_tree* tree;
+    const float*            point;
+    struct hair_near*       near;
+    uint32_t                found, wanted;
+};
+
+static float farthest(const struct search* search)
+{
+    return search->found < search->wanted ? FLT_MAX : search->near[search->found - 1].squared;
+}
+
+static void consider(struct search* search, uint32_t index)
+{
+    const struct hair_cloud cloud   = search->tree->cloud;
+    float                   limit   = farthest(search);
+    float                   squared = 0;
+    for (uint32_t axis = 0; axis < cloud.dimensions && squared <= limit; ++axis) {
+        float d = coordinate(cloud, index, axis) - search->point[axis];
+        squared += d * d;
+    }
+    if (!(squared < limit)) return;
+    for (uint32_t i = 0; i < search->found; ++i)
+        if (search->near[i].index == index) return; // Known from before the search.
+    if (search->found < search->wanted) ++search->found;
+    uint32_t i = search->found - 1;
+    for (; i > 0 && search->near[i - 1].squared > squared; --i) search->near[i] = search->near[i - 1];
+    search->near[i] = (struct hair_near){index, squared};
+}
+
+static void descend(struct search* search, uint32_t low, uint32_t high)
+{
+    const struct hair_tree* tree = search->tree;
+    while (high - low > LEAF) {
+        uint32_t middle = low + (high - low) / 2;
+        uint32_t axis   = tree->axis[middle];
+        float    d      = search->point[axis] - coordinate(tree->cloud, tree->order[middle], axis);
+        bool     front  = d < 0;
+        descend(search, front ? low : middle, front ? middle : high);
+        if (d * d >= farthest(search)) return;
+        if (front)
+            low = middle;
+        else
+            high = middle;
+    }
+    for (uint32_t i = low; i < high; ++i) consider(search, tree->order[i]);
+}
+
+uint32_t hair_tree_nearest(const struct hair_tree* tree, const float* point, struct hair_near* near,
+                           uint32_t found, uint32_t wanted)
+{
+    struct search search = {tree, point, near, found, wanted};
+    descend(&search, 0, tree->count);
+    return search.found;
+}

@@ -1,0 +1,81 @@
+// grow.c - followers that are not given: of guides themselves, and around them where there is no scalp.
+#include "lib/groom/draft.h"
+
+#define GOLDEN_ANGLE 2.39996323f
+
+uint32_t hair_sprout_random(const struct hair_draft* draft, uint32_t sprout)
+{
+    return hair_hash(sprout ^ hair_hash(draft->desc->seed));
+}
+
+struct hair_follower hair_own_follower(uint32_t guide, uint32_t* random)
+{
+    struct hair_follower follower = {.guide0 = guide, .guide1 = guide, .guide2 = guide, .length_ratio = 1};
+    follower.seed                 = hair_hash(*random);
+    follower.offset[0].w          = 0.8f + 0.4f * hair_random(random); // Diameters on one head vary about so.
+    return follower;
+}
+
+// Most strands are about as long as their guide; one in twenty-five is much shorter: hair grows anew.
+static float draw_length(uint32_t* random)
+{
+    if (hair_random(random) < 0.04f) return 0.6f + 0.25f * hair_random(random);
+    return 0.85f + 0.15f * hair_random(random);
+}
+
+struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint32_t* random)
+{
+    static const float   share[4] = {1, 0.8f, 0.5f, 0.25f}; // Of the offset, from root to tip: a clump.
+    struct hair_follower follower = hair_own_follower(guide, random);
+    float deviation       = 0.12f * hair_length(offset); // From the profile, so that clumps are not cones.
+    follower.length_ratio = draw_length(random);
+    for (int i = 0; i < 4; ++i) {
+        float x              = i ? deviation * (2 * hair_random(random) - 1) : 0;
+        float z              = i ? deviation * (2 * hair_random(random) - 1) : 0;
+        follower.offset[i].x = share[i] * offset.x + x;
+        follower.offset[i].y = share[i] * offset.y;
+        follower.offset[i].z = share[i] * offset.z + z;
+    }
+    return follower;
+}
+
+hair_result hair_guide_sprouts(struct hair_draft* draft)
+{
+    uint32_t    guides = draft->groom->info.guide_count;
+    uint64_t    wanted = draft->desc->follower_count ? draft->desc->follower_count : guides;
+    hair_result result = hair_guide_plots(draft);
+    if (result) return result;
+    for (uint32_t i = 0; i < guides; ++i)
+        draft->plot_sprouts[i] = (uint32_t)(wanted * (i + 1) / guides - wanted * i / guides);
+    hair_number_sprouts(draft);
+    return HAIR_OK;
+}
+
+// The i-th of `count` offsets in a disc at right angles to the guide: Vogel's spiral, the first in the middle, with
+// the radii of a normal distribution cut off at two standard deviations, the disc's edge.
+static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
+{
+    float edge  = 1 - expf(-2);
+    float r     = 0.5f * radius * sqrtf(-2 * logf(1 - edge * (float)i / (float)count));
+    float angle = turn + GOLDEN_ANGLE * (float)(i % 65536); // Beyond, floats lose the angle.
+    return hair_v3(r * cosf(angle), 0, r * sinf(angle));
+}
+
+hair_result hair_guide_followers(struct hair_draft* draft)
+{
+    struct hair_groom* groom = draft->groom;
+    for (uint32_t guide = 0; guide < draft->plot_count; ++guide) {
+        uint32_t count = draft->plot_sprouts[guide];
+        uint32_t turns = hair_sprout_random(draft, guide);
+        float    turn  = 6.2831853f * hair_random(&turns);
+        for (uint32_t i = 0; i < count; ++i) {
+            uint32_t              sprout   = draft->plot_first[guide] + i;
+            uint32_t              random   = hair_sprout_random(draft, sprout);
+            hair_vec3             offset   = spiral(i, count, draft->desc->clump_radius, turn);
+            struct hair_follower* follower = &groom->followers[draft->place[sprout]];
+            *follower = draft->desc->follower_count ? hair_grown_follower(guide, offset, &random)
+                                                    : hair_own_follower(guide, &random);
+        }
+    }
+    return HAIR_OK;
+}

@@ -1,0 +1,158 @@
+// guides.c - which strands are simulated.
+//
+// Of full strands the guides are chosen so that they represent the haircut. The marks of a strand make it a point
+// of 12 dimensions; the distance of two points is how far two strands lie apart along their length. The set is cut
+// in two at the mean of the axis along which it varies most, and each half again, down to one guide per cell: the
+// strand nearest to the mean of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
+#include "lib/groom/draft.h"
+
+#include <float.h>
+#include <string.h>
+
+#define AXES (3 * HAIR_MARKS)
+#define DEEPEST 48 // Cuts by the mean, after which sets are halved: bounds the recursion on any input.
+
+_Static_assert(AXES <= HAIR_CLOUD_DIMENSIONS, "a strand's marks are one point");
+
+struct choice {
+    const float* marks;
+    uint32_t*    chosen;
+    uint32_t*    owner;
+    uint32_t     found;
+};
+
+// A set of strands, its mean, and the sum of squared distances from the mean along each axis.
+struct cell {
+    uint32_t* order;
+    uint32_t  count;
+    double    mean[AXES], squared[AXES];
+};
+
+static struct cell measure(const struct choice* choice, uint32_t* order, uint32_t count)
+{
+    struct cell cell = {.order = order, .count = count};
+    for (uint32_t i = 0; i < count; ++i)
+        for (int a = 0; a < AXES; ++a)
+            cell.mean[a] += (double)choice->marks[AXES * (size_t)order[i] + (size_t)a];
+    for (int a = 0; a < AXES; ++a) cell.mean[a] /= count;
+    for (uint32_t i = 0; i < count; ++i)
+        for (int a = 0; a < AXES; ++a) {
+            double d = (double)choice->marks[AXES * (size_t)order[i] + (size_t)a] - cell.mean[a];
+            cell.squared[a] += d * d;
+        }
+    return cell;
+}
+
+// How many guides a cell deserves, up to a factor. The error of the best n representatives of a density f in d
+// dimensions is least when they lie as f^(d/(d+2)) (Zador 1982); for a cell of `count` strands about r apart that
+// is count^(d/(d+2)) (r^d)^(2/(d+2)), and with d = 4, two for the root and two for the shape, (count r^2)^(2/3).
+static double weigh(const struct cell* cell)
+{
+    double sum = 0;
+    for (int a = 0; a < AXES; ++a) sum += cell->squared[a];
+    return cbrt(sum * sum);
+}
+
+static void make_guide(struct choice* choice, const struct cell* cell)
+{
+    double   least   = DBL_MAX;
+    uint32_t nearest = cell->order[0];
+    for (uint32_t i = 0; i < cell->count; ++i) {
+        double squared = 0;
+        for (int a = 0; a < AXES; ++a) {
+            double d = (double)choice->marks[AXES * (size_t)cell->order[i] + (size_t)a] - cell->mean[a];
+            squared += d * d;
+        }
+        if (squared < least) {
+            least   = squared;
+            nearest = cell->order[i];
+        }
+        choice->owner[cell->order[i]] = choice->found;
+    }
+    choice->chosen[choice->found++] = nearest;
+}
+
+static uint32_t widest(const struct cell* cell)
+{
+    uint32_t axis = 0;
+    for (uint32_t a = 1; a < AXES; ++a)
+        if (cell->squared[a] > cell->squared[axis]) axis = a;
+    return axis;
+}
+
+// Strands before the mean to the front. Returns how many.
+static uint32_t cut(const struct choice* choice, const struct cell* cell)
+{
+    uint32_t axis = widest(cell), front = 0;
+    for (uint32_t i = 0; i < cell->count; ++i) {
+        uint32_t strand = cell->order[i];
+        if ((double)choice->marks[AXES * (size_t)strand + axis] >= cell->mean[axis]) continue;
+        cell->order[i]       = cell->order[front];
+        cell->order[front++] = strand;
+    }
+    return front;
+}
+
+// Of `guides`, those for the first of two cells: no cell without, and none with more than it has strands.
+static uint32_t share_out(const struct cell* front, const struct cell* back, uint32_t guides)
+{
+    double a = weigh(front), b = weigh(back);
+    if (!(a + b > 0)) a = front->count, b = back->count;
+    uint32_t wanted = (uint32_t)(guides * (a / (a + b)) + 0.5);
+    uint32_t least  = guides > back->count ? guides - back->count : 1;
+    uint32_t most   = guides - 1 < front->count ? guides - 1 : front->count;
+    return wanted < least ? least : wanted > most ? most : wanted;
+}
+
+static void choose(struct choice* choice, const struct cell* cell, uint32_t guides, uint32_t depth)
+{
+    if (guides == 1) {
+        make_guide(choice, cell);
+        return;
+    }
+    uint32_t at = cut(choice, cell);
+    if (at == 0 || at == cell->count || depth > DEEPEST) at = cell->count / 2;
+    struct cell front = measure(choice, cell->order, at);
+    struct cell back  = measure(choice, cell->order + at, cell->count - at);
+    uint32_t    share = share_out(&front, &back, guides);
+    choose(choice, &front, share, depth + 1);
+    choose(choice, &back, guides - share, depth + 1);
+}
+
+static uint32_t count_guides(const struct hair_draft* draft)
+{
+    uint32_t strands = draft->strands.strand_count;
+    uint32_t wanted  = draft->desc->guide_count;
+    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES) return strands;
+    if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
+    if (wanted > UINT16_MAX) wanted = UINT16_MAX;
+    return wanted < strands ? wanted : strands;
+}
+
+static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
+{
+    uint32_t  count = draft->strands.strand_count;
+    uint32_t* order = hair_alloc(draft->host, count, sizeof *order);
+    draft->owner    = hair_alloc(draft->host, count, sizeof *draft->owner);
+    if (!order || !draft->owner) {
+        hair_free(draft->host, order);
+        return hair_fail_memory(draft->host, "the choice of guides");
+    }
+    for (uint32_t i = 0; i < count; ++i) order[i] = i;
+    struct choice choice = {.marks = draft->marks, .chosen = draft->chosen, .owner = draft->owner};
+    struct cell   all    = measure(&choice, order, count);
+    choose(&choice, &all, guides, 0);
+    hair_free(draft->host, order);
+    return HAIR_OK;
+}
+
+hair_result hair_draft_guides(struct hair_draft* draft)
+{
+    uint32_t guides                = count_guides(draft);
+    draft->groom->info.guide_count = guides;
+    draft->chosen                  = hair_alloc(draft->host, guides, sizeof *draft->chosen);
+    if (!draft->chosen) return hair_fail_memory(draft->host, "the choice of guides");
+    if (draft->desc->strands_are == HAIR_STRANDS_ALL) return choose_all(draft, guides);
+    for (uint32_t i = 0; i < guides; ++i) draft->chosen[i] = i;
+    return HAIR_OK;
+}

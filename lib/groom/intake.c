@@ -1,0 +1,160 @@
+// intake.c - the caller's strands and scalp, copied, checked, in metres and +y up.
+#include "lib/groom/draft.h"
+
+#include <string.h>
+
+#define FARTHEST 1e6f // m from the origin, as for strands.
+
+static hair_result count_vertices(const struct hair_draft* draft, uint32_t* out)
+{
+    const hair_groom_desc* desc = draft->desc;
+    uint64_t               sum  = 0; // 2^22 strands of 2^32 vertices fit.
+    for (uint32_t i = 0; i < desc->strand_count; ++i) sum += desc->strand_vertices[i];
+    if (sum > UINT32_MAX)
+        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.strand_vertices add up to %llu, not in [0, %u]",
+                         (unsigned long long)sum, UINT32_MAX);
+    *out = (uint32_t)sum;
+    return HAIR_OK;
+}
+
+static hair_result copy_strands(struct hair_draft* draft)
+{
+    const hair_groom_desc* desc    = draft->desc;
+    struct hair_strands*   strands = &draft->strands;
+    if (!desc->positions || !desc->strand_vertices)
+        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s is NULL",
+                         desc->positions ? "strand_vertices" : "positions");
+    hair_result result = count_vertices(draft, &strands->vertex_count);
+    if (result) return result;
+    strands->strand_count = desc->strand_count;
+    strands->positions    = hair_alloc(draft->host, strands->vertex_count, 3 * sizeof(float));
+    strands->vertices     = hair_alloc(draft->host, strands->strand_count, sizeof(uint32_t));
+    if (!strands->positions || !strands->vertices) return hair_fail_memory(draft->host, "strands");
+    memcpy(strands->positions, desc->positions, 3 * (size_t)strands->vertex_count * sizeof(float));
+    memcpy(strands->vertices, desc->strand_vertices, strands->strand_count * sizeof(uint32_t));
+    return HAIR_OK;
+}
+
+static hair_result clean(struct hair_draft* draft)
+{
+    hair_repairs* repairs = &draft->groom->info.repairs;
+    hair_result   result  = hair_strands_clean(draft->host, draft->import, &draft->strands, repairs);
+    if (result) return result;
+    if (draft->strands.strand_count == 0)
+        return hair_fail(
+            draft->host, HAIR_ERROR_ARGUMENT,
+            "hair_groom_desc.positions: none of %u strands can be used: %u have fewer than two vertices "
+            "left, %u are too short; %u vertices were not finite, %u repeated",
+            draft->desc->strand_count, repairs->dropped_single, repairs->dropped_short,
+            repairs->removed_nonfinite, repairs->removed_repeated);
+    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES && draft->strands.strand_count > UINT16_MAX)
+        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.strand_count: %u guides, not in [1, %u]",
+                         draft->strands.strand_count, UINT16_MAX);
+    return HAIR_OK;
+}
+
+// Where each strand begins, how long it is, and its marks.
+static void measure(struct hair_draft* draft)
+{
+    const struct hair_strands* strands = &draft->strands;
+    uint32_t                   first   = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        const float* p   = strands->positions + 3 * (size_t)first;
+        draft->first[i]  = first;
+        draft->length[i] = (float)hair_strand_length(p, strands->vertices[i]);
+        hair_strand_resample(p, strands->vertices[i], draft->marks + 3 * HAIR_MARKS * (size_t)i, HAIR_MARKS);
+        first += strands->vertices[i];
+    }
+}
+
+hair_result hair_draft_strands(struct hair_draft* draft)
+{
+    hair_result result = copy_strands(draft);
+    if (!result) result = clean(draft);
+    if (result) return result;
+    uint32_t count = draft->strands.strand_count;
+    draft->first   = hair_alloc(draft->host, count, sizeof *draft->first);
+    draft->length  = hair_alloc(draft->host, count, sizeof *draft->length);
+    draft->marks   = hair_alloc(draft->host, count, 3 * HAIR_MARKS * sizeof *draft->marks);
+    if (!draft->first || !draft->length || !draft->marks) return hair_fail_memory(draft->host, "strands");
+    measure(draft);
+    return HAIR_OK;
+}
+
+static hair_result check_arrays(const struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    if (!desc->scalp_triangles)
+        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.scalp_triangles is NULL, with a scalp");
+    if (!desc->scalp_vertex_count || !desc->scalp_triangle_count)
+        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s is 0, with a scalp",
+                         desc->scalp_vertex_count ? "scalp_triangle_count" : "scalp_vertex_count");
+    return HAIR_OK;
+}
+
+static hair_result check_triangles(const struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    for (size_t i = 0; i < 3 * (size_t)desc->scalp_triangle_count; ++i)
+        if (desc->scalp_triangles[i] >= desc->scalp_vertex_count)
+            return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_triangles[%zu] is %u, not in [0, %u]", i,
+                             desc->scalp_triangles[i], desc->scalp_vertex_count - 1);
+    return HAIR_OK;
+}
+
+static hair_result check_density(const struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    for (uint32_t i = 0; desc->scalp_density && i < desc->scalp_vertex_count; ++i)
+        if (!(desc->scalp_density[i] >= 0 && desc->scalp_density[i] <= 1))
+            return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_density[%u] is %g, not in [0, 1]", i,
+                             (double)desc->scalp_density[i]);
+    return HAIR_OK;
+}
+
+static hair_result place_scalp(struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    for (size_t i = 0; i < desc->scalp_vertex_count; ++i) {
+        const float* p  = desc->scalp_positions + 3 * i;
+        hair_vec3    at = hair_import_point(draft->import, hair_load3(p));
+        if (!(hair_length(at) <= FARTHEST)) // NaN too.
+            return hair_fail(
+                draft->host, HAIR_ERROR_ARGUMENT,
+                "hair_groom_desc.scalp_positions: vertex %zu is (%g, %g, %g), not within %g m of the origin",
+                i, (double)p[0], (double)p[1], (double)p[2], (double)FARTHEST);
+        hair_store3(draft->scalp + 3 * i, at);
+    }
+    return HAIR_OK;
+}
+
+static void average_density(struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    for (size_t i = 0; i < desc->scalp_triangle_count; ++i) {
+        const uint32_t* corner = desc->scalp_triangles + 3 * i;
+        const float*    share  = desc->scalp_density;
+        draft->density[i]      = share ? (share[corner[0]] + share[corner[1]] + share[corner[2]]) / 3 : 1;
+    }
+}
+
+hair_result hair_draft_scalp(struct hair_draft* draft)
+{
+    const hair_groom_desc* desc = draft->desc;
+    if (!desc->scalp_positions) return HAIR_OK;
+    hair_result result = check_arrays(draft);
+    if (!result) result = check_triangles(draft);
+    if (!result) result = check_density(draft);
+    if (result) return result;
+    draft->scalp   = hair_alloc(draft->host, desc->scalp_vertex_count, 3 * sizeof *draft->scalp);
+    draft->density = hair_alloc(draft->host, desc->scalp_triangle_count, sizeof *draft->density);
+    if (!draft->scalp || !draft->density) return hair_fail_memory(draft->host, "the scalp");
+    result = place_scalp(draft);
+    if (!result) average_density(draft);
+    return result;
+}

@@ -1,0 +1,125 @@
+// patches.c - followers in the order they are drawn: patches of neighbours, each well filled.
+//
+// Plots are cut in two along the axis where they reach farthest, where the sprouts before the cut fill whole
+// patches, and each half again until it fits into one (the packing of an R-tree: Leutenegger et al. 1997, "STR").
+#include "lib/groom/draft.h"
+
+#define ALIKE (1.0f / 16) // Densities that differ by no more may share a patch.
+
+struct layout {
+    struct hair_draft* draft;
+    struct hair_cloud  centres;
+    uint32_t*          queue; // sprouts in the order of their followers
+    uint32_t           queued;
+    struct hair_patch* patches;
+    uint32_t           patch_count;
+};
+
+static float density_of(const struct layout* layout, uint32_t plot)
+{
+    return layout->draft->plot_density ? layout->draft->plot_density[plot] : 1;
+}
+
+static uint64_t count_sprouts(const struct layout* layout, const uint32_t* order, uint32_t count)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < count; ++i) sum += layout->draft->plot_sprouts[order[i]];
+    return sum;
+}
+
+static bool are_alike(const struct layout* layout, const uint32_t* order, uint32_t count)
+{
+    float least = 1, most = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        float density = density_of(layout, order[i]);
+        if (density < least) least = density;
+        if (density > most) most = density;
+    }
+    return most - least <= ALIKE;
+}
+
+// Cutting off the end of a patch must thin it evenly.
+static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
+{
+    for (uint32_t i = count; i > 1; --i) {
+        uint32_t j   = (uint32_t)((double)hair_random(&random) * i);
+        uint32_t was = queue[i - 1];
+        queue[i - 1] = queue[j];
+        queue[j]     = was;
+    }
+}
+
+// Into one patch, or when they are more than it holds into the fewest of even size.
+static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
+{
+    const struct hair_draft* draft = layout->draft;
+    uint32_t                 first = layout->queued;
+    double                   sum   = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t sprouts = draft->plot_sprouts[order[i]];
+        for (uint32_t j = 0; j < sprouts; ++j)
+            layout->queue[layout->queued++] = draft->plot_first[order[i]] + j;
+        sum += (double)density_of(layout, order[i]) * sprouts;
+    }
+    uint32_t total = layout->queued - first;
+    shuffle(layout->queue + first, total, draft->desc->seed ^ hair_hash(first));
+    uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
+    for (uint32_t i = 0; i < parts; ++i) {
+        uint32_t begin                         = (uint32_t)((uint64_t)total * i / parts);
+        uint32_t end                           = (uint32_t)((uint64_t)total * (i + 1) / parts);
+        layout->patches[layout->patch_count++] = (struct hair_patch){
+            .first = first + begin, .count = end - begin, .density = (float)(sum / total)};
+    }
+}
+
+static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
+{
+    for (;;) {
+        uint64_t total = count_sprouts(layout, order, count);
+        if (count == 1 || (total <= HAIR_MAX_ISOLINES && are_alike(layout, order, count))) {
+            fill(layout, order, count);
+            return;
+        }
+        uint64_t target = total / 2;
+        if (total > HAIR_MAX_ISOLINES)
+            target = (target + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES * HAIR_MAX_ISOLINES;
+        uint32_t axis = hair_cloud_widest(layout->centres, order, count);
+        uint32_t front =
+            hair_cloud_split(layout->centres, order, count, axis, layout->draft->plot_sprouts, target);
+        lay_out(layout, order, front);
+        order += front;
+        count -= front;
+    }
+}
+
+// Plots where something grows. Returns how many.
+static uint32_t list_plots(const struct hair_draft* draft, uint32_t* order)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < draft->plot_count; ++i)
+        if (draft->plot_sprouts[i]) order[count++] = i;
+    return count;
+}
+
+hair_result hair_draft_patches(struct hair_draft* draft)
+{
+    // No more patches than plots, but for plots of more than one patch.
+    uint32_t           most   = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
+    struct hair_groom* groom  = draft->groom;
+    uint32_t*          order  = hair_alloc(draft->host, draft->plot_count, sizeof *order);
+    uint32_t*          queue  = hair_alloc(draft->host, draft->sprout_count, sizeof *queue);
+    struct layout      layout = {.draft = draft, .centres = {draft->plot_centres, 3}, .queue = queue};
+    draft->place              = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->place);
+    layout.patches = groom->patches = hair_alloc(draft->host, most, sizeof *groom->patches);
+    hair_result result              = HAIR_OK;
+    if (order && queue && draft->place && groom->patches) {
+        lay_out(&layout, order, list_plots(draft, order));
+        for (uint32_t i = 0; i < draft->sprout_count; ++i) draft->place[queue[i]] = i;
+        groom->info.patch_count = layout.patch_count;
+    } else {
+        result = hair_fail_memory(draft->host, "patches");
+    }
+    hair_free(draft->host, order);
+    hair_free(draft->host, queue);
+    return result;
+}

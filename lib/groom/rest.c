@@ -1,0 +1,122 @@
+// rest.c - the rest shape of guides: vertices, lengths, and each segment's direction in the frame of the one before.
+//
+//   F_0 = root frame, y along the first segment       direction_0 = (0, 1, 0)
+//   F_i = T_i F_(i-1), where T_i is the least rotation from segment i-1 to segment i
+//   direction_i = F_(i-1)^-1 d_i, with d_i the unit direction of segment i
+#include "lib/groom/draft.h"
+
+#include <string.h>
+
+#define Y_AXIS hair_v3(0, 1, 0)
+
+static hair_vec3 vertex(const float* p, size_t i)
+{
+    return hair_load3(p + 3 * i);
+}
+
+static hair_vec3 segment(const float* p, size_t i)
+{
+    return hair_normalize(hair_sub(vertex(p, i + 1), vertex(p, i)), Y_AXIS);
+}
+
+static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
+{
+    uint32_t vertices = draft->strands.vertices[draft->chosen[guide]];
+    if (vertices < 4) return 4;
+    return vertices < draft->desc->guide_vertices ? vertices : draft->desc->guide_vertices;
+}
+
+// A strand with `count` vertices. Those that it has are kept where they are enough: its shape and length stay. Where
+// they are too many they are replaced by others at equal distances: then each arc of length s and radius r
+// is cut short to its chord, by (s/r)^2 / 24 of its length.
+static void sample(const float* positions, uint32_t vertices, float* out, uint32_t count)
+{
+    uint32_t have = vertices;
+    if (vertices > count) {
+        hair_strand_resample(positions, vertices, out, count);
+        have = hair_strand_merge(out, count);
+        // A strand that runs to and fro may have all its samples in one place: its first part will do.
+        if (have < 2) {
+            memcpy(out, positions, 3 * (size_t)count * sizeof *out);
+            have = count;
+        }
+    } else {
+        memcpy(out, positions, 3 * (size_t)vertices * sizeof *out);
+    }
+    hair_strand_split(out, have, count);
+}
+
+// The mean direction of first segments: what root frames are turned from, so that they vary smoothly over the
+// scalp and the one direction around which they cannot, its opposite, is where no hair grows.
+static hair_vec3 mean_direction(const struct hair_draft* draft)
+{
+    hair_vec3 sum = {0};
+    for (uint32_t i = 0; i < draft->groom->info.guide_count; ++i)
+        sum = hair_add(sum, segment(draft->strands.positions, draft->first[draft->chosen[i]]));
+    return hair_normalize(sum, Y_AXIS);
+}
+
+// The frame whose y axis is `to`, least turned from that of the mean direction. Twice: near opposite directions the
+// first turn is only about right.
+static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
+{
+    hair_quat frame = hair_quat_between(Y_AXIS, mean);
+    for (int i = 0; i < 2; ++i) {
+        hair_quat turn = hair_quat_between(hair_normalize(hair_rotate(frame, Y_AXIS), Y_AXIS), to);
+        frame          = hair_quat_normalize(hair_quat_multiply(turn, frame));
+    }
+    return frame;
+}
+
+static void write_rest(const float* p, uint32_t count, struct hair_guide* guide, struct hair_rest* rest)
+{
+    hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
+    double    total = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_vec3 at = vertex(p, i), direction = Y_AXIS;
+        float     length = 0, over_two = 0;
+        if (i + 1 < count) length = hair_distance(at, vertex(p, i + 1));
+        if (i + 2 < count) over_two = hair_distance(at, vertex(p, i + 2));
+        if (i > 0 && i + 1 < count) {
+            hair_vec3 to   = segment(p, i);
+            direction      = hair_normalize(hair_rotate(hair_quat_conjugate(frame), to), Y_AXIS);
+            hair_quat turn = hair_quat_between(segment(p, i - 1), to);
+            frame          = hair_quat_normalize(hair_quat_multiply(turn, frame));
+        }
+        rest[i].position  = (hair_vec4){at.x, at.y, at.z, length};
+        rest[i].direction = (hair_vec4){direction.x, direction.y, direction.z, over_two};
+        total += (double)length;
+    }
+    guide->length = (float)total;
+}
+
+static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mean)
+{
+    struct hair_guide* guide  = &draft->groom->guides[number];
+    uint32_t           strand = draft->chosen[number];
+    float              p[3 * HAIR_MAX_GUIDE_VERTICES];
+    sample(draft->strands.positions + 3 * (size_t)draft->first[strand], draft->strands.vertices[strand], p,
+           guide->count);
+    hair_quat frame   = find_root_frame(mean, segment(p, 0));
+    guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
+    write_rest(p, guide->count, guide, draft->groom->rest + guide->first);
+}
+
+hair_result hair_draft_rest(struct hair_draft* draft)
+{
+    struct hair_groom* groom = draft->groom;
+    hair_groom_info*   info  = &groom->info;
+    groom->guides            = hair_alloc(draft->host, info->guide_count, sizeof *groom->guides);
+    if (!groom->guides) return hair_fail_memory(draft->host, "guides");
+    for (uint32_t i = 0; i < info->guide_count; ++i) {
+        uint32_t count   = count_vertices(draft, i);
+        groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
+        info->guide_vertex_count += count; // At most 65,535 times 64.
+        if (count > groom->most_vertices) groom->most_vertices = count;
+    }
+    groom->rest = hair_alloc(draft->host, info->guide_vertex_count, sizeof *groom->rest);
+    if (!groom->rest) return hair_fail_memory(draft->host, "guides");
+    hair_vec3 mean = mean_direction(draft);
+    for (uint32_t i = 0; i < info->guide_count; ++i) write_guide(draft, i, mean);
+    return HAIR_OK;
+}

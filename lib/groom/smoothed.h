@@ -1,0 +1,26 @@
+// smoothed.h - a guide at rest as it is drawn: the twin of glsl/interpolate/smooth.comp and glsl/follower.glsl.
+#ifndef HAIR_GROOM_SMOOTHED_H
+#define HAIR_GROOM_SMOOTHED_H
+
+#include "lib/base/math.h"
+#include "lib/groom/groom.h"
+
+struct hair_smoothed {
+    hair_vec3 position[HAIR_MAX_SMOOTH_VERTICES];
+    hair_vec3 tangent[HAIR_MAX_SMOOTH_VERTICES];
+    hair_quat frame[HAIR_MAX_SMOOTH_VERTICES];
+    uint32_t  count;
+    float     length; // m
+};
+
+struct hair_smoothed_point {
+    hair_vec3 position, tangent;
+    hair_quat frame;
+};
+
+void hair_smooth_guide(const struct hair_groom* groom, uint32_t guide, struct hair_smoothed* out);
+
+// u from 0 at the root to 1 at the tip; beyond, the guide goes on straight.
+struct hair_smoothed_point hair_smoothed_at(const struct hair_smoothed* smoothed, float u);
+
+#endif
