@@ -1,0 +1,263 @@
+// layout_test.c - C and GLSL lay out every struct of glsl/shared.h alike, in storage and in uniform buffers.
+#include "tests/support/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glsl/shared.h"
+#include "lib/api/api.h"
+
+struct member {
+    const char* owner;
+    const char* name; // as GLSL's interface query says it: of an array of structs, a member of its element
+    size_t      offset, size;
+    GLenum      type;
+};
+
+#define VEC4(S, name)                                                                                        \
+    {                                                                                                        \
+#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT_VEC4                     \
+    }
+#define MAT4(S, name)                                                                                        \
+    {                                                                                                        \
+#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT_MAT4                     \
+    }
+#define FLOAT(S, name)                                                                                       \
+    {                                                                                                        \
+#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT                          \
+    }
+#define UINT(S, name)                                                                                        \
+    {                                                                                                        \
+#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_UNSIGNED_INT                   \
+    }
+
+// In order, so that each begins where the one before ends and none is forgotten.
+static const struct member members[] = {
+    VEC4(hair_guide, root_frame),
+    UINT(hair_guide, first),
+    UINT(hair_guide, count),
+    FLOAT(hair_guide, length),
+    UINT(hair_guide, unused),
+    VEC4(hair_rest, position),
+    VEC4(hair_rest, direction),
+    VEC4(hair_state, position),
+    VEC4(hair_state, displacement),
+    VEC4(hair_capsule, start[0]),
+    VEC4(hair_capsule, start[1]),
+    VEC4(hair_capsule, end[0]),
+    VEC4(hair_capsule, end[1]),
+    VEC4(hair_substep, rotation),
+    VEC4(hair_substep, displacement),
+    VEC4(hair_step_params, gravity),
+    FLOAT(hair_step_params, keep),
+    FLOAT(hair_step_params, pull_root),
+    FLOAT(hair_step_params, pull_tip),
+    FLOAT(hair_step_params, angular),
+    FLOAT(hair_step_params, bend),
+    FLOAT(hair_step_params, margin),
+    UINT(hair_step_params, iterations),
+    UINT(hair_step_params, substeps),
+    UINT(hair_step_params, guides),
+    UINT(hair_step_params, solids),
+    UINT(hair_step_params, smooth_vertices),
+    FLOAT(hair_step_params, alpha),
+    VEC4(hair_step_params, rotation_before),
+    VEC4(hair_step_params, rotation_after),
+    VEC4(hair_step_params, rotation_now),
+    VEC4(hair_step_params, last_displacement),
+    VEC4(hair_step_params, substep[0].rotation),
+    VEC4(hair_step_params, substep[0].displacement),
+    VEC4(hair_step_params, substep[1].rotation),
+    VEC4(hair_step_params, substep[63].displacement),
+    VEC4(hair_step_params, solid[0].start[0]),
+    VEC4(hair_step_params, solid[0].end[1]),
+    VEC4(hair_step_params, solid[63].end[1]),
+    UINT(hair_follower, guide0),
+    UINT(hair_follower, guide1),
+    UINT(hair_follower, guide2),
+    UINT(hair_follower, seed),
+    FLOAT(hair_follower, weight1),
+    FLOAT(hair_follower, weight2),
+    FLOAT(hair_follower, length_ratio),
+    FLOAT(hair_follower, multi),
+    VEC4(hair_follower, offset[0]),
+    VEC4(hair_follower, offset[1]),
+    VEC4(hair_follower, offset[2]),
+    VEC4(hair_follower, offset[3]),
+    UINT(hair_patch, first),
+    UINT(hair_patch, count),
+    FLOAT(hair_patch, density),
+    UINT(hair_patch, unused),
+    MAT4(hair_draw_params, view),
+    MAT4(hair_draw_params, view_to_clip),
+    MAT4(hair_draw_params, shadow),
+    VEC4(hair_draw_params, eye),
+    VEC4(hair_draw_params, light_to),
+    VEC4(hair_draw_params, light),
+    VEC4(hair_draw_params, ambient),
+    VEC4(hair_draw_params, root_color),
+    VEC4(hair_draw_params, tip_color),
+    VEC4(hair_draw_params, specular),
+    FLOAT(hair_draw_params, radius),
+    FLOAT(hair_draw_params, tip_radius),
+    FLOAT(hair_draw_params, clump),
+    FLOAT(hair_draw_params, frizz),
+    FLOAT(hair_draw_params, density),
+    UINT(hair_draw_params, segments),
+    UINT(hair_draw_params, smooth_vertices),
+    UINT(hair_draw_params, followers),
+};
+
+static const struct {
+    const char* name;
+    size_t      size;
+} structs[] = {
+#define STRUCT(S)                                                                                            \
+    {                                                                                                        \
+#S, sizeof(struct S)                                                                                 \
+    }
+    STRUCT(hair_guide),    STRUCT(hair_rest),    STRUCT(hair_state),
+    STRUCT(hair_capsule),  STRUCT(hair_substep), STRUCT(hair_step_params),
+    STRUCT(hair_follower), STRUCT(hair_patch),   STRUCT(hair_draw_params),
+};
+#define STRUCTS (sizeof structs / sizeof *structs)
+#define MEMBERS (sizeof members / sizeof *members)
+
+// A program that holds two of the struct in a storage buffer and two in a uniform buffer.
+static GLuint link_program(const hair_host* host, const char* name)
+{
+    struct hair_gl_source shared;
+    assert_int_equal(hair_gl_read_source(host, NULL, "shared.h", "", &shared), HAIR_OK);
+    char blocks[512];
+    snprintf(blocks, sizeof blocks,
+             "layout(local_size_x = 1) in;\n"
+             "layout(std430, binding = 0) buffer storage_block { %s storage[]; };\n"
+             "layout(std140, binding = 0) uniform uniform_block { %s uniforms[2]; };\n"
+             "void main() { storage[0] = uniforms[1]; }\n",
+             name, name);
+    const char* text[]  = {"#version 450 core\n", shared.text, blocks};
+    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    GLint       linked;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked) {
+        char message[1024];
+        glGetProgramInfoLog(program, sizeof message, NULL, message);
+        fail_msg("%s: %s", name, message);
+    }
+    hair_free(host, shared.text);
+    return program;
+}
+
+static GLint ask(GLuint program, GLenum interface, GLuint index, GLenum property)
+{
+    GLint value = -1;
+    glGetProgramResourceiv(program, interface, index, 1, &property, 1, NULL, &value);
+    return value;
+}
+
+static void compare(GLuint program, GLenum interface, const char* array, size_t size,
+                    const struct member* member)
+{
+    for (size_t i = 0; i < 2; ++i) {
+        char name[128];
+        if (interface == GL_BUFFER_VARIABLE && i)
+            continue; // Of the outermost array only the first is listed.
+        snprintf(name, sizeof name, "%s[%zu].%s", array, i, member->name);
+        GLuint index = glGetProgramResourceIndex(program, interface, name);
+        // Arrays of vectors are one resource, named by its first element; the others follow at its stride.
+        char*  bracket = strrchr(name, '[');
+        size_t element = 0;
+        if (index == GL_INVALID_INDEX && bracket && name[strlen(name) - 1] == ']') {
+            element = (size_t)atoi(bracket + 1);
+            strcpy(bracket, "[0]");
+            index = glGetProgramResourceIndex(program, interface, name);
+        }
+        if (index == GL_INVALID_INDEX) fail_msg("GLSL has no %s.%s (%s)", member->owner, member->name, name);
+        GLint offset = ask(program, interface, index, GL_OFFSET);
+        if (element) offset += (GLint)element * ask(program, interface, index, GL_ARRAY_STRIDE);
+        if ((size_t)offset != i * size + member->offset)
+            fail_msg("%s.%s is at %zu in C and at %d in GLSL (%s)", member->owner, member->name,
+                     i * size + member->offset, offset, name);
+        assert_int_equal(ask(program, interface, index, GL_TYPE), member->type);
+    }
+}
+
+static void every_member_is_where_c_puts_it(void** state)
+{
+    struct hair_test* test = *state;
+    for (size_t s = 0; s < STRUCTS; ++s) {
+        GLuint program = link_program(&test->host.host, structs[s].name);
+        for (size_t m = 0; m < MEMBERS; ++m) {
+            if (strcmp(members[m].owner, structs[s].name)) continue;
+            compare(program, GL_BUFFER_VARIABLE, "storage", structs[s].size, &members[m]);
+            compare(program, GL_UNIFORM, "uniforms", structs[s].size, &members[m]);
+        }
+        GLuint block = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, "uniform_block");
+        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), 2 * structs[s].size);
+        glDeleteProgram(program);
+    }
+}
+
+static void the_stride_of_every_struct_is_its_size_in_c(void** state)
+{
+    struct hair_test* test = *state;
+    for (size_t s = 0; s < STRUCTS; ++s) {
+        GLuint program = link_program(&test->host.host, structs[s].name);
+        GLint  count;
+        glGetProgramInterfaceiv(program, GL_BUFFER_VARIABLE, GL_ACTIVE_RESOURCES, &count);
+        assert_true(count > 0);
+        for (GLint i = 0; i < count; ++i)
+            assert_int_equal(ask(program, GL_BUFFER_VARIABLE, (GLuint)i, GL_TOP_LEVEL_ARRAY_STRIDE),
+                             structs[s].size);
+        glDeleteProgram(program);
+    }
+}
+
+// The table above names every member: none begins later than the one before ends. Arrays of structs are named by
+// some of their members only, and count for as many as they have.
+static void no_member_is_forgotten(void** state)
+{
+    (void)state;
+    for (size_t s = 0; s < STRUCTS; ++s) {
+        size_t end = 0;
+        for (size_t m = 0; m < MEMBERS; ++m) {
+            if (strcmp(members[m].owner, structs[s].name)) continue;
+            if (!strchr(members[m].name, '.')) assert_int_equal(members[m].offset, end);
+            end = members[m].offset + members[m].size;
+        }
+        assert_int_equal(end, structs[s].size);
+    }
+}
+
+static void the_passes_have_the_buffers_of_shared_h(void** state)
+{
+    struct hair_test* test = *state;
+    static const struct {
+        hair_gl_pass pass;
+        const char*  block;
+        GLint        binding, size;
+    } uses[] = {{HAIR_GL_REDBLACK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_SMOOTH, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_EXPAND, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)},
+                {HAIR_GL_RIBBONS, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)}};
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
+        GLuint program = test->context->gl.program[uses[i].pass];
+        GLuint block   = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, uses[i].block);
+        assert_int_not_equal(block, GL_INVALID_INDEX);
+        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_BINDING), uses[i].binding);
+        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), uses[i].size);
+    }
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(every_member_is_where_c_puts_it),
+        HAIR_TEST(the_stride_of_every_struct_is_its_size_in_c),
+        HAIR_TEST(no_member_is_forgotten),
+        HAIR_TEST(the_passes_have_the_buffers_of_shared_h),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}

@@ -1,0 +1,90 @@
+// frame.c - something to draw into, its pixels, and pictures of them as PNG.
+#include "tests/support/frame.h"
+
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+static GLuint make_target(const struct hair_test_frame* frame, GLenum format, GLsizei samples)
+{
+    GLuint target;
+    glCreateRenderbuffers(1, &target);
+    glNamedRenderbufferStorageMultisample(target, samples, format, frame->width, frame->height);
+    return target;
+}
+
+static GLuint make_framebuffer(struct hair_test_frame* frame, int i, GLenum format, GLsizei samples)
+{
+    GLuint framebuffer;
+    frame->color[i] = make_target(frame, format, samples);
+    frame->depth[i] = make_target(frame, GL_DEPTH_COMPONENT32F, samples);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, frame->color[i]);
+    glNamedFramebufferRenderbuffer(framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, frame->depth[i]);
+    return framebuffer;
+}
+
+void hair_test_frame_make(struct hair_test_frame* frame, GLsizei width, GLsizei height, GLenum format,
+                          GLsizei samples)
+{
+    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
+    *frame             = (struct hair_test_frame){.width = width, .height = height, .samples = samples};
+    frame->framebuffer = make_framebuffer(frame, 0, format, samples);
+    frame->resolved    = samples ? make_framebuffer(frame, 1, format, 0) : frame->framebuffer;
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->framebuffer);
+    glViewport(0, 0, width, height);
+    glEnable(GL_DEPTH_TEST);
+    glClearNamedFramebufferfv(frame->framebuffer, GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(frame->framebuffer, GL_DEPTH, 0, &far_away);
+}
+
+void hair_test_frame_free(struct hair_test_frame* frame)
+{
+    glDeleteFramebuffers(1, &frame->framebuffer);
+    if (frame->samples) glDeleteFramebuffers(1, &frame->resolved);
+    glDeleteRenderbuffers(2, frame->color);
+    glDeleteRenderbuffers(2, frame->depth);
+    memset(frame, 0, sizeof *frame);
+}
+
+void hair_test_frame_read(const struct hair_test_frame* frame, float* pixels)
+{
+    if (frame->samples)
+        glBlitNamedFramebuffer(frame->framebuffer, frame->resolved, 0, 0, frame->width, frame->height, 0, 0,
+                               frame->width, frame->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame->resolved);
+    glReadPixels(0, 0, frame->width, frame->height, GL_RGBA, GL_FLOAT, pixels);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->framebuffer);
+}
+
+void hair_test_frame_read_depth(const struct hair_test_frame* frame, float* depths)
+{
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame->framebuffer);
+    glReadPixels(0, 0, frame->width, frame->height, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->framebuffer);
+}
+
+int hair_test_png_write(const char* path, int width, int height, const unsigned char* pixels)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION,
+                       .width   = (png_uint_32)width,
+                       .height  = (png_uint_32)height,
+                       .format  = PNG_FORMAT_RGBA};
+    return png_image_write_to_file(&image, path, 0, pixels, 0, NULL);
+}
+
+int hair_test_png_read(const char* path, int* width, int* height, unsigned char** pixels)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    if (!png_image_begin_read_from_file(&image, path)) return 0;
+    image.format = PNG_FORMAT_RGBA;
+    *pixels      = malloc(PNG_IMAGE_SIZE(image));
+    if (!*pixels || !png_image_finish_read(&image, NULL, *pixels, 0, NULL)) {
+        free(*pixels);
+        png_image_free(&image);
+        return 0;
+    }
+    *width  = (int)image.width;
+    *height = (int)image.height;
+    return 1;
+}

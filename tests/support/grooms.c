@@ -1,0 +1,126 @@
+// grooms.c - strands and scalps to make grooms of, and followers evaluated as they are drawn.
+#include "tests/support/grooms.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t most)
+{
+    return (struct hair_test_strands){.positions = malloc(3 * (size_t)count * most * sizeof(float)),
+                                      .vertices  = malloc(count * sizeof(uint32_t))};
+}
+
+void hair_test_strands_free(struct hair_test_strands* strands)
+{
+    free(strands->positions);
+    free(strands->vertices);
+    memset(strands, 0, sizeof *strands);
+}
+
+void hair_test_strands_add(struct hair_test_strands* strands, uint32_t vertices,
+                           hair_vec3 (*point)(float t, uint32_t strand, const void* user), const void* user)
+{
+    for (uint32_t i = 0; i < vertices; ++i) {
+        float t = vertices > 1 ? (float)i / (float)(vertices - 1) : 0;
+        hair_store3(strands->positions + 3 * (size_t)strands->vertex_count++, point(t, strands->count, user));
+    }
+    strands->vertices[strands->count++] = vertices;
+}
+
+static hair_vec3 fur(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    uint32_t  random = hair_hash(strand);
+    float     length = 0.015f + 0.01f * hair_random(&random);
+    hair_vec3 root   = {hair_random(&random), 0, hair_random(&random)};
+    float     lean   = 0.5f + 0.2f * hair_random(&random);
+    return hair_add(root, hair_scale(hair_v3(lean * t, 1 - 0.3f * t, 0.1f * sinf(9 * root.x)), length * t));
+}
+
+struct hair_test_strands hair_test_fur(uint32_t count)
+{
+    struct hair_test_strands strands = hair_test_strands_make(count, 8);
+    for (uint32_t i = 0; i < count; ++i) hair_test_strands_add(&strands, 3 + i % 6, fur, NULL);
+    return strands;
+}
+
+struct hair_test_scalp hair_test_scalp_make(uint32_t cells, float size)
+{
+    struct hair_test_scalp scalp = {.vertex_count   = (cells + 1) * (cells + 1),
+                                    .triangle_count = 2 * cells * cells};
+    scalp.positions              = malloc(3 * scalp.vertex_count * sizeof(float));
+    scalp.triangles              = malloc(3 * scalp.triangle_count * sizeof(uint32_t));
+    for (uint32_t i = 0; i < scalp.vertex_count; ++i) {
+        float x = size * (float)(i % (cells + 1)) / (float)cells;
+        float z = size * (float)(i / (cells + 1)) / (float)cells;
+        hair_store3(scalp.positions + 3 * i, hair_v3(x, 0, z));
+    }
+    for (uint32_t i = 0; i < cells * cells; ++i) {
+        uint32_t a = i / cells * (cells + 1) + i % cells, b = a + 1, c = a + cells + 1, d = c + 1;
+        uint32_t six[6] = {a, c, b, b, c, d};
+        memcpy(scalp.triangles + 6 * i, six, sizeof six);
+    }
+    return scalp;
+}
+
+void hair_test_scalp_free(struct hair_test_scalp* scalp)
+{
+    free(scalp->positions);
+    free(scalp->triangles);
+    memset(scalp, 0, sizeof *scalp);
+}
+
+hair_groom_desc hair_test_groom_desc(const struct hair_test_host*    host,
+                                     const struct hair_test_strands* strands)
+{
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host            = &host->host;
+    desc.positions       = strands->positions;
+    desc.strand_vertices = strands->vertices;
+    desc.strand_count    = strands->count;
+    return desc;
+}
+
+void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp)
+{
+    desc->strands_are          = HAIR_STRANDS_GUIDES;
+    desc->scalp_positions      = scalp->positions;
+    desc->scalp_triangles      = scalp->triangles;
+    desc->scalp_vertex_count   = scalp->vertex_count;
+    desc->scalp_triangle_count = scalp->triangle_count;
+}
+
+static struct hair_smoothed_point guide_at(const struct hair_groom* groom, uint32_t guide, float u)
+{
+    struct hair_smoothed smoothed;
+    hair_smooth_guide(groom, guide, &smoothed);
+    return hair_smoothed_at(&smoothed, u);
+}
+
+static hair_vec3 xyz(hair_vec4 v)
+{
+    return hair_v3(v.x, v.y, v.z);
+}
+
+hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t)
+{
+    struct hair_smoothed_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
+    hair_vec3                  p[4];
+    for (int i = 0; i < 4; ++i) p[i] = xyz(follower->offset[i]);
+    for (int n = 3; n > 0; --n) // De Casteljau
+        for (int i = 0; i < n; ++i) p[i] = hair_lerp(p[i], p[i + 1], t);
+    return hair_add(guide.position, hair_rotate(guide.frame, p[0]));
+}
+
+hair_vec3 hair_test_multi(const struct hair_groom* groom, const struct hair_follower* follower, float t)
+{
+    float                      u   = t * follower->length_ratio;
+    struct hair_smoothed_point g0  = guide_at(groom, follower->guide0, u);
+    struct hair_smoothed_point g1  = guide_at(groom, follower->guide1, u);
+    struct hair_smoothed_point g2  = guide_at(groom, follower->guide2, u);
+    float                      w0  = 1 - follower->weight1 - follower->weight2;
+    hair_vec3                  own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
+    hair_vec3                  blended =
+        hair_add(hair_scale(g1.position, follower->weight1), hair_scale(g2.position, follower->weight2));
+    return hair_add(hair_add(hair_scale(g0.position, w0), blended), hair_rotate(g0.frame, own));
+}

@@ -1,0 +1,90 @@
+// support.c - an OpenGL context and a hair_context for every test program that needs them.
+#include "tests/support/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int hair_test_skips(void)
+{
+    hair_egl* egl = NULL;
+    if (hair_egl_create(NULL, -1, &egl) == HAIR_OK) {
+        hair_egl_destroy(egl);
+        return 0;
+    }
+    const char* wanted = getenv("HAIR_TEST");
+    fprintf(stderr, "there is no OpenGL 4.5 here\n");
+    if (wanted && strcmp(wanted, "required") == 0) exit(1);
+    return 1;
+}
+
+int hair_test_start(void** state)
+{
+    struct hair_test* test = calloc(1, sizeof *test);
+    if (!test) return -1;
+    *state = test;
+    hair_test_host_init(&test->host);
+    if (hair_egl_create(&test->host.host, -1, &test->egl)) return -1;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &test->host.host;
+    desc.get_proc          = hair_egl_get_proc;
+    if (hair_context_create(&desc, &test->context)) {
+        fprintf(stderr, "%s\n", test->host.sentence);
+        return -1;
+    }
+    return 0;
+}
+
+int hair_test_finish(void** state)
+{
+    struct hair_test* test = *state;
+    hair_context_destroy(test->context);
+    hair_egl_destroy(test->egl);
+    uint32_t blocks = test->host.blocks;
+    if (blocks) fprintf(stderr, "%u blocks of memory were not freed\n", blocks);
+    free(test);
+    return blocks ? -1 : 0;
+}
+
+int hair_test_begin(void** state)
+{
+    struct hair_test* test = *state;
+    hair_egl_make_current(test->egl);
+    while (glGetError()) {}
+    test->blocks         = test->host.blocks;
+    test->host.errors    = 0;
+    test->host.refuse    = 0;
+    *test->host.sentence = 0;
+    return 0;
+}
+
+int hair_test_end(void** state)
+{
+    struct hair_test* test  = *state;
+    GLenum            error = glGetError();
+    if (error) fprintf(stderr, "OpenGL error 0x%x\n", error);
+    if (test->host.errors) fprintf(stderr, "the log has: %s\n", test->host.sentence);
+    if (test->host.blocks != test->blocks)
+        fprintf(stderr, "%d blocks of memory were not freed\n", (int)(test->host.blocks - test->blocks));
+    return error || test->host.errors || test->host.blocks != test->blocks ? -1 : 0;
+}
+
+uint32_t hair_test_forgive(struct hair_test* test)
+{
+    uint32_t errors   = test->host.errors;
+    test->host.errors = 0;
+    return errors;
+}
+
+void hair_test_ok(const struct hair_test* test, hair_result result)
+{
+    if (result) fail_msg("%s: %s", hair_result_string(result), test->host.sentence);
+}
+
+void hair_test_near(const char* what, size_t i, double a, double b, double tolerance)
+{
+    double difference = a > b ? a - b : b - a;
+    if (!(difference <= tolerance))
+        fail_msg("%s %zu: %.9g and %.9g differ by %.3g, more than %.3g", what, i, a, b, difference,
+                 tolerance);
+}
