@@ -1,0 +1,26 @@
+// head.h - the bust that tools draw under the hair and let it fall on: libhair draws hair only.
+#ifndef TOOLS_COMMON_HEAD_H
+#define TOOLS_COMMON_HEAD_H
+
+#include <hair/hair.h>
+
+struct head_mesh {
+    float*    positions; // xyz per vertex, m, in the space of the built-in haircuts
+    float*    normals;   // xyz per vertex, unit, outwards
+    float*    colors;    // linear rgb per vertex: skin, lips, garment
+    uint32_t* triangles; // three indices each, counter-clockwise from outside
+    uint32_t  vertex_count;
+    uint32_t  triangle_count;
+};
+
+// Returns 0, or -1 when memory ran out.
+int  head_mesh_create(struct head_mesh* out);
+void head_mesh_free(struct head_mesh* mesh);
+
+#define HEAD_SOLIDS 16
+
+// The same bust as solids for hair_set_solids, nowhere outside the scalp. Returns how many there are; writes
+// at most `capacity`.
+uint32_t head_solids(hair_solid* out, uint32_t capacity);
+
+#endif

@@ -1,0 +1,18 @@
+// head_shape.h - the bust as a distance, made of blended parts.
+#ifndef TOOLS_COMMON_HEAD_SHAPE_H
+#define TOOLS_COMMON_HEAD_SHAPE_H
+
+struct head_point {
+    float x, y, z;
+};
+
+// Lowest height of the bust, where it is cut. m.
+#define HEAD_BOTTOM 1.25f
+
+// Distance to the skin or garment, negative inside; near the truth within a few centimetres. m.
+float head_distance(struct head_point p);
+
+// Linear reflectance of the surface at p.
+void head_color(struct head_point p, float rgb[3]);
+
+#endif
