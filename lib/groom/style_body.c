@@ -19,7 +19,7 @@ static const struct ellipsoid chest = {{0, 1.270f, -0.010f}, {0.165f, 0.150f, 0.
 static const struct ellipsoid face  = {{0, 1.565f, 0.085f}, {0.052f, 0.120f, 0.060f}};
 
 // On the left side; the bust is symmetrical, so they are met by |x|.
-static const struct capsule neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.050f};
+static const struct capsule neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.047f};
 static const struct capsule shoulder = {{0.030f, 1.440f, -0.030f}, {0.155f, 1.375f, -0.025f}, 0.045f};
 static const struct capsule arm      = {{0.160f, 1.360f, -0.025f}, {0.180f, 1.220f, -0.020f}, 0.042f};
 

@@ -5,10 +5,10 @@
 #include "lib/base/math.h"
 
 // The skull, as hair_asset.h promises it. m.
-#define HAIR_SKULL_X 0.074f
-#define HAIR_SKULL_Y 0.108f
-#define HAIR_SKULL_Z 0.094f
-#define HAIR_SKULL_HEIGHT 1.62f // of its centre, on the y axis
+#define HAIR_SKULL_X 0.077f
+#define HAIR_SKULL_Y 0.098f
+#define HAIR_SKULL_Z 0.096f
+#define HAIR_SKULL_HEIGHT 1.63f // of its centre, on the y axis
 
 // The point of the skull in the direction that `unit` maps to when the skull is scaled to the unit sphere.
 hair_vec3 hair_skull_point(hair_vec3 unit);

@@ -30,10 +30,10 @@ struct build {
 };
 
 // Azimuth in degrees, height in metres: forehead, the corner above the temple, sideburn, round the ear, nape.
-static const float hairline[][2] = {{0, 1.689f},   {22, 1.690f},  {40, 1.691f},  {52, 1.676f},
-                                    {62, 1.650f},  {71, 1.622f},  {80, 1.610f},  {89, 1.624f},
-                                    {98, 1.636f},  {108, 1.630f}, {117, 1.604f}, {127, 1.575f},
-                                    {142, 1.558f}, {160, 1.553f}, {180, 1.552f}};
+static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
+                                    {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
+                                    {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
+                                    {142, 1.564f}, {160, 1.559f}, {180, 1.558f}};
 #define HAIRLINE_KNOTS ((int)(sizeof hairline / sizeof *hairline))
 
 float hair_scalp_hairline(float azimuth)
