@@ -111,7 +111,7 @@ static hair_result read_header(const struct hair_source* source, struct header* 
     return result;
 }
 
-// Half the thickness at each root. With one bad value no radius is known: half a haircut of them helps nobody.
+// Half the thickness at each root. With one bad value no radius is known: half a haircut of them is no help.
 static hair_result read_radii(const struct hair_source* source, const struct header* header,
                               struct hair_strands* strands)
 {

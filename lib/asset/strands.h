@@ -31,8 +31,8 @@ static inline hair_vec3 hair_import_point(const hair_import* import, hair_vec3 p
 
 // Scale, turn, thin out, repair and resample strands in place (the arrays may be replaced by shorter ones).
 // Afterwards every strand has 2 to 256 finite vertices, no segment shorter than 1e-5 of its length, and a
-// length of at least 10 micrometres. import->strand_vertices of 1 is taken as 2. No strand at all may be left:
-// strand_count 0.
+// length of at least 10 micrometres. import->strand_vertices of 1 is taken as 2. It may be that no strand is
+// left: strand_count 0.
 hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
                                hair_repairs* repairs);
 void        hair_strands_free(const hair_host* host, struct hair_strands* strands);

@@ -17,8 +17,8 @@
 //                                                     296  data
 //
 // Offsets come in any order and 0 means none. Positions alone are read; the other sections must lie in the
-// file. The fourth number of a position is its inverse mass: 0 at the two vertices next to the root, which are
-// held.
+// file. The fourth number of a position is its inverse mass: 0 at the two vertices next to the root, which
+// are held.
 // Thickness is a factor, not a length, so no radius comes of it.
 // Not handled: sections that overlap; each is read for what its offset says.
 #include "lib/asset/formats.h"

@@ -1,0 +1,369 @@
+// asset_test.c - haircuts read from and written to every format.
+#include "tests/support/files.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return test.blocks ? -1 : 0;
+}
+
+static hair_asset* read_with(const hair_import* import, struct hair_test_file file)
+{
+    hair_asset* asset = NULL;
+    assert_int_equal(hair_test_read(&test, import, file.bytes, file.size, &asset), HAIR_OK);
+    free(file.bytes);
+    return asset;
+}
+
+static hair_asset* read_file(struct hair_test_file file)
+{
+    hair_import import = hair_test_import();
+    return read_with(&import, file);
+}
+
+static void assert_strands(const hair_asset* asset, const uint32_t vertices[3])
+{
+    assert_int_equal(asset->strands.strand_count, 3);
+    assert_int_equal(asset->file_strands, 3);
+    assert_int_equal(asset->file_vertices, vertices[0] + vertices[1] + vertices[2]);
+    const float* p = asset->strands.positions;
+    for (uint32_t i = 0; i < 3; ++i) {
+        assert_int_equal(asset->strands.vertices[i], vertices[i]);
+        for (uint32_t j = 0; j < vertices[i]; ++j, p += 3) {
+            assert_float_equal(p[0], i, 0);
+            assert_float_equal(p[1], j, 0);
+            assert_float_equal(p[2], 0.125f * (float)j, 0);
+        }
+    }
+}
+
+static void hair_holds_strands_of_any_number_of_vertices(void** state)
+{
+    (void)state;
+    hair_asset* asset = read_file(hair_test_hair(1 | 2));
+    assert_int_equal(asset->format, HAIR_FORMAT_HAIR);
+    assert_int_equal(asset->strands_are, HAIR_STRANDS_ALL);
+    assert_strands(asset, (uint32_t[3]){3, 2, 4});
+    assert_null(asset->strands.radii);
+    assert_int_equal(test.warnings, 0);
+    hair_asset_free(asset);
+}
+
+static void hair_without_segments_uses_those_of_its_header(void** state)
+{
+    (void)state;
+    hair_asset* asset = read_file(hair_test_hair(2));
+    assert_strands(asset, (uint32_t[3]){3, 3, 3});
+    hair_asset_free(asset);
+}
+
+static void hair_is_read_whatever_arrays_follow_the_points(void** state)
+{
+    (void)state;
+    for (uint32_t arrays = 0; arrays < 32; ++arrays) {
+        if (!(arrays & 2)) continue;
+        hair_asset* asset = read_file(hair_test_hair(arrays));
+        assert_strands(asset, arrays & 1 ? (uint32_t[3]){3, 2, 4} : (uint32_t[3]){3, 3, 3});
+        assert_int_equal(asset->strands.radii != NULL, (arrays & 4) != 0);
+        hair_asset_free(asset);
+    }
+    assert_int_equal(test.warnings, 0);
+}
+
+static void half_the_thickness_at_the_root_is_the_radius(void** state)
+{
+    (void)state;
+    for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
+        hair_import import    = hair_test_import();
+        import.tip_first      = tip_first;
+        import.scale          = 0.01f;
+        hair_asset*     asset = read_with(&import, hair_test_hair(31));
+        const uint32_t* roots = tip_first ? (uint32_t[3]){2, 4, 8} : (uint32_t[3]){0, 3, 5};
+        for (uint32_t i = 0; i < 3; ++i)
+            assert_float_equal(asset->strands.radii[i], 0.01f * 0.005f * (float)(1 + roots[i]), 1e-9);
+        hair_asset_free(asset);
+    }
+}
+
+static void a_bad_thickness_leaves_no_radii_and_a_warning(void** state)
+{
+    (void)state;
+    const float bad[] = {NAN, INFINITY, -1, 3e38f};
+    for (int i = 0; i < 4; ++i) {
+        struct hair_test_file file = hair_test_hair(1 | 2 | 4);
+        hair_test_set_float(&file, 128 + 6 + 108 + 4 * 3, bad[i]);
+        hair_asset* asset = read_file(file);
+        assert_null(asset->strands.radii);
+        assert_int_equal(test.warnings, i + 1);
+        hair_asset_free(asset);
+    }
+}
+
+static void unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_hair(1 | 2);
+    hair_test_set_u32(&file, 12, 1 | 2 | 32 | 1u << 31);
+    hair_test_put_text(&file, "the unknown array");
+    hair_asset* asset = read_file(file);
+    assert_strands(asset, (uint32_t[3]){3, 2, 4});
+    assert_int_equal(test.warnings, 1);
+    hair_asset_free(asset);
+
+    file = hair_test_hair(1 | 2);
+    hair_test_put_text(&file, "x");
+    hair_asset_free(read_file(file));
+    assert_int_equal(test.warnings, 2);
+}
+
+static void tfx_holds_guides_wherever_its_sections_lie(void** state)
+{
+    (void)state;
+    hair_asset* asset = read_file(hair_test_tfx4());
+    assert_int_equal(asset->format, HAIR_FORMAT_TFX4);
+    assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
+    assert_null(asset->strands.radii); // Its thickness is a factor.
+    assert_strands(asset, (uint32_t[3]){4, 4, 4});
+    hair_asset_free(asset);
+
+    asset = read_file(hair_test_tfx3());
+    assert_int_equal(asset->format, HAIR_FORMAT_TFX3);
+    assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
+    assert_strands(asset, (uint32_t[3]){4, 4, 4});
+    hair_asset_free(asset);
+}
+
+static void tfx_needs_nothing_but_positions(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_tfx4();
+    hair_test_set_u32(&file, 16, 0);
+    hair_test_set_u32(&file, 20, 0);
+    hair_test_set_u32(&file, 24, 0);
+    hair_test_set_u32(&file, 28, 0);
+    file.size         = 160 + 24 + 12 + 192;
+    hair_asset* asset = read_file(file);
+    assert_strands(asset, (uint32_t[3]){4, 4, 4});
+    hair_asset_free(asset);
+}
+
+static void tfx_of_any_number_of_vertices_is_read(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_tfx4();
+    hair_test_set_u32(&file, 4, 2); // The twelve vertices are those of two strands, then of six.
+    hair_test_set_u32(&file, 8, 6);
+    hair_asset* asset = read_file(file);
+    assert_int_equal(asset->strands.vertices[1], 6);
+    hair_asset_free(asset);
+}
+
+static void import_options_are_used(void** state)
+{
+    (void)state;
+    hair_import import     = hair_test_import();
+    import.scale           = 0.01f;
+    import.up              = HAIR_UP_Z;
+    import.tip_first       = 1;
+    import.strand_vertices = 16;
+    import.share           = 0.34f;
+    hair_asset* asset      = read_with(&import, hair_test_tfx3());
+    assert_int_equal(asset->strands.strand_count, 1);
+    assert_int_equal(asset->strands.vertices[0], 16);
+    assert_int_equal(asset->file_strands, 3);
+    assert_float_equal(asset->strands.positions[1], 0.00375f, 1e-8);
+    assert_float_equal(asset->strands.positions[2], -0.03f, 1e-8);
+    hair_asset_free(asset);
+}
+
+static void repairs_are_counted(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_tfx3();
+    hair_test_set_float(&file, 296, NAN);
+    for (uint32_t i = 0; i < 12; ++i) hair_test_set_float(&file, 296 + 48 + 4 * i, 1);
+    hair_asset* asset = read_file(file);
+    assert_int_equal(asset->repairs.removed_nonfinite, 1);
+    assert_int_equal(asset->repairs.dropped_short, 1);
+    assert_int_equal(asset->strands.strand_count, 2);
+    hair_asset_free(asset);
+}
+
+static struct hair_test_file write_file(const hair_asset* asset, hair_format format)
+{
+    size_t size = 0, again = 0;
+    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
+    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
+    memset(file.bytes, 0x77, size + 8);
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
+    assert_int_equal(again, size);
+    assert_int_equal(file.bytes[0], 0x77); // Too little capacity: nothing is written.
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
+    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
+    return file;
+}
+
+static void assert_same(const hair_asset* a, const hair_asset* b)
+{
+    assert_int_equal(a->strands.strand_count, b->strands.strand_count);
+    assert_int_equal(a->strands.vertex_count, b->strands.vertex_count);
+    assert_memory_equal(a->strands.vertices, b->strands.vertices, 4 * (size_t)a->strands.strand_count);
+    assert_memory_equal(a->strands.positions, b->strands.positions, 12 * (size_t)a->strands.vertex_count);
+    assert_int_equal(!a->strands.radii, !b->strands.radii);
+    if (a->strands.radii)
+        assert_memory_equal(a->strands.radii, b->strands.radii, 4 * (size_t)a->strands.strand_count);
+}
+
+static void hair_reads_back_bit_for_bit(void** state)
+{
+    (void)state;
+    for (uint32_t arrays = 2; arrays < 8; ++arrays) {
+        if (!(arrays & 2)) continue;
+        struct hair_test_file file = hair_test_hair(arrays);
+        hair_test_set_float(&file, file.size - (arrays & 4 ? 40 : 4), 0.1f / 3);
+        hair_asset* asset = read_file(file);
+        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        assert_same(asset, again);
+        assert_int_equal(again->format, HAIR_FORMAT_HAIR);
+        hair_asset_free(asset);
+        hair_asset_free(again);
+    }
+    assert_int_equal(test.warnings, 0);
+}
+
+static void tfx_reads_back_bit_for_bit(void** state)
+{
+    (void)state;
+    hair_asset* asset           = read_file(hair_test_tfx3());
+    asset->strands.positions[4] = 0.1f / 3;
+    struct hair_test_file file  = write_file(asset, HAIR_FORMAT_TFX4);
+    assert_int_equal(file.size, 160 + 12 * 16 + 3 * 8);
+    // The two vertices at the root are held.
+    const unsigned char one[4] = {0, 0, 0x80, 0x3f}, zero[4] = {0};
+    for (int i = 0; i < 12; ++i) assert_memory_equal(file.bytes + 172 + 16 * i, i % 4 < 2 ? zero : one, 4);
+    hair_asset* again = read_file(file);
+    assert_int_equal(again->format, HAIR_FORMAT_TFX4);
+    assert_same(asset, again);
+    hair_asset_free(asset);
+    hair_asset_free(again);
+}
+
+static void formats_that_cannot_hold_the_strands_are_refused(void** state)
+{
+    (void)state;
+    size_t      size  = 77;
+    hair_asset* asset = read_file(hair_test_hair(1 | 2));
+    assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX4, NULL, 0, &size), HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "strand 0 has 3"));
+    assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX3, NULL, 0, &size), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_NONE, NULL, 0, &size), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(size, 77);
+    assert_int_equal(test.errors, 3);
+    hair_asset_free(asset);
+
+    for (uint32_t count = 2; count <= 256; ++count) {
+        hair_import import     = hair_test_import();
+        import.strand_vertices = count;
+        asset                  = read_with(&import, hair_test_hair(1 | 2));
+        int fits               = count == 4 || count == 8 || count == 16 || count == 32 || count == 64;
+        assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX4, NULL, 0, &size),
+                         fits ? HAIR_OK : HAIR_ERROR_ARGUMENT);
+        hair_asset_free(asset);
+    }
+}
+
+static struct hair_test_file load(const char* name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "../shared/data/tressfx/%s", name);
+    struct hair_test_file file = {0};
+    FILE*                 in   = fopen(path, "rb");
+    if (!in) return file;
+    unsigned char buffer[4096];
+    for (size_t got; (got = fread(buffer, 1, sizeof buffer, in)) > 0;) hair_test_put(&file, buffer, got);
+    fclose(in);
+    return file;
+}
+
+// Haircuts of TressFX, where they are at hand; the other tests are whole without them.
+static void real_haircuts_are_read(void** state)
+{
+    (void)state;
+    static const struct {
+        const char* name;
+        hair_format format;
+        uint32_t    strands, each;
+    } real[] = {{"ponytail_back.tfx", HAIR_FORMAT_TFX3, 517, 16},
+                {"ponytail_front_top.tfx", HAIR_FORMAT_TFX3, 876, 16},
+                {"ponytail_side.tfx", HAIR_FORMAT_TFX3, 3066, 16},
+                {"ponytail_tail.tfx", HAIR_FORMAT_TFX3, 474, 16},
+                {"ratboy_mohawk.tfx", HAIR_FORMAT_TFX4, 2228, 32}};
+    for (size_t i = 0; i < sizeof real / sizeof *real; ++i) {
+        struct hair_test_file file = load(real[i].name);
+        if (!file.bytes) continue;
+        hair_import import = hair_test_import();
+        import.scale       = 0.01f;
+        hair_asset* asset  = read_with(&import, file);
+        assert_int_equal(asset->format, real[i].format);
+        assert_int_equal(asset->file_strands, real[i].strands);
+        assert_int_equal(asset->file_vertices, real[i].strands * real[i].each);
+        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        assert_same(asset, again);
+        hair_asset_free(asset);
+        hair_asset_free(again);
+    }
+}
+
+static void degenerate_strands_of_a_real_haircut_are_repaired(void** state)
+{
+    (void)state;
+    struct hair_test_file file = load("ratboy_mohawk.tfx");
+    if (!file.bytes) return;
+    hair_asset* asset = read_file(file);
+    assert_int_equal(asset->repairs.dropped_short, 1); // 7.5 micrometres long.
+    assert_int_equal(asset->strands.strand_count, 2227);
+    hair_asset_free(asset);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(hair_holds_strands_of_any_number_of_vertices),
+        TEST(hair_without_segments_uses_those_of_its_header),
+        TEST(hair_is_read_whatever_arrays_follow_the_points),
+        TEST(half_the_thickness_at_the_root_is_the_radius),
+        TEST(a_bad_thickness_leaves_no_radii_and_a_warning),
+        TEST(unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of),
+        TEST(tfx_holds_guides_wherever_its_sections_lie),
+        TEST(tfx_needs_nothing_but_positions),
+        TEST(tfx_of_any_number_of_vertices_is_read),
+        TEST(import_options_are_used),
+        TEST(repairs_are_counted),
+        TEST(hair_reads_back_bit_for_bit),
+        TEST(tfx_reads_back_bit_for_bit),
+        TEST(formats_that_cannot_hold_the_strands_are_refused),
+        TEST(real_haircuts_are_read),
+        TEST(degenerate_strands_of_a_real_haircut_are_repaired),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
