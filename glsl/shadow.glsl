@@ -5,6 +5,9 @@
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture;
 
 #define SHADOW_TAPS 8
+#define SHADOW_RADIUS 5.0 // texels
+
+const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688); // by 2.399963 radians
 
 float light_through(vec3 position, uint seed)
 {
@@ -12,13 +15,14 @@ float light_through(vec3 position, uint seed)
     vec3  at    = (draw.shadow * vec4(position, 1.0)).xyz;
     vec2  texel = 1.0 / vec2(textureSize(shadow_texture, 0));
     float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034);
+    vec2  arm   = texel * vec2(cos(angle), sin(angle));
     float sum   = 0.0;
     for (int i = 0; i < SHADOW_TAPS; ++i) {
         // Vogel's spiral: even over the disc, turned for each strand so that no pattern shows.
-        float r     = 5.0 * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
-        float theta = angle + 2.399963 * float(i);
-        float depth = textureLod(shadow_texture, at.xy + r * texel * vec2(cos(theta), sin(theta)), 0.0).r;
+        float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
+        float depth = textureLod(shadow_texture, at.xy + r * arm, 0.0).r;
         sum += exp(-draw.light.w * max(at.z - depth, 0.0));
+        arm = GOLDEN_TURN * arm;
     }
     return sum / float(SHADOW_TAPS);
 }
