@@ -22,10 +22,7 @@ static hair_result copy_strands(struct hair_draft* draft)
 {
     const hair_groom_desc* desc    = draft->desc;
     struct hair_strands*   strands = &draft->strands;
-    if (!desc->positions || !desc->strand_vertices)
-        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s is NULL",
-                         desc->positions ? "strand_vertices" : "positions");
-    hair_result result = count_vertices(draft, &strands->vertex_count);
+    hair_result            result  = count_vertices(draft, &strands->vertex_count);
     if (result) return result;
     strands->strand_count = desc->strand_count;
     strands->positions    = hair_alloc(draft->host, strands->vertex_count, 3 * sizeof(float));
@@ -83,18 +80,6 @@ hair_result hair_draft_strands(struct hair_draft* draft)
     return HAIR_OK;
 }
 
-static hair_result check_arrays(const struct hair_draft* draft)
-{
-    const hair_groom_desc* desc = draft->desc;
-    if (!desc->scalp_triangles)
-        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
-                         "hair_groom_desc.scalp_triangles is NULL, with a scalp");
-    if (!desc->scalp_vertex_count || !desc->scalp_triangle_count)
-        return hair_fail(draft->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s is 0, with a scalp",
-                         desc->scalp_vertex_count ? "scalp_triangle_count" : "scalp_vertex_count");
-    return HAIR_OK;
-}
-
 static hair_result check_triangles(const struct hair_draft* draft)
 {
     const hair_groom_desc* desc = draft->desc;
@@ -147,8 +132,7 @@ hair_result hair_draft_scalp(struct hair_draft* draft)
 {
     const hair_groom_desc* desc = draft->desc;
     if (!desc->scalp_positions) return HAIR_OK;
-    hair_result result = check_arrays(draft);
-    if (!result) result = check_triangles(draft);
+    hair_result result = check_triangles(draft);
     if (!result) result = check_density(draft);
     if (result) return result;
     draft->scalp   = hair_alloc(draft->host, desc->scalp_vertex_count, 3 * sizeof *draft->scalp);

@@ -1,7 +1,7 @@
 // patches.c - followers in the order they are drawn: patches of neighbours, each well filled.
 //
-// Plots are cut in two along the axis where they reach farthest, where the sprouts before the cut fill whole
-// patches, and each half again until it fits into one (the packing of an R-tree: Leutenegger et al. 1997, "STR").
+// Plots are cut in two along the axis where they reach farthest, in proportion to the patches that either side will
+// fill, and each half again until it fits into one: the packing of an R-tree (Leutenegger et al. 1997, "STR").
 #include "lib/groom/draft.h"
 
 #define ALIKE (1.0f / 16) // Densities that differ by no more may share a patch.
@@ -80,10 +80,9 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
             fill(layout, order, count);
             return;
         }
-        uint64_t target = total / 2;
-        if (total > HAIR_MAX_ISOLINES)
-            target = (target + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES * HAIR_MAX_ISOLINES;
-        uint32_t axis = hair_cloud_widest(layout->centres, order, count);
+        uint64_t parts  = (total - 1) / HAIR_MAX_ISOLINES + 1;
+        uint64_t target = parts > 1 ? total * (parts / 2) / parts : total / 2;
+        uint32_t axis   = hair_cloud_widest(layout->centres, order, count);
         uint32_t front =
             hair_cloud_split(layout->centres, order, count, axis, layout->draft->plot_sprouts, target);
         lay_out(layout, order, front);
