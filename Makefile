@@ -1,12 +1,14 @@
 # make demo            build, simulate and render the built-in scene: build/demo.png and build/demo.mp4
 # make test            build and run every test; filter=groom runs the programs so named
 # make config=asan     release (default), debug, asan, tsan, coverage
+# make V=1             show every command
 # make setup           install the Debian packages of tools/packages.txt that are missing; SETUP=0 skips it
 MAKEFLAGS += -r --no-print-directory
 config    ?= release
 PREFIX    ?= /usr/local
 SETUP     ?= 1
 JOBS      ?= $(shell nproc)
+V         ?= 0
 filter    ?=
 B         := build/$(config)
 
@@ -15,6 +17,8 @@ opt.debug    := -O0
 opt.asan     := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 opt.tsan     := -O1 -fsanitize=thread
 opt.coverage := -O0 --coverage
+Q := $(if $(filter 0,$(V)),@)
+say = $(if $(filter 0,$(V)),@echo '  $(1)')
 WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
 FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -MMD -MP $(opt.$(config))
 C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
@@ -68,44 +72,56 @@ $(B)/libhair.so: $(LIB:.o=.shared.o)
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: LINK = $(call packages,--libs,egl)
 $(B)/%.so:
-	$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
+	$(call say,$@)
+	$(Q)$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
 	@ln -sf $*.so.$(VERSION) $@.$(MAJOR) && ln -sf $*.so.$(MAJOR) $@
 
 $(B)/gen/sources.c: $(B)/embed $(GLSL)
 	@mkdir -p $(@D)
-	$(B)/embed $@ $(GLSL)
+	$(call say,$@)
+	$(Q)$(B)/embed $@ $(GLSL)
 $(B)/embed: tools/embed.c
 	@mkdir -p $(@D)
-	$(CC) -std=c17 $(WARN) -O1 $< -o $@
+	$(call say,$@)
+	$(Q)$(CC) -std=c17 $(WARN) -O1 $< -o $@
 $(B)/gen/%.c.o: $(B)/gen/%.c
-	$(C) -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) -c $< -o $@
 $(B)/gen/%.c.shared.o: $(B)/gen/%.c
-	$(C) -fPIC -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) -fPIC -c $< -o $@
 $(B)/tools/%.c.o: tools/%.c
 	@mkdir -p $(@D)
-	$(C) $(TOOL_CFLAGS) -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) $(TOOL_CFLAGS) -c $< -o $@
 $(B)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
-	$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -c $< -o $@
 $(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
 	@mkdir -p $(@D)
-	$(CPP) $(EIGEN) -c $< -o $@
+	$(call say,$@)
+	$(Q)$(CPP) $(EIGEN) -c $< -o $@
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
-	$(C) -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) -c $< -o $@
 $(B)/%.c.shared.o: %.c
 	@mkdir -p $(@D)
-	$(C) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
+	$(call say,$@)
+	$(Q)$(C) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
 
 # Tools and tests ------------------------------------------------------------------------------------------
 
 COMMON := $(call objects,tools/common/*.c)
 $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
-	$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+	$(call say,$@)
+	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
 
 SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
-	$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
 
 run-tests: $(TESTS)
 	@failed=; for t in $(TESTS); do case $$t in *$(filter)*) echo "== $$t"; HAIR_TEST=required $$t || failed="$$failed $$t";; esac; done; \
@@ -124,7 +140,8 @@ rooms:
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
 symbols: $(B)/libhair.so $(B)/libhair_egl.so $(B)/libhair.a
 	@nm -D --defined-only $(B)/libhair.so $(B)/libhair_egl.so | awk 'NF == 3 {print $$3}' | LC_ALL=C sort | diff tests/symbols.txt -
-	@! nm $(B)/libhair.a | grep -E ' [BbCDd] ' | grep -vE 'asan|ubsan|gcov|Lubsan' || { echo "libhair has writable globals (above)"; exit 1; }
+	@! objdump -t $(B)/libhair.a | grep -E ' O (\.t?bss|\.t?data|\*COM\*)' | grep -vE '\.data\.rel\.ro|asan|ubsan|gcov' || \
+	  { echo "libhair has writable globals (above)"; exit 1; }
 	@! nm -u $(B)/libhair.a $(B)/libhair_egl.a | grep -wE 'exit|_exit|abort|printf|puts|putchar|fprintf|fputs|fwrite|perror' || { echo "the libraries call these (above)"; exit 1; }
 
 consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
