@@ -28,6 +28,12 @@ static enum hair_sink_kind kind_of(const char* path)
     return in_place ? HAIR_SINK_Y4M : HAIR_SINK_NONE;
 }
 
+bool hair_sink_is_picture(const char* path)
+{
+    enum hair_sink_kind kind = kind_of(path);
+    return (kind == HAIR_SINK_PNG || kind == HAIR_SINK_EXR) && !strchr(path, '%');
+}
+
 // Of "%d" or "%04d" at `at`: its length, and in `digits` how many it asks for. 0: it is neither.
 static size_t pattern_length(const char* at, int* digits)
 {

@@ -21,6 +21,9 @@ struct hair_sink {
     pid_t               process;
 };
 
+// Whether the name is that of one picture, and so can hold one frame only.
+bool hair_sink_is_picture(const char* path);
+
 // Told by the end of the name: .png .exr .y4m .mp4; a pipe or device of another name, and "-", get .y4m. A
 // picture's name may hold one %d or %04d for the frame's number. `path` NULL takes nothing. Returns what the
 // tool should exit with, having complained.

@@ -1,0 +1,320 @@
+// capture.c - hair-capture: a scene simulated and drawn off-screen, into pictures, videos and hashes.
+#define _POSIX_C_SOURCE 200809L
+#include <hair/hair_egl.h>
+
+#include "tools/common/capture_options.h"
+#include "tools/common/file.h"
+#include "tools/common/render.h"
+#include "tools/common/sink.h"
+#include "tools/common/stats.h"
+#include "tools/common/subject.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#define TOOL "hair-capture"
+#define LONGEST_STEP 0.1f // s: hair_desc.max_dt by default. A frame that lasts longer is stepped in parts.
+
+static volatile sig_atomic_t interrupted;
+
+struct capture {
+    struct hair_capture_options options;
+    hair_host                   host;
+    hair_groom*                 groom;
+    hair_egl*                   egl;
+    hair_context*               context;
+    hair_instance*              hair;
+    struct hair_render*         render;
+    struct hair_sink            sink;
+    struct hair_stats           stats;
+    float                       reach;    // of the head, m
+    float*                      vertices; // of all guides, for the hash
+    XXH3_state_t*               strands;
+    XXH3_state_t*               pixels;
+    double                      started; // ms
+};
+
+static void interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+static void catch_signals(void)
+{
+    struct sigaction action = {0};
+    action.sa_handler       = interrupt;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+    action.sa_handler = SIG_IGN; // A reader that went away is seen where it is written to.
+    sigaction(SIGPIPE, &action, NULL);
+}
+
+static void say_all(hair_log_level level, const char* sentence, void* tool)
+{
+    (void)level;
+    hair_complain(tool, "%s", sentence);
+}
+
+// Making ----------------------------------------------------------------------------------------------------
+
+static int make_groom(struct capture* capture)
+{
+    struct hair_scene* scene = &capture->options.scene;
+    int                code  = hair_subject_load(TOOL, &capture->host, scene, &capture->groom);
+    if (code) return code;
+    hair_groom_info* info = &capture->stats.groom;
+    *info                 = hair_groom_info_default();
+    hair_groom_describe(capture->groom, info);
+
+    struct hair_bounds bounds = {{info->lower[0], info->lower[1], info->lower[2]},
+                                 {info->upper[0], info->upper[1], info->upper[2]}};
+    if (!scene->head && !scene->pivot_is_said)
+        for (int i = 0; i < 3; ++i) scene->motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
+    if (!scene->framed) hair_camera_frame(scene, &bounds);
+    capture->reach = 1.15f * hair_camera_reach(scene, &bounds); // Hair that swings goes beyond its rest.
+    return HAIR_EXIT_OK;
+}
+
+static int make_opengl(struct capture* capture)
+{
+    hair_result result = hair_egl_create(&capture->host, capture->options.device, &capture->egl);
+    if (result) return hair_exit_for(result);
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &capture->host;
+    desc.get_proc          = hair_egl_get_proc;
+    desc.timings           = capture->options.stats ? 1 : 0;
+    return hair_exit_for(hair_context_create(&desc, &capture->context));
+}
+
+static int make_mesh(struct capture* capture)
+{
+    const struct hair_scene* scene = &capture->options.scene;
+    struct head_mesh         mesh;
+    bool                     ball = scene->subject == HAIR_SUBJECT_FUR;
+    if (!scene->head && !ball) return HAIR_EXIT_OK;
+    if (scene->head ? head_mesh_create(&mesh) : hair_rig_ball(scene->ball_radius, &mesh)) {
+        hair_complain(TOOL, "out of memory for the head");
+        return HAIR_EXIT_RUNTIME;
+    }
+    hair_render_set_mesh(capture->render, &mesh, !scene->head);
+    head_mesh_free(&mesh);
+    return HAIR_EXIT_OK;
+}
+
+static int make_render(struct capture* capture)
+{
+    const struct hair_capture_options* options = &capture->options;
+    struct hair_render_desc            desc    = {.width       = options->scene.width,
+                                                  .height      = options->scene.height,
+                                                  .samples     = options->samples,
+                                                  .supersample = options->supersample,
+                                                  .linear      = capture->sink.kind == HAIR_SINK_EXR};
+    int                                code    = hair_render_create(TOOL, &desc, &capture->render);
+    return code ? code : make_mesh(capture);
+}
+
+static hair_result set_solids(struct capture* capture, const float transform[16])
+{
+    hair_solid solids[HAIR_MAX_SOLIDS];
+    uint32_t   count = hair_rig_solids(&capture->options.scene, transform, solids);
+    return hair_set_solids(capture->hair, solids, count, sizeof *solids);
+}
+
+static int make_hair(struct capture* capture)
+{
+    const struct hair_scene* scene = &capture->options.scene;
+    hair_desc                desc  = scene->settings.desc;
+    desc.label                     = capture->options.name;
+    desc.physics                   = &scene->settings.physics;
+    desc.look                      = &scene->settings.look;
+    hair_motion_at(&scene->motion, 0, desc.transform);
+    hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
+    if (!result) result = set_solids(capture, desc.transform);
+    return hair_exit_for(result);
+}
+
+static int make_hashes(struct capture* capture)
+{
+    if (!capture->options.hash) return HAIR_EXIT_OK;
+    capture->vertices = malloc(((size_t)capture->stats.groom.guide_vertex_count + 1) * 3 * sizeof(float));
+    capture->strands  = XXH3_createState();
+    capture->pixels   = XXH3_createState();
+    if (!capture->vertices || !capture->strands || !capture->pixels) {
+        hair_complain(TOOL, "out of memory for hashes");
+        return HAIR_EXIT_RUNTIME;
+    }
+    XXH3_64bits_reset(capture->strands);
+    XXH3_64bits_reset(capture->pixels);
+    return HAIR_EXIT_OK;
+}
+
+// Frames ----------------------------------------------------------------------------------------------------
+
+static float time_of(const struct capture* capture, double frame)
+{
+    return (float)(frame / (double)capture->options.scene.fps);
+}
+
+// From the frame before to this one.
+static hair_result step(struct capture* capture, uint32_t frame)
+{
+    const struct hair_scene* scene  = &capture->options.scene;
+    int                      parts  = (int)ceilf(1 / (scene->fps * LONGEST_STEP) - 1e-4f);
+    hair_result              result = HAIR_OK;
+    for (int i = 1; i <= parts && !result; ++i) {
+        float transform[16];
+        hair_motion_at(&scene->motion, time_of(capture, frame - 1 + (double)i / parts), transform);
+        result = hair_set_transform(capture->hair, transform);
+        if (!result) result = set_solids(capture, transform);
+        if (!result) result = hair_step(capture->hair, 1 / (scene->fps * (float)parts));
+    }
+    return result;
+}
+
+static hair_result hash(struct capture* capture, const struct hair_image* image)
+{
+    uint32_t    count, room = capture->stats.groom.guide_vertex_count;
+    hair_result result = hair_read(capture->hair, HAIR_READ_GUIDES, capture->vertices, room, &count);
+    if (result) return result;
+    XXH3_64bits_update(capture->strands, capture->vertices, (size_t)count * 3 * sizeof(float));
+    XXH3_64bits_update(capture->pixels, image->encoded, (size_t)image->width * image->height * 3);
+    return HAIR_OK;
+}
+
+static int show(struct capture* capture, uint32_t frame)
+{
+    const struct hair_scene* scene = &capture->options.scene;
+    const struct hair_image* image;
+    float                    transform[16];
+    double                   before = hair_now();
+    hair_motion_at(&scene->motion, time_of(capture, frame), transform);
+    int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
+    if (code) return code;
+    hair_clock_add(&capture->stats.draw, hair_now() - before);
+    if (capture->options.hash) code = hair_exit_for(hash(capture, image));
+    if (!code && !hair_sink_put(&capture->sink, image, frame)) code = HAIR_EXIT_RUNTIME;
+    return code;
+}
+
+static void show_progress(const struct capture* capture, uint32_t done)
+{
+    uint32_t end     = capture->options.end;
+    double   elapsed = 1e-3 * (hair_now() - capture->started);
+    if (capture->options.quiet || !isatty(STDERR_FILENO)) return;
+    fprintf(stderr, "\r%s: frame %u of %u, %.0f s left   %s", TOOL, done, end, elapsed / done * (end - done),
+            done == end ? "\n" : "");
+}
+
+static int run_frames(struct capture* capture)
+{
+    const struct hair_capture_options* options = &capture->options;
+    capture->started                           = hair_now();
+    for (uint32_t frame = 0; frame < options->end; ++frame) {
+        double before = hair_now();
+        int    code   = frame ? hair_exit_for(step(capture, frame)) : HAIR_EXIT_OK;
+        if (frame && options->stats) {
+            glFinish();
+            hair_clock_add(&capture->stats.step, hair_now() - before);
+        }
+        if (!code && frame >= options->first) code = show(capture, frame);
+        if (code) return code;
+        show_progress(capture, frame + 1);
+        if (interrupted) {
+            hair_complain(TOOL, "interrupted after frame %u", frame);
+            return HAIR_EXIT_RUNTIME;
+        }
+    }
+    return HAIR_EXIT_OK;
+}
+
+// The whole -------------------------------------------------------------------------------------------------
+
+static int make(struct capture* capture)
+{
+    int code = make_groom(capture);
+    if (!code) code = make_opengl(capture);
+    if (!code) code = make_render(capture);
+    if (!code) code = make_hair(capture);
+    if (!code) code = make_hashes(capture);
+    return code;
+}
+
+static int write_stats(struct capture* capture)
+{
+    const struct hair_capture_options* options = &capture->options;
+    if (!options->stats) return HAIR_EXIT_OK;
+    capture->stats.name     = options->name;
+    capture->stats.renderer = (const char*)glGetString(GL_RENDERER);
+    capture->stats.width    = options->scene.width;
+    capture->stats.height   = options->scene.height;
+    capture->stats.first    = options->first;
+    capture->stats.end      = options->end;
+    bool ok                 = hair_stats_write(TOOL, options->stats, &capture->stats, capture->context);
+    return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
+}
+
+static int print_hashes(const struct capture* capture)
+{
+    if (!capture->options.hash) return HAIR_EXIT_OK;
+    printf("strands %016llx\npixels %016llx\n", (unsigned long long)XXH3_64bits_digest(capture->strands),
+           (unsigned long long)XXH3_64bits_digest(capture->pixels));
+    if (!fflush(stdout)) return HAIR_EXIT_OK;
+    hair_complain(TOOL, "cannot write the hashes");
+    return HAIR_EXIT_RUNTIME;
+}
+
+static int run(struct capture* capture)
+{
+    const struct hair_capture_options* options = &capture->options;
+    const struct hair_scene*           scene   = &options->scene;
+    int code = hair_sink_plan(TOOL, options->out, scene->width, scene->height, options->end - options->first,
+                              &capture->sink);
+    if (!code) code = make(capture);
+    if (code) return code;
+    if (!hair_sink_open(&capture->sink, (double)scene->fps)) return HAIR_EXIT_RUNTIME;
+    code = run_frames(capture);
+    if (code)
+        hair_sink_discard(&capture->sink);
+    else if (!hair_sink_commit(&capture->sink))
+        code = HAIR_EXIT_RUNTIME;
+    if (!code) code = write_stats(capture);
+    return code ? code : print_hashes(capture);
+}
+
+static void destroy(struct capture* capture)
+{
+    hair_destroy(capture->hair);
+    if (capture->render) hair_render_destroy(capture->render);
+    hair_context_destroy(capture->context);
+    hair_egl_destroy(capture->egl);
+    hair_groom_destroy(capture->groom);
+    hair_stats_free(&capture->stats);
+    XXH3_freeState(capture->strands);
+    XXH3_freeState(capture->pixels);
+    free(capture->vertices);
+    free(capture);
+}
+
+int main(int count, char** arguments)
+{
+    struct capture* capture = calloc(1, sizeof *capture);
+    if (!capture) {
+        hair_complain(TOOL, "out of memory");
+        return HAIR_EXIT_RUNTIME;
+    }
+    catch_signals();
+    int code = hair_capture_parse(TOOL, count, arguments, &capture->options);
+    if (code < 0) {
+        capture->host.log  = capture->options.verbose ? say_all : hair_print_log;
+        capture->host.user = (void*)(uintptr_t)TOOL;
+        code               = run(capture);
+    }
+    destroy(capture);
+    return code;
+}

@@ -1,0 +1,138 @@
+// camera.c - matrices of the camera and of the light's shadow map.
+#include "tools/common/camera.h"
+
+#include <cglm/cglm.h>
+
+#include <string.h>
+
+void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const float upper[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        bounds->lower[i] = fminf(bounds->lower[i], lower[i]);
+        bounds->upper[i] = fmaxf(bounds->upper[i], upper[i]);
+    }
+}
+
+static float half_diagonal(const struct hair_bounds* bounds)
+{
+    float sum = 0;
+    for (int i = 0; i < 3; ++i)
+        sum += (bounds->upper[i] - bounds->lower[i]) * (bounds->upper[i] - bounds->lower[i]);
+    return 0.5f * sqrtf(sum);
+}
+
+void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds)
+{
+    float aspect   = (float)scene->width / (float)scene->height;
+    float half     = 0.5f * glm_rad(scene->field_of_view);
+    float least    = aspect < 1 ? atanf(tanf(half) * aspect) : half;
+    float distance = fmaxf(half_diagonal(bounds) / sinf(least), 1e-4f);
+    vec3  towards  = {0.45f, 0.12f, 1};
+    glm_vec3_normalize(towards);
+    for (int i = 0; i < 3; ++i) {
+        scene->target[i] = 0.5f * (bounds->lower[i] + bounds->upper[i]);
+        scene->eye[i]    = scene->target[i] + distance * towards[i];
+    }
+    scene->framed = true;
+}
+
+float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds* bounds)
+{
+    float sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        float most =
+            fmaxf(bounds->upper[i] - scene->motion.pivot[i], scene->motion.pivot[i] - bounds->lower[i]);
+        sum += most * most;
+    }
+    return fmaxf(sqrtf(sum), 1e-4f);
+}
+
+static void copy_in(const float from[3], vec3 to)
+{
+    memcpy(to, from, 3 * sizeof(float));
+}
+
+static void carry_pivot(const struct hair_scene* scene, const float transform[16], vec3 out)
+{
+    const float* p = scene->motion.pivot;
+    for (int i = 0; i < 3; ++i)
+        out[i] = transform[i] * p[0] + transform[4 + i] * p[1] + transform[8 + i] * p[2] + transform[12 + i];
+}
+
+// Any up will do but one along the way one looks.
+static void look(vec3 eye, vec3 target, mat4 out)
+{
+    vec3 way, up = {0, 1, 0};
+    glm_vec3_sub(target, eye, way);
+    glm_vec3_normalize(way);
+    if (fabsf(way[1]) > 0.999f) glm_vec3_copy((vec3){0, 0, 1}, up);
+    glm_lookat(eye, target, up, out);
+}
+
+void hair_camera_matrices(const struct hair_scene* scene, const float transform[16], float reach,
+                          struct hair_matrices* out)
+{
+    vec3 eye, target, centre;
+    mat4 view, projection;
+    copy_in(scene->eye, eye);
+    copy_in(scene->target, target);
+    carry_pivot(scene, transform, centre);
+    float distance = glm_vec3_distance(eye, centre);
+    float nearest  = fmaxf(distance - 2 * reach, 0.02f * distance + 1e-4f);
+    look(eye, target, view);
+    glm_perspective(glm_rad(scene->field_of_view), (float)scene->width / (float)scene->height, nearest,
+                    nearest + distance + 4 * reach, projection);
+    memcpy(out->view, view, sizeof view);
+    memcpy(out->projection, projection, sizeof projection);
+}
+
+void hair_light_direction(const struct hair_scene* scene, float out[3])
+{
+    vec3 to;
+    copy_in(scene->settings.view.light_to, to);
+    if (glm_vec3_norm(to) < 1e-12f) to[1] = 1;
+    glm_vec3_normalize(to);
+    memcpy(out, to, sizeof to);
+}
+
+void hair_light_matrices(const struct hair_scene* scene, const float transform[16], float reach,
+                         struct hair_matrices* out)
+{
+    vec3 to, centre, eye;
+    mat4 view, projection;
+    hair_light_direction(scene, to);
+    carry_pivot(scene, transform, centre);
+    glm_vec3_copy(centre, eye);
+    glm_vec3_muladds(to, 2 * reach, eye);
+    look(eye, centre, view);
+    glm_ortho(-reach, reach, -reach, reach, reach, 3 * reach, projection);
+    memcpy(out->view, view, sizeof view);
+    memcpy(out->projection, projection, sizeof projection);
+}
+
+void hair_light_clip(const struct hair_matrices* light, float out[16])
+{
+    mat4 view, projection, clip;
+    memcpy(view, light->view, sizeof view);
+    memcpy(projection, light->projection, sizeof projection);
+    glm_mat4_mul(projection, view, clip);
+    memcpy(out, clip, sizeof clip);
+}
+
+void hair_light_texture(const struct hair_matrices* light, float out[16])
+{
+    hair_light_clip(light, out);
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 3; ++i) out[4 * column + i] = 0.5f * (out[4 * column + i] + out[4 * column + 3]);
+}
+
+// In clip space, from -1 to 1: x' = (x - c) / s, with c the rectangle's centre and s its share of the picture.
+void hair_camera_crop(const float projection[16], const float at[2], const float size[2], float out[16])
+{
+    memcpy(out, projection, 16 * sizeof *out);
+    float centre[2] = {2 * at[0] + size[0] - 1, 1 - 2 * at[1] - size[1]};
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 2; ++i)
+            out[4 * column + i] =
+                (projection[4 * column + i] - centre[i] * projection[4 * column + 3]) / size[i];
+}

@@ -1,0 +1,98 @@
+// rig.c - what goes with the head when it moves, and what stays on the shoulders.
+#include "tools/common/rig.h"
+
+#include <cglm/cglm.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#define COLUMNS 96u
+#define ROWS 48u
+
+static void place(float radius, struct head_mesh* mesh)
+{
+    static const float dark[3] = {0.05f, 0.035f, 0.03f};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        float polar = GLM_PIf * (float)(i / (COLUMNS + 1)) / (float)ROWS;
+        float turn  = 2 * GLM_PIf * (float)(i % (COLUMNS + 1)) / (float)COLUMNS;
+        float at[3] = {sinf(polar) * sinf(turn), cosf(polar), sinf(polar) * cosf(turn)};
+        for (uint32_t k = 0; k < 3; ++k) {
+            mesh->normals[3 * i + k]   = at[k];
+            mesh->positions[3 * i + k] = radius * at[k];
+            mesh->colors[3 * i + k]    = dark[k];
+        }
+    }
+}
+
+static void join(struct head_mesh* mesh)
+{
+    uint32_t* out = mesh->triangles;
+    for (uint32_t row = 0; row < ROWS; ++row)
+        for (uint32_t column = 0; column < COLUMNS; ++column) {
+            uint32_t a = row * (COLUMNS + 1) + column, below = a + COLUMNS + 1;
+            uint32_t quad[6] = {a, below, a + 1, a + 1, below, below + 1};
+            for (int k = 0; k < 6; ++k) *out++ = quad[k];
+        }
+}
+
+int hair_rig_ball(float radius, struct head_mesh* out)
+{
+    struct head_mesh mesh = {.vertex_count   = (COLUMNS + 1) * (ROWS + 1),
+                             .triangle_count = 2 * COLUMNS * ROWS};
+    size_t           size = (size_t)mesh.vertex_count * 3 * sizeof(float);
+    mesh.positions        = malloc(size);
+    mesh.normals          = malloc(size);
+    mesh.colors           = malloc(size);
+    mesh.triangles        = malloc(mesh.triangle_count * 3 * sizeof *mesh.triangles);
+    if (!mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles) {
+        head_mesh_free(&mesh);
+        return -1;
+    }
+    place(radius, &mesh);
+    join(&mesh);
+    *out = mesh;
+    return 0;
+}
+
+// Solids ----------------------------------------------------------------------------------------------------
+
+// As the vertex shader bends the mesh: smoothstep.
+static float weight(float height)
+{
+    float t = glm_clamp((height - HAIR_RIG_RESTS) / (HAIR_RIG_MOVES - HAIR_RIG_RESTS), 0, 1);
+    return t * t * (3 - 2 * t);
+}
+
+static void carry(const float transform[16], float share, hair_solid* solid)
+{
+    mat4   m;
+    versor turn, none = GLM_QUAT_IDENTITY_INIT, own;
+    vec3   rest = {solid->position[0], solid->position[1], solid->position[2]}, moved;
+    memcpy(m, transform, sizeof m);
+    glm_mat4_mulv3(m, rest, 1, moved);
+    glm_vec3_lerp(rest, moved, share, moved);
+    memcpy(solid->position, moved, sizeof solid->position);
+
+    glm_mat4_quat(m, turn);
+    glm_quat_slerp(none, turn, share, turn);
+    memcpy(own, solid->rotation, sizeof own);
+    glm_quat_mul(turn, own, own);
+    glm_quat_normalize(own);
+    memcpy(solid->rotation, own, sizeof own);
+}
+
+uint32_t hair_rig_solids(const struct hair_scene* scene, const float transform[16],
+                         hair_solid out[HAIR_MAX_SOLIDS])
+{
+    uint32_t count = 0;
+    if (scene->head) count = head_solids(out, HAIR_MAX_SOLIDS - HAIR_SCENE_SOLIDS - 1);
+    for (uint32_t i = 0; i < count; ++i) carry(transform, weight(out[i].position[1]), &out[i]);
+
+    uint32_t others = count;
+    if (scene->subject == HAIR_SUBJECT_FUR)
+        out[count++] = (hair_solid){.rotation = {0, 0, 0, 1}, .size = {scene->ball_radius}};
+    memcpy(out + count, scene->solids, scene->solid_count * sizeof *out);
+    count += scene->solid_count;
+    for (uint32_t i = others; i < count; ++i) carry(transform, 1, &out[i]);
+    return count;
+}

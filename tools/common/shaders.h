@@ -1,0 +1,31 @@
+// shaders.h - GLSL of what a capture draws beside the hair.
+#ifndef HAIR_TOOLS_COMMON_SHADERS_H
+#define HAIR_TOOLS_COMMON_SHADERS_H
+
+// Locations of uniforms, in C and in GLSL.
+#define HAIR_AT_HEAD 0
+#define HAIR_AT_VIEW 1
+#define HAIR_AT_PROJECTION 2
+#define HAIR_AT_BEND 3
+#define HAIR_AT_EYE 4
+#define HAIR_AT_LIGHT_TO 5
+#define HAIR_AT_LIGHT 6
+#define HAIR_AT_AMBIENT 7
+#define HAIR_AT_SHADOW 8
+#define HAIR_AT_TEXEL 9
+#define HAIR_AT_TILE 10
+#define HAIR_AT_CENTRE 11
+#define HAIR_AT_EDGE 12
+#define HAIR_AT_ASPECT 13
+#define HAIR_AT_SUPERSAMPLE 14
+#define HAIR_AT_EXPOSURE 15
+#define HAIR_AT_HEIGHT 16
+
+extern const char hair_whole_vert[];      // all of the picture, no vertices needed
+extern const char hair_background_frag[]; // a calm gradient
+extern const char hair_mesh_vert[];       // what moves with the head
+extern const char hair_skin_frag[];       // lit, in the shadow of the hair
+extern const char hair_nothing_frag[];    // depth alone
+extern const char hair_tone_frag[];       // from light to 8 bits
+
+#endif

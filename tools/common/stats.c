@@ -1,0 +1,100 @@
+// stats.c - what a capture drew and how long it took, as JSON.
+#define _POSIX_C_SOURCE 200809L
+#include "tools/common/stats.h"
+#include "tools/common/file.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define MAX_PASSES 64
+
+double hair_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+// What finds no memory is not counted.
+void hair_clock_add(struct hair_clock* clock, double ms)
+{
+    if (clock->count == clock->room) {
+        uint32_t room = clock->room ? 2 * clock->room : 64;
+        float*   more = realloc(clock->ms, room * sizeof *more);
+        if (!more) return;
+        clock->ms   = more;
+        clock->room = room;
+    }
+    clock->ms[clock->count++] = (float)ms;
+}
+
+static int compare(const void* a, const void* b)
+{
+    float x = *(const float*)a, y = *(const float*)b;
+    return (x > y) - (x < y);
+}
+
+static json_t* clock_row(const char* name, const char* method, const struct hair_clock* clock)
+{
+    if (!clock->count) return NULL;
+    qsort(clock->ms, clock->count, sizeof *clock->ms, compare);
+    return json_pack("{s:s, s:s, s:f, s:f, s:f, s:i}", "case", name, "method", method, "ms",
+                     (double)clock->ms[clock->count / 2], "ms_min", (double)clock->ms[0], "ms_max",
+                     (double)clock->ms[clock->count - 1], "runs", clock->count);
+}
+
+static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
+{
+    hair_timing passes[MAX_PASSES];
+    uint32_t    count   = hair_timings(context, passes, MAX_PASSES);
+    json_t*     rows    = json_array();
+    json_t*     wall[2] = {clock_row(stats->name, "step", &stats->step),
+                           clock_row(stats->name, "draw", &stats->draw)};
+    for (int i = 0; i < 2; ++i)
+        if (wall[i]) json_array_append_new(rows, wall[i]);
+    for (uint32_t i = 0; i < count && i < MAX_PASSES; ++i)
+        json_array_append_new(rows,
+                              json_pack("{s:s, s:s, s:f, s:i}", "case", stats->name, "method", passes[i].pass,
+                                        "ms", (double)passes[i].ms, "runs", passes[i].runs));
+    return rows;
+}
+
+static json_t* groom_of(const hair_groom_info* groom)
+{
+    const hair_repairs* repairs = &groom->repairs;
+    json_t*             mended =
+        json_pack("{s:i, s:i, s:i, s:i, s:i}", "dropped_single", repairs->dropped_single, "dropped_short",
+                  repairs->dropped_short, "removed_nonfinite", repairs->removed_nonfinite, "removed_repeated",
+                  repairs->removed_repeated, "resampled", repairs->resampled);
+    return json_pack("{s:i, s:i, s:i, s:i, s:i, s:o}", "strands", groom->strand_count, "guides",
+                     groom->guide_count, "guide_vertices", groom->guide_vertex_count, "followers",
+                     groom->follower_count, "patches", groom->patch_count, "repairs", mended);
+}
+
+bool hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
+                      hair_context* context)
+{
+    char     version[32];
+    uint32_t number = hair_version();
+    snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
+    json_t* root =
+        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o}", "suite", "capture", "version", version,
+                  "renderer", stats->renderer, "size", stats->width, stats->height, "frames", stats->first,
+                  stats->end, "groom", groom_of(&stats->groom), "rows", rows_of(stats, context));
+    struct hair_output output;
+    bool               ok = root && hair_output_open(tool, path, &output);
+    if (ok) {
+        json_dumpf(root, output.file, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
+        fputc('\n', output.file);
+        ok = hair_output_commit(&output);
+    }
+    json_decref(root);
+    return ok;
+}
+
+void hair_stats_free(struct hair_stats* stats)
+{
+    free(stats->step.ms);
+    free(stats->draw.ms);
+}

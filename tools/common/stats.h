@@ -1,0 +1,29 @@
+// stats.h - what a capture drew and how long it took, as JSON.
+#ifndef HAIR_TOOLS_COMMON_STATS_H
+#define HAIR_TOOLS_COMMON_STATS_H
+
+#include <stdbool.h>
+
+#include <hair/hair.h>
+
+// Wall time of one part of the work, frame by frame.
+struct hair_clock {
+    float*   ms;
+    uint32_t count, room;
+};
+
+struct hair_stats {
+    const char*       name; // of the scene
+    const char*       renderer;
+    uint32_t          width, height, first, end;
+    hair_groom_info   groom;
+    struct hair_clock step, draw; // draw: with shadow map, head and reading the picture
+};
+
+double hair_now(void); // ms, from some time on
+void   hair_clock_add(struct hair_clock* clock, double ms);
+bool   hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
+                        hair_context* context);
+void   hair_stats_free(struct hair_stats* stats);
+
+#endif
