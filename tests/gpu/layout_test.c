@@ -15,22 +15,13 @@ struct member {
     GLenum      type;
 };
 
-#define VEC4(S, name)                                                                                        \
-    {                                                                                                        \
-#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT_VEC4                     \
-    }
-#define MAT4(S, name)                                                                                        \
-    {                                                                                                        \
-#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT_MAT4                     \
-    }
-#define FLOAT(S, name)                                                                                       \
-    {                                                                                                        \
-#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_FLOAT                          \
-    }
-#define UINT(S, name)                                                                                        \
-    {                                                                                                        \
-#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), GL_UNSIGNED_INT                   \
-    }
+// clang-format off
+#define ROW(S, name, type) {#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), type}
+#define VEC4(S, name) ROW(S, name, GL_FLOAT_VEC4)
+#define MAT4(S, name) ROW(S, name, GL_FLOAT_MAT4)
+#define FLOAT(S, name) ROW(S, name, GL_FLOAT)
+#define UINT(S, name) ROW(S, name, GL_UNSIGNED_INT)
+// clang-format on
 
 // In order, so that each begins where the one before ends and none is forgotten.
 static const struct member members[] = {
