@@ -12,6 +12,7 @@
 #define FINE 1024            // Samples of the hairline that the outline is measured by.
 #define CANDIDATES 12        // Places tried per vertex.
 #define RELAXATIONS 6        // The spacing of 166 vertices is even to a fifth after as many.
+#define CLEARANCE 0.65f      // Of inner vertices from the middle of an edge of the outline, in its lengths.
 #define PARTING_HALF 0.0016f // Half its width at the hairline, m: a comb's line.
 
 struct build {
@@ -161,9 +162,13 @@ static void draw_candidates(struct build* build, float* share)
     *share = (float)kept / (float)tried;
 }
 
-static void shrink_gaps(struct build* build, uint32_t vertex)
+static hair_vec3 vertex_at(const struct build* build, uint32_t i)
 {
-    hair_vec3 p = hair_load3(build->scalp.positions + 3 * vertex);
+    return hair_load3(build->scalp.positions + 3 * (size_t)i);
+}
+
+static void shrink_gaps(struct build* build, hair_vec3 p)
+{
     for (uint32_t i = 0; i < build->candidate_count; ++i) {
         hair_vec3 d   = hair_sub(build->candidates[i], p);
         build->gap[i] = fminf(build->gap[i], hair_dot(d, d));
@@ -173,13 +178,16 @@ static void shrink_gaps(struct build* build, uint32_t vertex)
 static void fill_gaps(struct build* build, uint32_t vertex_count)
 {
     for (uint32_t i = 0; i < build->candidate_count; ++i) build->gap[i] = INFINITY;
-    for (uint32_t i = 0; i < build->outline_count; ++i) shrink_gaps(build, i);
+    for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
+        shrink_gaps(build, vertex_at(build, i));
+        shrink_gaps(build, hair_lerp(vertex_at(build, i), vertex_at(build, j), 0.5f));
+    }
     while (build->scalp.vertex_count < vertex_count) {
         uint32_t widest = 0;
         for (uint32_t i = 1; i < build->candidate_count; ++i)
             if (build->gap[i] > build->gap[widest]) widest = i;
         add_vertex(build, build->candidates[widest]);
-        shrink_gaps(build, build->scalp.vertex_count - 1);
+        shrink_gaps(build, build->candidates[widest]);
     }
 }
 
@@ -225,6 +233,19 @@ static hair_result triangulate(struct build* build)
     return HAIR_OK;
 }
 
+// An edge of the outline is sure to be in the triangulation when no vertex lies in the circle round it.
+static hair_vec3 clear_outline(const struct build* build, hair_vec3 p)
+{
+    for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
+        hair_vec3 a = vertex_at(build, i), b = vertex_at(build, j), middle = hair_lerp(a, b, 0.5f);
+        float     wanted = CLEARANCE * hair_distance(a, b);
+        if (hair_distance(p, middle) >= wanted) continue;
+        hair_vec3 away = hair_normalize(hair_sub(p, middle), hair_v3(0, 1, 0));
+        p              = hair_add(middle, hair_scale(away, wanted));
+    }
+    return hair_skull_point(hair_skull_unit(p));
+}
+
 static void relax(struct build* build)
 {
     memset(build->sum, 0, build->scalp.vertex_count * sizeof *build->sum);
@@ -244,7 +265,7 @@ static void relax(struct build* build)
     for (uint32_t i = build->outline_count; i < build->scalp.vertex_count; ++i)
         if (build->area[i] > 0)
             hair_store3(build->scalp.positions + 3 * i,
-                        hair_skull_point(hair_skull_unit(hair_scale(build->sum[i], 1 / build->area[i]))));
+                        clear_outline(build, hair_scale(build->sum[i], 1 / build->area[i])));
 }
 
 // Whole ----------------------------------------------------------------------------------------------------
