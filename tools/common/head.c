@@ -30,7 +30,7 @@ struct stretch {
     float from, to, spacing; // m
 };
 
-#define COARSEST 0.009f
+#define COARSEST 0.010f
 
 static float spacing_at(const struct stretch* stretch, uint32_t count, float at)
 {
@@ -81,13 +81,15 @@ static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0
                 net->distance[index_of(net, i, j, k)] = skip ? far : head_distance(grid_point(net, i, j, k));
 }
 
+// By four points of a tetrahedron round p (Quilez).
 static point gradient(point p)
 {
     const float h = 3e-4f;
-    point       g = {head_distance((point){p.x + h, p.y, p.z}) - head_distance((point){p.x - h, p.y, p.z}),
-                     head_distance((point){p.x, p.y + h, p.z}) - head_distance((point){p.x, p.y - h, p.z}),
-                     head_distance((point){p.x, p.y, p.z + h}) - head_distance((point){p.x, p.y, p.z - h})};
-    return (point){g.x / (2 * h), g.y / (2 * h), g.z / (2 * h)};
+    float       a = head_distance((point){p.x + h, p.y - h, p.z - h});
+    float       b = head_distance((point){p.x - h, p.y - h, p.z + h});
+    float       c = head_distance((point){p.x - h, p.y + h, p.z - h});
+    float       d = head_distance((point){p.x + h, p.y + h, p.z + h});
+    return (point){(a - b - c + d) / (4 * h), (c + d - a - b) / (4 * h), (b + d - a - c) / (4 * h)};
 }
 
 static int grow(void** memory, uint32_t* capacity, uint32_t count, size_t size)
@@ -128,14 +130,13 @@ static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k,
 
 static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
 {
-    point g = {0, 1, 0};
-    for (int turn = 0; turn < 3; ++turn) { // Newton's method, held to the cell's neighbourhood
-        g            = gradient(p);
-        float square = fmaxf(g.x * g.x + g.y * g.y + g.z * g.z, 0.25f);
-        float step   = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
-        if (turn < 2) p = (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
-    }
-    float size = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
+    // One step of Newton's method, held to the cell's neighbourhood.
+    point g      = gradient(p);
+    float square = fmaxf(g.x * g.x + g.y * g.y + g.z * g.z, 0.25f);
+    float step   = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
+    p            = (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
+    g            = gradient(p);
+    float size   = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
     memcpy(mesh->positions + 3 * vertex, &p, sizeof p);
     g = (point){g.x / size, g.y / size, g.z / size};
     memcpy(mesh->normals + 3 * vertex, &g, sizeof g);
@@ -225,12 +226,12 @@ int head_mesh_create(struct head_mesh* out)
     struct head_mesh mesh = {0};
     struct net       net  = {.mesh = &mesh, .vertex_capacity = 1 << 14, .triangle_capacity = 1 << 15};
     // Fine where the face is: eyes, nose and mouth; ears.
-    const struct stretch x[] = {{-0.048f, 0.048f, 0.0020f}, {-0.090f, 0.090f, 0.0030f}};
-    const struct stretch y[] = {{1.602f, 1.618f, 0.0013f},
-                                {1.544f, 1.562f, 0.0016f},
-                                {1.510f, 1.645f, 0.0024f},
+    const struct stretch x[] = {{-0.048f, 0.048f, 0.0023f}, {-0.090f, 0.090f, 0.0036f}};
+    const struct stretch y[] = {{1.604f, 1.616f, 0.0014f},
+                                {1.546f, 1.560f, 0.0018f},
+                                {1.510f, 1.645f, 0.0030f},
                                 {1.400f, 1.450f, 0.0050f}};
-    const struct stretch z[] = {{0.075f, 0.110f, 0.0022f}, {-0.030f, 0.100f, 0.0036f}};
+    const struct stretch z[] = {{0.075f, 0.110f, 0.0026f}, {-0.030f, 0.100f, 0.0042f}};
     make_axis(&net.axis[0], -0.235f, 0.235f, x, 2);
     make_axis(&net.axis[1], HEAD_BOTTOM - 0.004f, 1.740f, y, 4);
     make_axis(&net.axis[2], -0.150f, 0.135f, z, 2);
