@@ -1,0 +1,342 @@
+// groom_guides_test.c - which strands are simulated, and their rest shapes.
+#include "tests/support/grooms.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return test.blocks ? -1 : 0;
+}
+
+static hair_groom* make(const hair_groom_desc* desc)
+{
+    hair_groom* groom = NULL;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
+    return groom;
+}
+
+static hair_vec3 xyz(hair_vec4 v)
+{
+    return hair_v3(v.x, v.y, v.z);
+}
+
+static hair_quat frame_of(const struct hair_guide* guide)
+{
+    hair_vec4 q = guide->root_frame;
+    return (hair_quat){q.x, q.y, q.z, q.w};
+}
+
+static hair_vec3 vertex(const hair_groom* groom, uint32_t guide, uint32_t i)
+{
+    return xyz(groom->rest[groom->guides[guide].first + i].position);
+}
+
+// Curls of 2 turns, the strand's number apart.
+static hair_vec3 curl(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    return hair_v3(0.1f * (float)strand + 0.02f * cosf(12.566f * t), -0.2f * t, 0.02f * sinf(12.566f * t));
+}
+
+// Roots all over a sphere, strands straight away from it.
+static hair_vec3 hedgehog(float t, uint32_t strand, const void* user)
+{
+    float z = 1 - 2 * ((float)strand + 0.5f) / *(const float*)user, angle = 2.39996f * (float)strand;
+    float r = sqrtf(1 - z * z);
+    return hair_scale(hair_v3(r * cosf(angle), r * sinf(angle), z), 0.1f + 0.05f * t);
+}
+
+static void strands_given_as_guides_are_the_guides_in_their_order(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(100);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    desc.strands_are                 = HAIR_STRANDS_GUIDES;
+    desc.guide_count                 = 10;
+    hair_groom* groom                = make(&desc);
+    assert_int_equal(groom->info.guide_count, 100);
+    const float* p = strands.positions;
+    for (uint32_t i = 0; i < 100; p += 3 * strands.vertices[i++])
+        assert_true(hair_distance(vertex(groom, i, 0), hair_load3(p)) == 0);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void guides_are_as_many_as_asked_for_or_one_in_ten(void** state)
+{
+    (void)state;
+    static const struct {
+        uint32_t strands, asked, given;
+    } cases[] = {{1, 0, 1},   {50, 0, 50}, {500, 0, 64},    {5000, 0, 500},
+                 {500, 7, 7}, {500, 1, 1}, {500, 9999, 500}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        struct hair_test_strands strands = hair_test_fur(cases[i].strands);
+        hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+        desc.guide_count                 = cases[i].asked;
+        hair_groom* groom                = make(&desc);
+        assert_int_equal(groom->info.guide_count, cases[i].given);
+        hair_groom_destroy(groom);
+        hair_test_strands_free(&strands);
+    }
+}
+
+// 990 strands hang, 10 at the same place stand up.
+static hair_vec3 few_stand(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    float x = 0.001f * (float)(strand % 30), z = 0.001f * (float)(strand / 30 % 30);
+    return hair_v3(x, strand < 10 ? 0.1f * t : -0.1f * t, z);
+}
+
+static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(1000, 8);
+    for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 8, few_stand, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.guide_count     = 20;
+    hair_groom* groom    = make(&desc);
+    uint32_t    standing = 0, hanging = 0;
+    for (uint32_t i = 0; i < 20; ++i) *(vertex(groom, i, 7).y > 0 ? &standing : &hanging) += 1;
+    assert_in_range(standing, 1, 4);
+    assert_int_equal(hanging, 20 - standing);
+    for (uint32_t i = 0; i < 1000; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        bool                        stands   = hair_test_single(groom, follower, 1).y > 0;
+        assert_int_equal(stands, vertex(groom, follower->guide0, 7).y > 0);
+    }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void strands_that_are_all_alike_are_shared_out_too(void** state)
+{
+    (void)state;
+    float                    count   = 1;
+    struct hair_test_strands strands = hair_test_strands_make(300, 5);
+    for (int i = 0; i < 300; ++i) {
+        hair_test_strands_add(&strands, 5, hedgehog, &count);
+        strands.count -= 1; // The same strand again.
+        strands.vertices[i] = 5;
+    }
+    strands.count        = 300;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.guide_count     = 100;
+    hair_groom* groom    = make(&desc);
+    assert_int_equal(groom->info.guide_count, 100);
+    assert_int_equal(groom->info.follower_count, 300);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_at_least_four(void** state)
+{
+    (void)state;
+    static const uint32_t    given[] = {2, 3, 4, 5, 16, 17, 64, 200}, kept[] = {4, 4, 4, 5, 16, 16, 16, 16};
+    struct hair_test_strands strands = hair_test_strands_make(8, 200);
+    for (int i = 0; i < 8; ++i) hair_test_strands_add(&strands, given[i], curl, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices  = 16;
+    hair_groom* groom    = make(&desc);
+    uint32_t    first    = 0;
+    for (uint32_t i = 0; i < 8; ++i) {
+        assert_int_equal(groom->guides[i].first, first);
+        assert_int_equal(groom->guides[i].count, kept[i]);
+        first += kept[i];
+    }
+    assert_int_equal(groom->info.guide_vertex_count, first);
+    assert_int_equal(groom->most_vertices, 16);
+    for (uint32_t i = 0; i < 16; ++i) // The fifth strand has 16.
+        assert_true(hair_distance(vertex(groom, 4, i), curl((float)i / 15, 4, NULL)) == 0);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static double length_of(const float* p, uint32_t vertices)
+{
+    double sum = 0;
+    for (uint32_t i = 1; i < vertices; ++i)
+        sum += (double)hair_distance(hair_load3(p + 3 * i), hair_load3(p + 3 * (i - 1)));
+    return sum;
+}
+
+// Arcs of 4 pi / 31 of turn per segment, at a slope: the chord is (turn per segment)^2 / 24 shorter, by the share of
+// the motion that is circular.
+static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(3, 200);
+    hair_test_strands_add(&strands, 3, curl, NULL);
+    hair_test_strands_add(&strands, 32, curl, NULL);
+    hair_test_strands_add(&strands, 200, curl, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    hair_groom* groom    = make(&desc);
+    assert_float_equal(groom->guides[0].length / length_of(strands.positions, 3), 1, 1e-6);
+    assert_float_equal(groom->guides[1].length / length_of(strands.positions + 9, 32), 1, 1e-6);
+
+    double turn = 12.566 / 31, around = 0.02 * 12.566,
+           share = around * around / (around * around + 0.2 * 0.2);
+    double loss  = 1 - groom->guides[2].length / length_of(strands.positions + 3 * 35, 200);
+    printf("200 vertices brought down to 32: %.2f %% shorter\n", 100 * loss);
+    assert_float_equal(loss, share * turn * turn / 24, 0.1 * turn * turn / 24);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** state)
+{
+    (void)state;
+    float                    count   = 1000;
+    struct hair_test_strands strands = hair_test_strands_make(1000, 5);
+    for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    hair_groom* groom    = make(&desc);
+    for (uint32_t i = 0; i < 1000; ++i) {
+        hair_quat q = frame_of(&groom->guides[i]);
+        hair_vec3 along =
+            hair_normalize(hair_sub(vertex(groom, i, 1), vertex(groom, i, 0)), hair_v3(0, 0, 0));
+        assert_float_equal(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1, 1e-6);
+        assert_true(hair_distance(hair_rotate(q, hair_v3(0, 1, 0)), along) < 2e-6f);
+    }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+// Over the upper half of the hedgehog: where neighbours' directions differ by an angle, their frames may differ by
+// little more.
+static void root_frames_vary_as_smoothly_as_the_roots(void** state)
+{
+    (void)state;
+    float                    count   = 4000;
+    struct hair_test_strands strands = hair_test_strands_make(2000, 5);
+    for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    hair_groom* groom    = make(&desc);
+    for (uint32_t i = 0; i < 2000; ++i)
+        for (uint32_t j = 0; j < i; ++j) {
+            hair_quat a = frame_of(&groom->guides[i]), b = frame_of(&groom->guides[j]);
+            float along  = hair_distance(hair_rotate(a, hair_v3(0, 1, 0)), hair_rotate(b, hair_v3(0, 1, 0)));
+            float across = hair_distance(hair_rotate(a, hair_v3(1, 0, 0)), hair_rotate(b, hair_v3(1, 0, 0)));
+            if (along < 0.1f) assert_true(across < 1.5f * along);
+        }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+// F_i = T_i F_(i-1): vertex by vertex from the root frame, lengths and directions alone.
+static void lengths_and_directions_give_the_guide_back(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(20, 60);
+    for (uint32_t i = 0; i < 20; ++i) hair_test_strands_add(&strands, 3 + 3 * i, curl, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    hair_groom* groom    = make(&desc);
+    for (uint32_t i = 0; i < 20; ++i) {
+        const struct hair_rest* rest  = groom->rest + groom->guides[i].first;
+        hair_quat               frame = frame_of(&groom->guides[i]);
+        hair_vec3               at = xyz(rest[0].position), before = hair_rotate(frame, hair_v3(0, 1, 0));
+        for (uint32_t j = 0; j + 1 < groom->guides[i].count; ++j) {
+            hair_vec3 to = hair_rotate(frame, xyz(rest[j].direction));
+            assert_float_equal(hair_length(xyz(rest[j].direction)), 1, 1e-6);
+            frame  = hair_quat_multiply(hair_quat_between(before, to), frame);
+            at     = hair_add(at, hair_scale(to, rest[j].position.w));
+            before = to;
+            assert_true(hair_distance(at, xyz(rest[j + 1].position)) < 5e-6f);
+        }
+    }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void rest_distances_are_those_between_vertices_and_none_at_the_tip(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(1, 20);
+    hair_test_strands_add(&strands, 20, curl, NULL);
+    hair_groom_desc         desc  = hair_test_groom_desc(&test, &strands);
+    hair_groom*             groom = make(&desc);
+    const struct hair_rest* rest  = groom->rest;
+    for (uint32_t i = 0; i < 20; ++i) {
+        float one = i < 19 ? hair_distance(vertex(groom, 0, i), vertex(groom, 0, i + 1)) : 0;
+        float two = i < 18 ? hair_distance(vertex(groom, 0, i), vertex(groom, 0, i + 2)) : 0;
+        assert_float_equal(rest[i].position.w, one, 0);
+        assert_float_equal(rest[i].direction.w, two, 0);
+    }
+    assert_true(hair_distance(xyz(rest[0].direction), hair_v3(0, 1, 0)) == 0);
+    assert_true(hair_distance(xyz(rest[19].direction), hair_v3(0, 1, 0)) == 0);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static hair_vec3 zigzag(float t, uint32_t strand, const void* user)
+{
+    uint32_t vertices = *(const uint32_t*)user;
+    return hair_v3(0.1f * (float)strand, (uint32_t)(t * (float)(vertices - 1) + 0.5f) % 2 ? 0.1f : 0, 0);
+}
+
+// Samples at equal distances all fall on the ends of the zigzag, or on one of them.
+static void strands_that_run_to_and_fro_become_sound_guides(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(3, 256);
+    for (uint32_t vertices = 4; vertices <= 256; vertices *= 8)
+        hair_test_strands_add(&strands, vertices, zigzag, &vertices);
+    for (uint32_t guide_vertices = 4; guide_vertices <= 64; ++guide_vertices) {
+        hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+        desc.guide_vertices  = guide_vertices;
+        hair_groom* groom    = make(&desc);
+        for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
+            const struct hair_guide* guide = &groom->guides[i];
+            assert_in_range(guide->count, 4, guide_vertices);
+            for (uint32_t j = 0; j < guide->count; ++j) {
+                const float* rest = &groom->rest[guide->first + j].position.x;
+                for (int k = 0; k < 8; ++k) assert_true(isfinite(rest[k]));
+                if (j + 1 < guide->count) assert_true(rest[3] > 0);
+            }
+        }
+        hair_groom_destroy(groom);
+    }
+    hair_test_strands_free(&strands);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(strands_given_as_guides_are_the_guides_in_their_order),
+        TEST(guides_are_as_many_as_asked_for_or_one_in_ten),
+        TEST(a_few_strands_of_another_shape_get_guides_of_their_own),
+        TEST(strands_that_are_all_alike_are_shared_out_too),
+        TEST(a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_at_least_four),
+        TEST(a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples),
+        TEST(every_root_frame_is_a_rotation_of_y_onto_the_first_segment),
+        TEST(root_frames_vary_as_smoothly_as_the_roots),
+        TEST(lengths_and_directions_give_the_guide_back),
+        TEST(rest_distances_are_those_between_vertices_and_none_at_the_tip),
+        TEST(strands_that_run_to_and_fro_become_sound_guides),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
