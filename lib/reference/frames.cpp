@@ -1,0 +1,28 @@
+// frames.cpp - frames carried along a guide, one segment after the other.
+#include "lib/reference/convert.h"
+
+// The rotation in the plane of a and b, by the vector half way between them. Opposite vectors have no such plane, and
+// any will do.
+static Quaterniond least_rotation(const Vector3d& a, const Vector3d& b)
+{
+    Quaterniond turn;
+    if (1 + a.dot(b) < 1e-6) {
+        turn.w()   = 0;
+        turn.vec() = a.unitOrthogonal();
+        return turn;
+    }
+    const Vector3d half = (a + b).normalized();
+    turn.w()            = a.dot(half);
+    turn.vec()          = a.cross(half);
+    return turn.normalized();
+}
+
+void hair_reference_frames(uint32_t segments, const double* directions, const double root[4], double* frames)
+{
+    Quaterniond frame = quaternion_of(root);
+    for (uint32_t i = 0; i < segments; ++i) {
+        const Vector3d along = frame * Vector3d(0, 1, 0);
+        frame                = (least_rotation(along, vector_of(directions + 3 * i)) * frame).normalized();
+        store(frame, frames + 4 * i);
+    }
+}

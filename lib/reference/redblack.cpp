@@ -1,0 +1,182 @@
+// redblack.cpp - one guide through the substeps of Tariq 2010, "Hair", stage by stage.
+//
+//   x' = x + keep d + g dt^2 - D      Verlet: d the displacement of the last substep, D that of the head,
+//                                     since positions are from the head's origin
+//   p' = p + (k / (1 + k)) (a - p)    a spring of angular frequency w to a, taken implicitly; k = (w dt)^2
+#include "lib/reference/convert.h"
+
+#include <cmath>
+#include <vector>
+
+namespace
+{
+
+// Pinned by the scalp: the first segment keeps its direction too.
+const uint32_t pinned = 2;
+
+struct strand {
+    double* positions;
+
+    Vector3d operator[](uint32_t i) const { return vector_of(positions + 3 * i); }
+    void     put(uint32_t i, const Vector3d& p) { store(p, positions + 3 * i); }
+};
+
+double length_of_substep(const hair_reference_guide& g)
+{
+    return g.params->gravity.w;
+}
+
+Quaterniond head_rotation(const hair_reference_guide& g, uint32_t substep)
+{
+    return quaternion_of(g.params->substep[substep].rotation);
+}
+
+Vector3d rest_pose(const hair_reference_guide& g, uint32_t substep, uint32_t i)
+{
+    return head_rotation(g, substep) * vector_of(g.rest[i].position);
+}
+
+Vector3d pull(const Vector3d& p, const Vector3d& aim, double squared_frequency, double dt)
+{
+    const double k = squared_frequency * dt * dt;
+    return (p + k * aim) / (1 + k);
+}
+
+// Tariq 2010, figure 10: both ends by half of what the link is too long or too short by; a pinned end stays.
+void relax(strand& s, uint32_t a, uint32_t b, double rest_length, double stiffness)
+{
+    if (b < pinned) return;
+    const Vector3d link   = s[b] - s[a];
+    const double   length = link.norm();
+    if (length == 0) return;
+    const Vector3d move = stiffness * (length - rest_length) * link / length;
+    if (a < pinned) {
+        s.put(b, s[b] - move);
+    } else {
+        s.put(a, s[a] + 0.5 * move);
+        s.put(b, s[b] - 0.5 * move);
+    }
+}
+
+Vector3d blend(const hair_vec4& a, const hair_vec4& b, double share)
+{
+    return (1 - share) * vector_of(a) + share * vector_of(b);
+}
+
+Vector3d push_out(const Vector3d& p, const hair_capsule& solid, double share, double margin)
+{
+    const Vector3d a       = blend(solid.start[0], solid.end[0], share);
+    const Vector3d b       = blend(solid.start[1], solid.end[1], share);
+    const double   radius  = (1 - share) * solid.start[0].w + share * solid.end[0].w + margin;
+    const Vector3d axis    = b - a;
+    double         along   = axis.squaredNorm() > 0 ? (p - a).dot(axis) / axis.squaredNorm() : 0;
+    along                  = std::fmin(std::fmax(along, 0), 1);
+    const Vector3d nearest = a + along * axis;
+    const double   depth   = radius - (p - nearest).norm();
+    return depth > 0 ? Vector3d(nearest + radius * direction_of(p - nearest)) : p;
+}
+
+bool is_sound(const Vector3d& v)
+{
+    return v.squaredNorm() < 1e8; // False for NaN.
+}
+
+} // namespace
+
+void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const hair_reference_vertex* before,
+                              double* positions)
+{
+    strand         s{positions};
+    const double   dt      = length_of_substep(g);
+    const Vector3d head    = vector_of(g.params->substep[substep].displacement);
+    const Vector3d gravity = vector_of(g.params->gravity);
+    for (uint32_t i = 0; i < g.guide->count; ++i) {
+        const Vector3d aim = rest_pose(g, substep, i);
+        if (i < pinned) {
+            s.put(i, aim);
+            continue;
+        }
+        const double share = double(i) / (g.guide->count - 1);
+        const double frequency =
+            g.params->pull_root + share * (double(g.params->pull_tip) - g.params->pull_root);
+        const Vector3d free = vector_of(before[i].position) +
+                              g.params->keep * vector_of(before[i].displacement) + gravity * dt * dt - head;
+        s.put(i, pull(free, aim, frequency * frequency, dt));
+    }
+}
+
+void hair_reference_angular(hair_reference_guide g, uint32_t substep, double* positions)
+{
+    if (g.params->angular <= 0) return;
+    const uint32_t      segments = g.guide->count - 1;
+    std::vector<double> from(positions, positions + 3 * g.guide->count), directions(3 * segments),
+        frames(4 * segments);
+    const strand before{from.data()};
+    for (uint32_t i = 0; i < segments; ++i)
+        store(direction_of(before[i + 1] - before[i]), &directions[3 * i]);
+    double root[4];
+    store(head_rotation(g, substep) * quaternion_of(g.guide->root_frame), root);
+    hair_reference_frames(segments, directions.data(), root, frames.data());
+
+    strand s{positions};
+    for (uint32_t i = pinned; i < g.guide->count; ++i) {
+        const Vector3d along = quaternion_of(&frames[4 * (i - 2)]) * vector_of(g.rest[i - 1].direction);
+        const Vector3d aim   = before[i - 1] + double(g.rest[i - 1].position.w) * along;
+        s.put(i, pull(before[i], aim, g.params->angular, length_of_substep(g)));
+    }
+}
+
+void hair_reference_distance(hair_reference_guide g, uint32_t phase, double* positions)
+{
+    strand s{positions};
+    for (uint32_t a = phase; a + 1 < g.guide->count; a += 2) relax(s, a, a + 1, g.rest[a].position.w, 1);
+}
+
+void hair_reference_bend(hair_reference_guide g, uint32_t phase, double* positions)
+{
+    strand s{positions};
+    for (uint32_t block = 2 * phase; block < g.guide->count; block += 4)
+        for (uint32_t a = block; a < block + 2 && a + 2 < g.guide->count; ++a)
+            relax(s, a, a + 2, g.rest[a].direction.w, g.params->bend);
+}
+
+void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* positions)
+{
+    strand       s{positions};
+    const double share = g.params->substep[substep].displacement.w;
+    for (uint32_t i = pinned; i < g.guide->count; ++i)
+        for (uint32_t k = 0; k < g.params->solids; ++k)
+            s.put(i, push_out(s[i], g.params->solid[k], share, g.params->margin));
+}
+
+// One substep, and the displacements it made. A strand that is not finite or has left goes back to its rest pose.
+static void advance(const hair_reference_guide& g, uint32_t substep, hair_reference_vertex* state)
+{
+    std::vector<double> moved(3 * g.guide->count);
+    strand              s{moved.data()};
+    hair_reference_integrate(g, substep, state, moved.data());
+    hair_reference_angular(g, substep, moved.data());
+    for (uint32_t n = 0; n < g.params->iterations; ++n) {
+        hair_reference_distance(g, 0, moved.data());
+        hair_reference_distance(g, 1, moved.data());
+        hair_reference_bend(g, 0, moved.data());
+        hair_reference_bend(g, 1, moved.data());
+        hair_reference_collide(g, substep, moved.data());
+    }
+    bool           sound = true;
+    const Vector3d head  = vector_of(g.params->substep[substep].displacement);
+    for (uint32_t i = 0; i < g.guide->count; ++i) {
+        const Vector3d displacement = s[i] - vector_of(state[i].position) + head;
+        store(displacement, state[i].displacement);
+        sound = sound && is_sound(s[i]) && is_sound(displacement);
+    }
+    for (uint32_t i = 0; i < g.guide->count; ++i) {
+        store(sound ? s[i] : rest_pose(g, substep, i), state[i].position);
+        if (!sound) store(Vector3d(0, 0, 0), state[i].displacement);
+    }
+}
+
+void hair_reference_redblack(hair_reference_guide g, hair_reference_vertex* state)
+{
+    for (uint32_t substep = 0; substep < g.params->substeps; ++substep) advance(g, substep, state);
+}

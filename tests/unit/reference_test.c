@@ -1,0 +1,395 @@
+// reference_test.c - the double-precision reference agrees with what can be worked out by hand.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/reference/reference.h"
+
+#define PI 3.141592653589793
+#define MOST HAIR_MAX_GUIDE_VERTICES
+
+// A guide of `count` vertices, links of the length `link`, straight down from `root`.
+struct fixture {
+    struct hair_guide            guide;
+    struct hair_rest             rest[MOST];
+    struct hair_step_params      params;
+    struct hair_reference_vertex state[MOST];
+};
+
+static struct hair_reference_guide whole(const struct fixture* f)
+{
+    return (struct hair_reference_guide){&f->guide, f->rest, &f->params};
+}
+
+static struct fixture straight_down(uint32_t count, float link)
+{
+    struct fixture f = {
+        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}}; // Half a turn about x: y points down.
+    for (uint32_t i = 0; i < count; ++i) {
+        f.rest[i].position     = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
+        f.rest[i].direction    = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
+        f.state[i].position[1] = (double)(-link * (float)i);
+    }
+    f.params.keep            = 1;
+    f.params.iterations      = 1;
+    f.params.substeps        = 1;
+    f.params.guides          = 1;
+    f.params.gravity.w       = 0.01f;
+    f.params.rotation_before = f.params.rotation_after = f.params.rotation_now = (hair_vec4){0, 0, 0, 1};
+    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
+        f.params.substep[i] = (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1)}};
+    return f;
+}
+
+static double distance(const double* a, const double* b)
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static void near3(const char* what, const double* a, double x, double y, double z, double tolerance)
+{
+    hair_test_near(what, 0, a[0], x, tolerance);
+    hair_test_near(what, 1, a[1], y, tolerance);
+    hair_test_near(what, 2, a[2], z, tolerance);
+}
+
+// rotate(q, v) for unit q, by the matrix of q.
+static void rotate(const double q[4], const double v[3], double out[3])
+{
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    double m[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                      {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                      {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+}
+
+// Around a plane curve every turn is about the plane's normal: a closed circle brings the frame back as it was.
+static void a_frame_carried_around_a_circle_comes_back(void** state)
+{
+    (void)state;
+    enum { SEGMENTS = 63 };
+    double directions[3 * SEGMENTS], frames[4 * SEGMENTS], root[4] = {0, 0, 0, 1};
+    for (int i = 0; i < SEGMENTS; ++i) {
+        double angle          = 2 * PI * i / (SEGMENTS - 1);
+        directions[3 * i]     = -sin(angle);
+        directions[3 * i + 1] = cos(angle);
+        directions[3 * i + 2] = 0;
+    }
+    hair_reference_frames(SEGMENTS, directions, root, frames);
+    for (int i = 0; i < SEGMENTS; ++i) {
+        double y[3], z[3];
+        rotate(frames + 4 * i, (double[]){0, 1, 0}, y);
+        rotate(frames + 4 * i, (double[]){0, 0, 1}, z);
+        near3("y", y, directions[3 * i], directions[3 * i + 1], 0, 1e-13);
+        near3("z", z, 0, 0, 1, 1e-13);
+    }
+}
+
+// Around a triangle on the sphere of directions with three right angles, parallel transport turns a frame by the
+// triangle's area, pi/2 (Gauss and Bonnet).
+static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state)
+{
+    (void)state;
+    double directions[] = {0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0}, frames[16], root[4] = {0, 0, 0, 1}, x[3];
+    hair_reference_frames(4, directions, root, frames);
+    rotate(frames + 12, (double[]){1, 0, 0}, x);
+    near3("x", x, 0, 0, -1, 1e-14);
+}
+
+// Without damping or constraints Verlet is exact for constant acceleration: after n substeps from rest a vertex has
+// fallen g dt^2 n (n + 1) / 2.
+static void an_unhindered_vertex_falls_as_verlet_says(void** state)
+{
+    (void)state;
+    struct fixture f   = straight_down(5, 0.01f);
+    f.params.gravity.y = -10;
+    double dt          = (double)f.params.gravity.w, p[3 * MOST];
+    for (int n = 1; n <= 50; ++n) {
+        hair_reference_integrate(whole(&f), 0, f.state, p);
+        for (uint32_t i = 2; i < 5; ++i)
+            for (int k = 0; k < 3; ++k) {
+                f.state[i].displacement[k] = p[3 * i + k] - f.state[i].position[k];
+                f.state[i].position[k]     = p[3 * i + k];
+            }
+        hair_test_near("fallen", n, f.state[4].position[1] + 4 * (double)0.01f,
+                       -10 * dt * dt * n * (n + 1) / 2, 1e-12);
+        near3("pinned", p + 3, 0, (double)-0.01f, 0, 0);
+    }
+}
+
+// A velocity that decays by the factor k a substep carries 1 + k + k^2 + … = (1 - k^n) / (1 - k) displacements far.
+static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
+{
+    (void)state;
+    struct fixture f = straight_down(4, 0.01f);
+    f.params.keep    = 0.75f;
+    double p[3 * MOST];
+    f.state[3].displacement[0] = 0.004;
+    for (int n = 1; n <= 20; ++n) {
+        hair_reference_integrate(whole(&f), 0, f.state, p);
+        f.state[3].displacement[0] = p[9] - f.state[3].position[0];
+        f.state[3].position[0]     = p[9];
+        hair_test_near("gone", n, p[9], 0.003 * (1 - pow(0.75, n)) / 0.25, 1e-15);
+    }
+}
+
+// In the head's moving coordinates a strand that nothing holds stays behind by just what the head moved.
+static void a_free_vertex_does_not_follow_the_head(void** state)
+{
+    (void)state;
+    struct fixture f                 = straight_down(4, 0.01f);
+    f.params.substep[0].displacement = (hair_vec4){0.25f, 0, -0.5f, 1};
+    double p[3 * MOST];
+    hair_reference_integrate(whole(&f), 0, f.state, p);
+    near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
+    near3("pinned", p, 0, 0, 0, 0);
+}
+
+// A spring taken implicitly comes to its aim in the limit, and half way there at w dt = 1.
+static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
+{
+    (void)state;
+    struct fixture f   = straight_down(4, 0.01f);
+    f.params.gravity.w = 0.125f;
+    f.params.pull_root = f.params.pull_tip = 8;
+    f.state[3].position[0]                 = 0.5;
+    double p[3 * MOST];
+    hair_reference_integrate(whole(&f), 0, f.state, p);
+    near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
+}
+
+static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
+{
+    (void)state;
+    struct fixture f        = straight_down(5, 0.01f);
+    double         p[3 * 5] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.02, 0.01, 0.05, -0.01, 0.04, 0.1, 0.2, 0.3};
+    double         middle[3];
+    for (int k = 0; k < 3; ++k) middle[k] = (p[6 + k] + p[9 + k]) / 2;
+    hair_reference_distance(whole(&f), 0, p);
+    hair_test_near("length", 0, distance(p + 6, p + 9), (double)0.01f, 1e-16);
+    near3("middle", (double[]){(p[6] + p[9]) / 2, (p[7] + p[10]) / 2, (p[8] + p[11]) / 2}, middle[0],
+          middle[1], middle[2], 1e-16);
+    near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
+}
+
+static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
+{
+    (void)state;
+    struct fixture f        = straight_down(4, 0.01f);
+    double         p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
+    hair_reference_distance(whole(&f), 1, p);
+    near3("pinned", p + 3, 0, -0.01, 0, 0);
+    near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16); // along (3, -4) / 5
+    hair_reference_distance(whole(&f), 0, p);
+    near3("pinned", p + 3, 0, -0.01, 0, 0);
+}
+
+static void bend_removes_its_share_of_the_error_over_two_segments(void** state)
+{
+    (void)state;
+    struct fixture f        = straight_down(8, 0.01f);
+    double         p[3 * 8] = {0};
+    f.params.bend           = 0.25f;
+    for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // half as long as at rest
+    double rest = (double)(2 * 0.01f), wrong = rest - 0.01;
+    hair_reference_bend(whole(&f), 1, p); // (2,4), (3,5), (6,8) does not exist
+    hair_test_near("length", 2, distance(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
+    hair_test_near("length", 3, distance(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
+    hair_test_near("root", 0, p[3], 0, 0);
+    hair_test_near("tip", 0, p[19], -0.03, 1e-16);
+}
+
+static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
+{
+    (void)state;
+    struct fixture f  = straight_down(4, 0.01f);
+    f.params.solids   = 1;
+    f.params.margin   = 0.25f;
+    f.params.solid[0] = (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}};
+    f.params.substep[0].displacement.w = 0.5f; // half way: its axis is at x = 4
+    double p[3 * 4]                    = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
+    hair_reference_collide(whole(&f), 0, p);
+    near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
+    near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
+    double outside[3 * 4] = {0, 0, 0, 0, 0, 0, 5.3, 1, 0, 4, 3.3, 0};
+    hair_reference_collide(whole(&f), 0, outside);
+    near3("outside", outside + 6, 5.3, 1, 0, 0);
+}
+
+// A bent guide, in its rest pose, turned as a whole with its head: nothing is to be corrected.
+static void the_angular_force_leaves_the_rest_pose_alone(void** state)
+{
+    (void)state;
+    struct fixture f = straight_down(9, 0.01f);
+    double         directions[3 * 8], frames[4 * 8], root[4] = {1, 0, 0, 0}, p[3 * 9] = {0};
+    for (int i = 0; i < 8; ++i) {
+        double angle          = 0.3 * i;
+        directions[3 * i]     = sin(angle) * cos(0.2 * i);
+        directions[3 * i + 1] = -cos(angle);
+        directions[3 * i + 2] = sin(angle) * sin(0.2 * i);
+        for (int k = 0; k < 3; ++k) p[3 * i + 3 + k] = p[3 * i + k] + (double)0.01f * directions[3 * i + k];
+    }
+    hair_reference_frames(8, directions, root, frames);
+    for (int i = 1; i < 8; ++i) {
+        double back[4] = {-frames[4 * i - 4], -frames[4 * i - 3], -frames[4 * i - 2], frames[4 * i - 1]},
+               own[3];
+        rotate(back, directions + 3 * i, own);
+        f.rest[i].direction = (hair_vec4){(float)own[0], (float)own[1], (float)own[2], 0};
+    }
+    f.params.angular = 1e6f;
+    // A right angle about z: x to y, y to -x.
+    f.params.substep[0].rotation = (hair_vec4){0, 0, (float)sqrt(0.5), (float)sqrt(0.5)};
+    double turned[3 * 9];
+    for (int i = 0; i < 9; ++i) {
+        turned[3 * i]     = -p[3 * i + 1];
+        turned[3 * i + 1] = p[3 * i];
+        turned[3 * i + 2] = p[3 * i + 2];
+    }
+    double moved[3 * 9];
+    memcpy(moved, turned, sizeof moved);
+    hair_reference_angular(whole(&f), 0, moved);
+    // The rest directions are floats.
+    for (int i = 0; i < 9; ++i)
+        near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
+}
+
+// A parabola p(s) = c0 + c1 s + c2 s^2 at uneven s: its slopes come out exactly, and then the cubic is the parabola.
+static void hermite_reproduces_parabolas_exactly(void** state)
+{
+    (void)state;
+    static const double s[] = {0, 0.3, 0.5, 1.2}, c[3][3] = {{1, -2, 0.5}, {0.3, 2, -1}, {-0.7, 0.4, 1.5}};
+    double              p[4][3], slope[2][3];
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k) p[i][k] = c[0][k] + s[i] * (c[1][k] + s[i] * c[2][k]);
+    for (int i = 0; i < 2; ++i) {
+        hair_reference_slope(p[i], p[i + 1], p[i + 2], s[i + 1] - s[i], s[i + 2] - s[i + 1], slope[i]);
+        for (int k = 0; k < 3; ++k)
+            hair_test_near("slope", i, slope[i][k], c[1][k] + 2 * s[i + 1] * c[2][k], 1e-14);
+    }
+    for (int n = 0; n <= 10; ++n) {
+        double w = n / 10.0, at = s[1] + w * (s[2] - s[1]), position[3], tangent[3];
+        hair_reference_hermite(p[1], slope[0], p[2], slope[1], s[2] - s[1], w, position, tangent);
+        for (int k = 0; k < 3; ++k) {
+            hair_test_near("position", n, position[k], c[0][k] + at * (c[1][k] + at * c[2][k]), 1e-14);
+            hair_test_near("tangent", n, tangent[k], (s[2] - s[1]) * (c[1][k] + 2 * at * c[2][k]), 1e-14);
+        }
+    }
+}
+
+// Vertices around a circle of radius 1, at angles a: chords of length 2 sin(a/2), slopes of length cos(a/2) along the
+// tangents. Half way between two vertices the chord is cos(a/2) from the centre; the cubic of Hermite adds an eighth of
+// the chord's length times the difference of the slopes, which is 2 sin(a/2) cos(a/2) = sin(a), outwards. Together
+// 1 - 3/128 a^4.
+static void a_smoothed_circle_is_round_to_fourth_order(void** state)
+{
+    (void)state;
+    struct fixture f = straight_down(33, 0.01f);
+    double         a = 0.15;
+    for (int i = 0; i < 33; ++i) {
+        f.state[i].position[0] = cos(a * i);
+        f.state[i].position[1] = sin(a * i);
+        f.rest[i].position.w   = (float)(2 * sin(a / 2) / 1.25);
+    }
+    struct hair_reference_sample samples[65];
+    f.params.smooth_vertices = 65;
+    f.params.alpha           = 1;
+    hair_reference_smooth(whole(&f), f.state, samples);
+    for (int k = 0; k < 65; ++k) {
+        hair_test_near("to root", k, samples[k].to_root, 32 * 2 * sin(a / 2) * k / 64, 1e-12);
+        hair_test_near("stretch", k, samples[k].stretch, 0.25, 1e-6);
+        double radius = k % 2 ? cos(a / 2) + sin(a / 2) * sin(a) / 4 : 1;
+        double from   = distance(samples[k].position, (double[]){0, 0, 0});
+        if (k != 1 && k != 63)
+            hair_test_near("radius", k, from, radius, 1e-12); // The ends have no neighbours.
+        hair_test_near("tangent", k, distance(samples[k].tangent, (double[]){0, 0, 0}), 1, 1e-14);
+        double y[3];
+        rotate(samples[k].frame, (double[]){0, 1, 0}, y);
+        near3("frame", y, samples[k].tangent[0], samples[k].tangent[1], samples[k].tangent[2], 1e-13);
+    }
+}
+
+// What is drawn lies between the ends of the last substep, as the head carries it.
+static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
+{
+    (void)state;
+    struct fixture               f = straight_down(4, 0.01f);
+    struct hair_reference_sample samples[7];
+    f.params.smooth_vertices     = 7;
+    f.params.alpha               = 0.25f;
+    f.params.last_displacement.x = 1;
+    for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // against the head: 0.2
+    hair_reference_smooth(whole(&f), f.state, samples);
+    for (int k = 0; k < 7; ++k) hair_test_near("x", k, samples[k].position[0], -0.2 * 0.75, 1e-15);
+}
+
+// Around a straight vertical guide that hangs down, a follower is its Bezier curve in the guide's frame.
+static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
+{
+    (void)state;
+    struct fixture               f = straight_down(4, 0.01f);
+    struct hair_reference_sample samples[7];
+    struct hair_reference_point  point;
+    f.params.smooth_vertices     = 7;
+    struct hair_draw_params draw = {.smooth_vertices = 7, .radius = 0.5f, .tip_radius = 0.5f};
+    hair_reference_smooth(whole(&f), f.state, samples);
+    struct hair_follower follower = {.length_ratio = 1,
+                                     .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
+    hair_reference_follower(&follower, &draw, samples, 0.5, &point);
+    // In the middle 3/8 of each inner control point; half a turn about x keeps x and turns z.
+    near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
+    hair_test_near("radius", 0, point.radius, 0.5 * 2 * (1 - 0.25 * 0.5), 1e-15);
+    follower.length_ratio = 1.5f; // Beyond the tip straight on.
+    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
+}
+
+// Between three straight parallel guides a follower is the weighted mean of them, until it clumps.
+static void a_follower_between_guides_is_their_mean(void** state)
+{
+    (void)state;
+    struct fixture               f = straight_down(4, 0.01f);
+    struct hair_reference_sample samples[21];
+    struct hair_reference_point  point;
+    f.params.smooth_vertices = 7;
+    for (int guide = 0; guide < 3; ++guide) {
+        for (int i = 0; i < 4; ++i) f.state[i].position[0] = guide == 1;
+        for (int i = 0; i < 4; ++i) f.state[i].position[2] = guide == 2;
+        hair_reference_smooth(whole(&f), f.state, samples + 7 * guide);
+    }
+    struct hair_draw_params draw     = {.smooth_vertices = 7, .radius = 1, .tip_radius = 1};
+    struct hair_follower    follower = {
+           .guide1 = 1, .guide2 = 2, .weight1 = 0.5f, .weight2 = 0.25f, .length_ratio = 1, .multi = 1};
+    follower.offset[0].w = 1;
+    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
+    draw.clump = 1;
+    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
+    hair_reference_follower(&follower, &draw, samples, 0, &point);
+    near3("root", point.position, 0.5, 0, 0.25, 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_frame_carried_around_a_circle_comes_back),
+        cmocka_unit_test(a_frame_carried_around_an_octant_turns_by_a_right_angle),
+        cmocka_unit_test(an_unhindered_vertex_falls_as_verlet_says),
+        cmocka_unit_test(damped_motion_goes_as_far_as_the_series_sums_to),
+        cmocka_unit_test(a_free_vertex_does_not_follow_the_head),
+        cmocka_unit_test(the_pull_goes_half_way_when_frequency_times_dt_is_one),
+        cmocka_unit_test(a_free_link_is_restored_exactly_in_one_relaxation),
+        cmocka_unit_test(a_pinned_end_leaves_the_whole_way_to_the_free_one),
+        cmocka_unit_test(bend_removes_its_share_of_the_error_over_two_segments),
+        cmocka_unit_test(a_vertex_inside_a_capsule_comes_out_the_shortest_way),
+        cmocka_unit_test(the_angular_force_leaves_the_rest_pose_alone),
+        cmocka_unit_test(hermite_reproduces_parabolas_exactly),
+        cmocka_unit_test(a_smoothed_circle_is_round_to_fourth_order),
+        cmocka_unit_test(smoothing_interpolates_between_the_ends_of_a_substep),
+        cmocka_unit_test(a_follower_of_a_straight_guide_is_its_bezier_curve),
+        cmocka_unit_test(a_follower_between_guides_is_their_mean),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
