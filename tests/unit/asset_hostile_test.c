@@ -152,6 +152,19 @@ static void hostile_hair_is_refused(void** state)
     assert_true(takes_hair(3, 20, 0x7fc00000)); // NaN where nothing is read.
 }
 
+static void segments_whose_product_wraps_are_refused(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_hair(2);
+    hair_test_set_u32(&file, 4, 4);
+    hair_test_set_u32(&file, 8, 8);
+    hair_test_set_u32(&file, 16, 0x40000001); // Plus one, times 4, is 8 in 32 bits.
+    assert_false(survives(file.bytes, file.size));
+    hair_test_set_u32(&file, 16, 1);
+    assert_true(survives(file.bytes, file.size));
+    free(file.bytes);
+}
+
 static void any_number_may_stand_in_the_points(void** state)
 {
     (void)state;
@@ -342,6 +355,7 @@ int main(void)
         TEST(text_cut_off_anywhere_is_refused_but_within_its_last_number),
         TEST(every_flipped_bit_is_survived),
         TEST(hostile_hair_is_refused),
+        TEST(segments_whose_product_wraps_are_refused),
         TEST(any_number_may_stand_in_the_points),
         TEST(strands_of_65535_segments_are_read),
         TEST(hostile_tfx_is_refused),

@@ -1,0 +1,228 @@
+// groom_tool_test.c - hair-groom as its users call it: files, pipes, exit codes, nothing left half written.
+#define _XOPEN_SOURCE 700
+#include "tests/support/files.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-groom"
+
+static char folder[] = "/tmp/hair-groom-test-XXXXXX";
+static char said[8192]; // By the last run, both streams.
+
+// Run a shell command in which $T is the tool and $D the folder. Returns its exit code.
+static int run(const char* command)
+{
+    char line[2048];
+    snprintf(line, sizeof line, "{ T=%s; D=%s; %s\n} 2>&1", TOOL, folder, command);
+    FILE* pipe = popen(line, "r");
+    assert_non_null(pipe);
+    size_t size = fread(said, 1, sizeof said - 1, pipe);
+    said[size]  = 0;
+    int status  = pclose(pipe);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void expect(int code, const char* command, const char* words)
+{
+    int got = run(command);
+    if (got != code || !strstr(said, words))
+        fail_msg("%s: exit %d, not %d; said \"%s\", without \"%s\"", command, got, code, said, words);
+}
+
+static void save(const char* name, struct hair_test_file file)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE* out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(file.bytes, 1, file.size, out), file.size);
+    fclose(out);
+    free(file.bytes);
+}
+
+static int make_folder(void** state)
+{
+    (void)state;
+    if (!mkdtemp(folder)) return -1;
+    save("a.hair", hair_test_hair(31));
+    save("a4.tfx", hair_test_tfx4());
+    save("a3.tfx", hair_test_tfx3());
+    save("a2.tfx", hair_test_tfx2());
+    return access(TOOL, X_OK);
+}
+
+static int remove_folder(void** state)
+{
+    (void)state;
+    return run("rm -r $D");
+}
+
+static void info_tells_what_is_in_a_haircut(void** state)
+{
+    (void)state;
+    expect(0, "$T info $D/a.hair", "strands:   3, of 3 in the file");
+    assert_non_null(strstr(said, "fewest 2, most 4"));
+    assert_non_null(strstr(said, "nothing repaired"));
+    assert_non_null(strstr(said, "guides of"));
+    expect(0, "$T info --scale 0.01 --up z $D/a3.tfx", "x 0 to 0.02, y 0 to 0.00375, z -0.03 to -0 m");
+    expect(0, "$T info $D/a2.tfx", "tfx2");
+    expect(0, "$T info --share 0.4 $D/a4.tfx", "strands:   1, of 3 in the file");
+}
+
+static void info_tells_what_was_repaired(void** state)
+{
+    (void)state;
+    struct hair_test_file file = hair_test_tfx3();
+    for (size_t i = 0; i < 48; i += 4) hair_test_set_float(&file, 296 + i, 1e30f);
+    for (size_t i = 0; i < 48; i += 4) hair_test_set_float(&file, 344 + i, 1);
+    save("bad.tfx", file);
+    expect(0, "$T info $D/bad.tfx", "repairs:   1 strand of fewer than two vertices dropped");
+    assert_non_null(strstr(said, "1 strand shorter than 10 micrometres dropped"));
+    assert_non_null(strstr(said, "4 vertices not finite or too far away removed"));
+}
+
+static void haircuts_are_read_from_pipes_and_written_to_them(void** state)
+{
+    (void)state;
+    expect(0, "cat $D/a3.tfx | $T info -", "tfx3");
+    expect(0, "cat $D/a3.tfx | $T info /dev/stdin", "tfx3");
+    expect(0, "$T convert $D/a3.tfx $D/b.hair && cat $D/a3.tfx | $T convert - - | cmp - $D/b.hair", "");
+    expect(0, "$T convert $D/a3.tfx /dev/stdout --format hair | cmp - $D/b.hair", "");
+    expect(
+        0,
+        "mkfifo $D/fifo; $T convert $D/a3.tfx $D/fifo & cmp $D/fifo $D/b.hair && wait $! && test -p $D/fifo",
+        "");
+}
+
+static void every_format_converts_to_those_that_are_written(void** state)
+{
+    (void)state;
+    expect(0,
+           "for f in a4.tfx a3.tfx a2.tfx; do $T convert $D/$f $D/$f.hair && $T convert $D/$f $D/c.tfx && "
+           "$T convert $D/c.tfx $D/c.hair && cmp $D/c.hair $D/$f.hair || exit 9; done",
+           "");
+    expect(0, "$T convert $D/a.hair $D/d.TFX --vertices 16 && $T info $D/d.TFX", "fewest 16, most 16");
+    expect(0, "$T convert --format tfx4 --vertices 8 $D/a.hair - | $T info -", "tfx4");
+    expect(2, "$T convert $D/a.hair $D/none.tfx", "give --vertices");
+    expect(1, "test -e $D/none.tfx", "");
+}
+
+static void built_in_haircuts_are_written(void** state)
+{
+    (void)state;
+    for (int i = 0; i < HAIR_STYLE_COUNT; ++i) {
+        char command[256];
+        snprintf(command, sizeof command,
+                 "$T generate %s $D/e.tfx --vertices 16 --guides 64 && $T info $D/e.tfx",
+                 hair_style_name((hair_style)i));
+        expect(0, command, "fewest 16, most 16");
+    }
+    expect(0, "$T generate long $D/f.hair --seed 3; $T generate --seed 3 long - | cmp - $D/f.hair", "");
+    expect(0, "$T generate long $D/g.hair --seed 4; ! cmp -s $D/f.hair $D/g.hair", "");
+}
+
+static void wrong_use_exits_with_2(void** state)
+{
+    (void)state;
+    const char* wrong[] = {"",
+                           "dance",
+                           "info",
+                           "info a b",
+                           "convert a",
+                           "generate long",
+                           "--dance info a",
+                           "info --scale a.hair",
+                           "info --scale one $D/a.hair",
+                           "info --scale 0 $D/a.hair",
+                           "info --scale nan $D/a.hair",
+                           "info --share 2 $D/a.hair",
+                           "info --up w $D/a.hair",
+                           "info --up yz $D/a.hair",
+                           "info --vertices 257 $D/a.hair",
+                           "info --vertices -1 $D/a.hair",
+                           "info --seed 4294967296 $D/a.hair",
+                           "info --guides 64 $D/a.hair",
+                           "generate --up z long $D/x.hair",
+                           "generate mullet $D/x.hair",
+                           "generate long $D/x.hair --guides 1",
+                           "generate long $D/x.hair --length 99",
+                           "convert --format tfx3 $D/a.hair $D/x.tfx"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[256];
+        snprintf(command, sizeof command, "$T %s", wrong[i]);
+        expect(2, command, "hair-groom: ");
+    }
+    expect(1, "test -e $D/x.hair", "");
+    expect(2, "$T generate mullet -", "long, bob, short, ponytail, curly, afro");
+}
+
+static void bad_input_exits_with_4(void** state)
+{
+    (void)state;
+    expect(4, "$T info $D/missing.hair", "missing.hair: No such file");
+    expect(4, "$T info $D", "Is a directory");
+    expect(4, "$T info /dev/null", "byte 0");
+    expect(4, "head -c 100 $D/a.hair | $T info -", "byte 100");
+    expect(4, "echo hello | $T convert - $D/y.hair", "byte 0");
+    expect(4, "$T info --scale 1e-6 $D/a.hair", "3 are shorter than 10 micrometres");
+    expect(1, "test -e $D/y.hair", "");
+}
+
+static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
+{
+    (void)state;
+    expect(1, "$T convert $D/a.hair /dev/full", "cannot write /dev/full: No space left");
+    expect(1, "$T info $D/a.hair > /dev/full", "cannot write to the standard output: No space left");
+    expect(1, "$T convert $D/a.hair - > /dev/full", "No space left");
+    expect(1, "$T convert $D/a.hair $D/no/b.hair", "No such file");
+    expect(0,
+           "echo old > $D/old.hair; chmod 640 $D/old.hair; ln -s old.hair $D/link.hair; "
+           "$T convert $D/a.hair $D/link.hair && test -L $D/link.hair && stat -c %a $D/old.hair && "
+           "$T info $D/old.hair",
+           "640");
+    expect(0, "ls $D | grep -c 'hair\\.......' || true", "0"); // No temporary names.
+}
+
+static void a_reader_that_went_away_is_a_failed_write(void** state)
+{
+    (void)state;
+    expect(0,
+           "{ $T generate long - --guides 4096 --vertices 256; echo exit $? >&2; } | head -c 10 >/dev/null",
+           "exit 1");
+}
+
+static void help_and_version_are_printed(void** state)
+{
+    (void)state;
+    expect(0, "$T --help", "--tip-first");
+    expect(0, "$T -h", "Exit status");
+    expect(0, "$T --version", "hair-groom 0.");
+    expect(0, "$T info --help --scale", "--scale"); // At once, whatever follows.
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(info_tells_what_is_in_a_haircut),
+        cmocka_unit_test(info_tells_what_was_repaired),
+        cmocka_unit_test(haircuts_are_read_from_pipes_and_written_to_them),
+        cmocka_unit_test(every_format_converts_to_those_that_are_written),
+        cmocka_unit_test(built_in_haircuts_are_written),
+        cmocka_unit_test(wrong_use_exits_with_2),
+        cmocka_unit_test(bad_input_exits_with_4),
+        cmocka_unit_test(what_cannot_be_written_exits_with_1_and_leaves_nothing),
+        cmocka_unit_test(a_reader_that_went_away_is_a_failed_write),
+        cmocka_unit_test(help_and_version_are_printed),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
