@@ -104,7 +104,7 @@ static void plant(struct hair_tree* tree, uint32_t low, uint32_t high)
         uint32_t middle = low + (high - low) / 2;
         uint32_t axis   = hair_cloud_widest(tree->cloud, tree->order + low, high - low);
         hair_cloud_split(tree->cloud, tree->order + low, high - low, axis, NULL, middle - low);
-        tree->axis[middle] = (uint8_t)axis;
+        tree->plane[middle] = (struct hair_plane){coordinate(tree->cloud, tree->order[middle], axis), axis};
         plant(tree, low, middle);
         low = middle;
     }
@@ -115,8 +115,8 @@ hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint
 {
     *tree       = (struct hair_tree){.cloud = cloud, .count = count};
     tree->order = hair_alloc(host, count, sizeof *tree->order);
-    tree->axis  = hair_alloc(host, count, sizeof *tree->axis);
-    if (!tree->order || !tree->axis) {
+    tree->plane = hair_alloc(host, count, sizeof *tree->plane);
+    if (!tree->order || !tree->plane) {
         hair_tree_free(host, tree);
         return hair_fail_memory(host, "the search for near strands");
     }
@@ -128,7 +128,7 @@ hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint
 void hair_tree_free(const hair_host* host, struct hair_tree* tree)
 {
     hair_free(host, tree->order);
-    hair_free(host, tree->axis);
+    hair_free(host, tree->plane);
     *tree = (struct hair_tree){0};
 }
 
@@ -167,8 +167,7 @@ static void descend(struct search* search, uint32_t low, uint32_t high)
     const struct hair_tree* tree = search->tree;
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
-        uint32_t axis   = tree->axis[middle];
-        float    d      = search->point[axis] - coordinate(tree->cloud, tree->order[middle], axis);
+        float    d      = search->point[tree->plane[middle].axis] - tree->plane[middle].at;
         bool     front  = d < 0;
         descend(search, front ? low : middle, front ? middle : high);
         if (d * d >= farthest(search)) return;

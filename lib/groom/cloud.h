@@ -15,16 +15,21 @@ struct hair_cloud {
 uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint32_t count);
 
 // Reorder so that the front lies before the back along the axis. The front is as long as it can be while its
-// weights add up to no more than `target`, and neither is empty. `weights` by point; NULL: 1 each. count >= 2.
-// Returns the length of the front.
+// weights add up to no more than `target`, and the back begins with its nearest; but neither is ever empty.
+// `weights` by point; NULL: 1 each. count >= 2. Returns the length of the front.
 uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t count, uint32_t axis,
                           const uint32_t* weights, uint64_t target);
 
+struct hair_plane {
+    float    at;
+    uint32_t axis;
+};
+
 struct hair_tree {
-    struct hair_cloud cloud;
-    uint32_t*         order;
-    uint8_t*          axis; // of the split at each place in `order`
-    uint32_t          count;
+    struct hair_cloud  cloud;
+    uint32_t*          order;
+    struct hair_plane* plane; // where `order` is split, by the place of the back's first
+    uint32_t           count;
 };
 
 // The cloud's points must outlive the tree.

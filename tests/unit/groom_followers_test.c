@@ -1,0 +1,519 @@
+// groom_followers_test.c - followers: bound to guides, grown around them, grown on a scalp.
+#include "tests/support/grooms.h"
+
+#include <hair/hair_asset.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return test.blocks ? -1 : 0;
+}
+
+static hair_groom* make(const hair_groom_desc* desc)
+{
+    hair_groom* groom = NULL;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
+    return groom;
+}
+
+static hair_vec3 xyz(hair_vec4 v)
+{
+    return hair_v3(v.x, v.y, v.z);
+}
+
+static hair_vec3 root_of(const hair_groom* groom, uint32_t guide)
+{
+    return xyz(groom->rest[groom->guides[guide].first].position);
+}
+
+// Of full strands -------------------------------------------------------------------------------------------
+
+// Over 10 cm by 10 cm; directions vary over it.
+static hair_vec3 straight(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    uint32_t  random = hair_hash(strand);
+    hair_vec3 root   = {0.1f * hair_random(&random), 0, 0.1f * hair_random(&random)};
+    float     length = 0.15f + 0.1f * root.x + 0.02f * hair_random(&random);
+    hair_vec3 along  = {4 * root.x - 0.2f, -1, 3 * root.z};
+    return hair_add(root, hair_scale(hair_normalize(along, along), length * t));
+}
+
+// Waves of 4 cm that shift over the scalp, and swing out by 4 mm.
+static hair_vec3 wavy(float t, uint32_t strand, const void* user)
+{
+    hair_vec3 p     = straight(t, strand, user);
+    hair_vec3 root  = straight(0, strand, user);
+    float     s     = hair_distance(root, p);
+    float     phase = 160 * s + 40 * root.x + 20 * root.z;
+    return hair_add(p, hair_scale(hair_v3(sinf(phase), 0, cosf(phase)), 0.004f * fminf(30 * s, 1)));
+}
+
+// What `strands_are` HAIR_STRANDS_ALL makes of strands, against the strands: found by their roots.
+struct fit {
+    double rms, worst, root; // as shares of each strand's length; root: m
+    double own;              // rms when every follower were a copy of its guide, moved to its root
+};
+
+static double find_strand(const struct hair_test_strands* strands, hair_vec3 root, const float** found,
+                          uint32_t* vertices)
+{
+    double       least = INFINITY;
+    const float* p     = strands->positions;
+    for (uint32_t i = 0; i < strands->count; p += 3 * strands->vertices[i++]) {
+        double d = (double)hair_distance(root, hair_load3(p));
+        if (d >= least) continue;
+        least     = d;
+        *found    = p;
+        *vertices = strands->vertices[i];
+    }
+    return least;
+}
+
+static struct fit measure_fit(const hair_groom* groom, const struct hair_test_strands* strands)
+{
+    struct fit fit = {0};
+    double     sum = 0, own_sum = 0;
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        const float*                strand   = NULL;
+        uint32_t                    vertices = 0;
+        hair_vec3                   root     = hair_test_single(groom, follower, 0);
+        fit.root                             = fmax(fit.root, find_strand(strands, root, &strand, &vertices));
+        struct hair_follower copy            = *follower;
+        for (int k = 1; k < 4; ++k) copy.offset[k] = copy.offset[0];
+
+        double length = 0, along = 0, squared = 0, own = 0;
+        for (uint32_t j = 1; j < vertices; ++j)
+            length += (double)hair_distance(hair_load3(strand + 3 * j), hair_load3(strand + 3 * (j - 1)));
+        for (uint32_t j = 1; j < vertices; ++j) {
+            hair_vec3 p = hair_load3(strand + 3 * j);
+            along += (double)hair_distance(p, hair_load3(strand + 3 * (j - 1)));
+            double d =
+                (double)hair_distance(p, hair_test_single(groom, follower, (float)(along / length))) / length;
+            double e =
+                (double)hair_distance(p, hair_test_single(groom, &copy, (float)(along / length))) / length;
+            squared += d * d / (vertices - 1), own += e * e / (vertices - 1);
+        }
+        sum += squared, own_sum += own;
+        fit.worst = fmax(fit.worst, sqrt(squared));
+    }
+    fit.rms = sqrt(sum / groom->info.follower_count);
+    fit.own = sqrt(own_sum / groom->info.follower_count);
+    return fit;
+}
+
+static struct fit fit_strands(const char* name, const struct hair_test_strands* strands, uint32_t guides)
+{
+    hair_groom_desc desc = hair_test_groom_desc(&test, strands);
+    desc.guide_count     = guides;
+    hair_groom* groom    = make(&desc);
+    struct fit  fit      = measure_fit(groom, strands);
+    printf("%-8s %5u strands of %3u guides: rms error %.3f %% of the length, worst strand %.2f %%; copies of "
+           "guides: "
+           "%.2f %%\n",
+           name, strands->count, groom->info.guide_count, 100 * fit.rms, 100 * fit.worst, 100 * fit.own);
+    hair_groom_destroy(groom);
+    return fit;
+}
+
+static void straight_strands_are_followed_exactly(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(2000, 24);
+    for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 24, straight, NULL);
+    struct fit fit = fit_strands("straight", &strands, 100);
+    assert_true(fit.rms < 2e-6);
+    assert_true(fit.root < 1e-6);
+    hair_test_strands_free(&strands);
+}
+
+static void wavy_strands_are_followed_closely(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(2000, 32);
+    for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 32, wavy, NULL);
+    struct fit fit = fit_strands("wavy", &strands, 200);
+    // Strands lie about 4 mm, 2.5 % of their length, from their guide, whose frame swings by 0.6 rad with its waves: that
+    // share of the distance no offset can follow.
+    assert_true(fit.rms < 0.6 * 0.025);
+    assert_true(fit.rms < 0.4 * fit.own);
+    assert_true(fit.root < 1e-6);
+    hair_test_strands_free(&strands);
+}
+
+static void strands_of_a_real_haircut_are_followed_closely(void** state)
+{
+    (void)state;
+    FILE* file = fopen("../shared/data/tressfx/ratboy_mohawk.tfx", "rb");
+    if (!file) {
+        printf("no haircut at hand, none followed\n");
+        return;
+    }
+    static unsigned char bytes[1 << 21];
+    size_t               size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    hair_asset_desc asset_desc = hair_asset_desc_default();
+    asset_desc.host            = &test.host;
+    hair_asset* asset          = NULL;
+    assert_int_equal(hair_asset_read(&asset_desc, bytes, size, &asset), HAIR_OK);
+    hair_asset_info info = hair_asset_info_default();
+    hair_asset_describe(asset, &info);
+    struct hair_test_strands strands = hair_test_strands_make(info.strand_count, info.most);
+    memcpy(strands.positions, info.positions, 3 * info.vertex_count * sizeof(float));
+    memcpy(strands.vertices, info.strand_vertices, info.strand_count * sizeof(uint32_t));
+    strands.count  = info.strand_count;
+    struct fit fit = fit_strands("mohawk", &strands, 0);
+    assert_true(fit.rms < 0.02);
+    hair_test_strands_free(&strands);
+    hair_asset_destroy(asset);
+}
+
+static void guides_follow_themselves_without_an_offset(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(500);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    hair_groom*              groom   = make(&desc);
+    uint32_t                 own     = 0;
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        assert_true(follower->multi == 0 && follower->weight1 == 0 && follower->weight2 == 0);
+        if (hair_length(xyz(follower->offset[0])) > 0) continue;
+        ++own;
+        for (int k = 0; k < 4; ++k) assert_true(hair_length(xyz(follower->offset[k])) == 0);
+        assert_true(follower->length_ratio == 1);
+    }
+    assert_int_equal(own, groom->info.guide_count);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void strands_of_different_vertex_counts_are_followed_in_one_groom(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(1000, 101);
+    for (uint32_t i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 2 + i % 100, straight, NULL);
+    assert_true(fit_strands("mixed", &strands, 100).rms < 2e-6);
+    hair_test_strands_free(&strands);
+}
+
+// Around guides ---------------------------------------------------------------------------------------------
+
+static void without_followers_asked_for_each_guide_is_drawn(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(100);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    desc.strands_are                 = HAIR_STRANDS_GUIDES;
+    desc.follower_count              = 0;
+    hair_groom* groom                = make(&desc);
+    bool        drawn[100]           = {false};
+    assert_int_equal(groom->info.follower_count, 100);
+    for (uint32_t i = 0; i < 100; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        assert_false(drawn[follower->guide0]);
+        drawn[follower->guide0] = true;
+        for (int k = 0; k < 4; ++k) assert_true(hair_length(xyz(follower->offset[k])) == 0);
+        assert_true(follower->length_ratio == 1 && follower->multi == 0);
+    }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static void followers_surround_their_guides_evenly_within_the_clump_radius(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(100);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    desc.strands_are                 = HAIR_STRANDS_GUIDES;
+    desc.follower_count              = 5050;
+    desc.clump_radius                = 0.004f;
+    hair_groom* groom                = make(&desc);
+    uint32_t    own[100] = {0}, inner = 0, side[4] = {0};
+    for (uint32_t i = 0; i < 5050; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        hair_vec3                   offset   = xyz(follower->offset[0]);
+        ++own[follower->guide0];
+        assert_true(offset.y == 0);
+        assert_true(hair_length(offset) <= 0.004f);
+        assert_true(hair_length(xyz(follower->offset[3])) <= 0.5f * hair_length(offset));
+        assert_true(follower->length_ratio >= 0.6f && follower->length_ratio <= 1);
+        assert_true(follower->multi == 0);
+        inner += hair_length(offset) < 0.002f;
+        ++side[2 * (offset.x > 0) + (offset.z > 0)];
+    }
+    for (int i = 0; i < 100; ++i) assert_in_range(own[i], 50, 51);
+    // Within half the radius, one standard deviation: (1 - exp(-1/2)) / (1 - exp(-2)) = 0.455.
+    assert_float_equal(inner / 5050.0, 0.455, 0.02);
+    for (int i = 0; i < 4; ++i) assert_float_equal(side[i] / 5050.0, 0.25, 0.02);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+// On a scalp ------------------------------------------------------------------------------------------------
+
+// Upright strands rooted at the vertices of a scalp of `cells` by `cells` over 20 cm.
+static hair_vec3 upright(float t, uint32_t strand, const void* user)
+{
+    uint32_t row = *(const uint32_t*)user + 1;
+    return hair_v3(0.2f * (float)(strand % row) / (float)(row - 1), 0.1f * t,
+                   0.2f * (float)(strand / row) / (float)(row - 1));
+}
+
+// The same where x < 0.1; beyond, they go down.
+static hair_vec3 parted(float t, uint32_t strand, const void* user)
+{
+    hair_vec3 p = upright(t, strand, user);
+    return p.x < 0.1f ? p : hair_v3(p.x, -p.y, p.z);
+}
+
+// The same, but from twice as far apart: no vertex of the scalp but every second has a guide.
+static hair_vec3 sparse(float t, uint32_t strand, const void* user)
+{
+    hair_vec3 p = upright(t, strand, user);
+    return hair_v3(p.x + 0.003f, p.y, p.z + 0.003f);
+}
+
+struct grown {
+    struct hair_test_strands strands;
+    struct hair_test_scalp   scalp;
+    hair_groom_desc          desc;
+};
+
+static struct grown prepare(uint32_t cells, uint32_t guide_cells, uint32_t followers,
+                            hair_vec3 (*point)(float t, uint32_t strand, const void* user))
+{
+    uint32_t     guides = (guide_cells + 1) * (guide_cells + 1);
+    struct grown grown  = {
+         hair_test_strands_make(guides, 6), hair_test_scalp_make(cells, 0.2f), {.host = NULL}};
+    for (uint32_t i = 0; i < guides; ++i) hair_test_strands_add(&grown.strands, 6, point, &guide_cells);
+    grown.desc = hair_test_groom_desc(&test, &grown.strands);
+    hair_test_set_scalp(&grown.desc, &grown.scalp);
+    grown.desc.follower_count = followers;
+    return grown;
+}
+
+static void free_grown(struct grown* grown)
+{
+    hair_test_strands_free(&grown->strands);
+    hair_test_scalp_free(&grown->scalp);
+}
+
+static void assert_rooted(const hair_groom* groom)
+{
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        hair_vec3 single = hair_test_single(groom, follower, 0), multi = hair_test_multi(groom, follower, 0);
+        assert_true(hair_distance(single, multi) < 1e-6f);
+        assert_true(fabsf(single.y) < 1e-6f);
+        assert_true(single.x >= -1e-6f && single.x <= 0.2f + 1e-6f);
+        assert_true(single.z >= -1e-6f && single.z <= 0.2f + 1e-6f);
+    }
+}
+
+static void grown_roots_lie_on_the_scalp_by_either_interpolation(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(6, 6, 4000, upright);
+    hair_groom*  groom = make(&grown.desc);
+    assert_rooted(groom);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+
+    grown = prepare(9, 4, 4000, sparse);
+    groom = make(&grown.desc);
+    assert_rooted(groom);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_between_them(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(6, 6, 4000, upright);
+    hair_groom*  groom = make(&grown.desc);
+    uint32_t     first = 0;
+    for (uint32_t i = 0; i < 4000; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        float                       w1 = follower->weight1, w2 = follower->weight2;
+        hair_vec3                   p = hair_add(hair_scale(root_of(groom, follower->guide0), 1 - w1 - w2),
+                                                 hair_add(hair_scale(root_of(groom, follower->guide1), w1),
+                                                          hair_scale(root_of(groom, follower->guide2), w2)));
+        assert_true(hair_distance(p, hair_test_multi(groom, follower, 0)) < 1e-6f);
+        assert_true(follower->multi == 1);
+        first += 1 - w1 - w2 >= fmaxf(w1, w2);
+    }
+    // Guide 0 is drawn by weight: the heaviest of three is it in 11/18 of the cases over an even triangle.
+    assert_float_equal(first / 4000.0, 11.0 / 18, 0.03);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void followers_are_between_guides_that_surround_them_where_corners_have_none(void** state)
+{
+    (void)state;
+    struct grown grown  = prepare(9, 4, 4000, sparse);
+    hair_groom*  groom  = make(&grown.desc);
+    uint32_t     inside = 0, surrounded = 0;
+    for (uint32_t i = 0; i < 4000; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        hair_vec3                   p        = hair_test_multi(groom, follower, 0);
+        hair_vec3 own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
+        assert_true(hair_distance(p, root_of(groom, follower->guide0)) < 0.15f);
+        if (p.x < 0.005f || p.z < 0.005f) continue;
+        ++inside;
+        surrounded += hair_length(own) < 0.001f;
+    }
+    assert_int_equal(surrounded, inside);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+// 40,000 followers over 1,600 cells of 25 each: a strewing at random has a standard deviation of 5.
+static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
+{
+    (void)state;
+    struct grown    grown = prepare(8, 8, 40000, upright);
+    hair_groom*     groom = make(&grown.desc);
+    static uint32_t count[1600];
+    memset(count, 0, sizeof count);
+    for (uint32_t i = 0; i < 40000; ++i) {
+        hair_vec3 p = hair_test_multi(groom, &groom->followers[i], 0);
+        int       x = (int)fminf(p.x * 200, 39), z = (int)fminf(p.z * 200, 39);
+        ++count[40 * z + x];
+    }
+    double squared = 0, most = 0, least = 100;
+    for (int i = 0; i < 1600; ++i) {
+        squared += (count[i] - 25.0) * (count[i] - 25.0) / 1600;
+        most  = fmax(most, count[i]);
+        least = fmin(least, count[i]);
+    }
+    printf("followers per cell: 25 +- %.1f, from %.0f to %.0f\n", sqrt(squared), least, most);
+    assert_true(sqrt(squared) < 3);
+    assert_true(least > 12 && most < 38);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void nothing_is_blended_across_a_parting(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(6, 6, 4000, parted);
+    hair_groom*  groom = make(&grown.desc);
+    uint32_t     apart = 0;
+    for (uint32_t i = 0; i < 4000; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        float                       rise     = hair_test_multi(groom, follower, 1).y;
+        bool                        up       = root_of(groom, follower->guide0).x < 0.0999f;
+        assert_float_equal(rise, (up ? 0.1f : -0.1f) * follower->length_ratio, 1e-5);
+        apart += follower->weight1 == 0 || follower->weight2 == 0;
+    }
+    assert_in_range(apart, 400, 1000); // A column of six, where there is one at all.
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere(void** state)
+{
+    (void)state;
+    struct grown grown       = prepare(4, 4, 4000, upright);
+    float        density[25] = {0}; // Columns of 0, 0, 1/2, 1, 1
+    for (int i = 0; i < 25; ++i) density[i] = fminf(fmaxf(0.5f * (float)(i % 5) - 0.5f, 0), 1);
+    grown.desc.scalp_density = density;
+    hair_groom* groom        = make(&grown.desc);
+    assert_int_equal(groom->info.follower_count, 4000);
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
+        struct hair_patch patch = groom->patches[i];
+        assert_true(patch.density > 0 && patch.density <= 1);
+        for (uint32_t j = 0; j < patch.count; ++j) {
+            hair_vec3 p = hair_test_multi(groom, &groom->followers[patch.first + j], 0);
+            assert_true(p.x > 0.05f - 1e-6f);
+            if (p.x > 0.1501f) assert_float_equal(patch.density, 1, 1e-6);
+            if (p.x < 0.0999f) assert_true(patch.density < 0.4f);
+        }
+    }
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void the_scalp_is_scaled_and_turned_as_the_strands_are(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(6, 6, 1000, upright);
+    // In centimetres, with z up: (x, y, z) of the library are (x, -z, y) there.
+    for (uint32_t i = 0; i < grown.strands.vertex_count + grown.scalp.vertex_count; ++i) {
+        float* p = i < grown.strands.vertex_count
+                       ? grown.strands.positions + 3 * i
+                       : grown.scalp.positions + 3 * (i - grown.strands.vertex_count);
+        hair_store3(p, hair_v3(100 * p[0], -100 * p[2], 100 * p[1]));
+    }
+    hair_import import = hair_import_default();
+    import.scale       = 0.01f;
+    import.up          = HAIR_UP_Z;
+    grown.desc.import  = &import;
+    hair_groom* groom  = make(&grown.desc);
+    assert_float_equal(groom->info.upper[1], 0.1, 1e-6);
+    assert_rooted(groom);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
+static void one_guide_or_two_are_enough_for_a_scalp(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(3, 1, 500, sparse);
+    for (uint32_t guides = 1; guides <= 2; ++guides) {
+        grown.desc.strand_count = guides;
+        hair_groom* groom       = make(&grown.desc);
+        assert_rooted(groom);
+        for (uint32_t i = 0; i < 500; ++i) {
+            float w1 = groom->followers[i].weight1, w2 = groom->followers[i].weight2;
+            assert_true(w1 >= 0 && w2 >= 0 && w1 + w2 <= 1);
+        }
+        hair_groom_destroy(groom);
+    }
+    free_grown(&grown);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(straight_strands_are_followed_exactly),
+        TEST(wavy_strands_are_followed_closely),
+        TEST(strands_of_a_real_haircut_are_followed_closely),
+        TEST(guides_follow_themselves_without_an_offset),
+        TEST(strands_of_different_vertex_counts_are_followed_in_one_groom),
+        TEST(without_followers_asked_for_each_guide_is_drawn),
+        TEST(followers_surround_their_guides_evenly_within_the_clump_radius),
+        TEST(grown_roots_lie_on_the_scalp_by_either_interpolation),
+        TEST(guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_between_them),
+        TEST(followers_are_between_guides_that_surround_them_where_corners_have_none),
+        TEST(grown_roots_are_spread_without_clumps_or_gaps),
+        TEST(nothing_is_blended_across_a_parting),
+        TEST(nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere),
+        TEST(the_scalp_is_scaled_and_turned_as_the_strands_are),
+        TEST(one_guide_or_two_are_enough_for_a_scalp),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
