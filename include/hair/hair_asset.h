@@ -25,7 +25,8 @@ typedef struct hair_asset_desc {
 HAIR_DESC(hair_asset_desc)
 
 /// Read strands. The format is told by the first bytes. Malformed input of any kind is HAIR_ERROR_FILE and a
-/// sentence with the byte offset. Memory stays under 4 times `size` and 64 MiB, whatever the bytes claim.
+/// sentence with the byte offset. Memory stays under 4 times `size` and 64 MiB, whatever the bytes claim, and
+/// 12 bytes for every vertex that import.strand_vertices asks for.
 HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size, hair_asset** out);
 HAIR_API void        hair_asset_destroy(hair_asset* asset);
 
