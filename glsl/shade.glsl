@@ -6,7 +6,6 @@ struct hair_fragment {
     vec3  tangent; // unit, from root to tip
     vec3  to_eye;  // unit
     float t;       // from root to tip, [0, 1]
-    float across;  // -1 to 1 over the width
     float random;  // the strand's own, [0, 1)
     float light;   // that reaches here, [0, 1]
 };

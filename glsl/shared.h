@@ -166,7 +166,7 @@ struct hair_draw_params {
     float     density;
     hair_uint segments;
     hair_uint smooth_vertices;
-    hair_uint followers;
+    hair_uint colored; // 0: only depth is asked for, nothing is shaded
 };
 HAIR_SIZE(hair_draw_params, 3 * 64 + 7 * 16 + 32)
 

@@ -81,6 +81,6 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->frizz           = look->frizz;
     out->density         = look->density;
     out->segments        = look->segments;
-    out->followers       = draw->followers;
+    out->colored         = view && view->pass == HAIR_PASS_COLOR;
     out->smooth_vertices = draw->smooth_vertices;
 }
