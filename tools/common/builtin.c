@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 // Three-quarter front, with the angle of a 50 mm lens on 35 mm film: 27 degrees high.
-#define CAMERA "'camera': {'eye': [0.62, 1.60, 1.25], 'target': [0.0, 1.50, 0.0], 'fov': 27}"
+#define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'frames': 120, 'picture': 45, " CAMERA "}"},

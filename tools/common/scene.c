@@ -47,7 +47,7 @@ void hair_scene_default(struct hair_scene* scene)
                                             .fur_length    = 0.03f,
                                             .ball_radius   = 0.1f,
                                             .field_of_view = 27,
-                                            .background = {{0.13f, 0.14f, 0.155f}, {0.035f, 0.037f, 0.042f}},
+                                            .background = {{0.085f, 0.09f, 0.1f}, {0.018f, 0.019f, 0.022f}},
                                             .exposure   = 1,
                                             .motion     = {.pivot = {0, 1.50f, -0.01f}},
                                             .fps        = 30,
