@@ -333,8 +333,9 @@ static void print_asset(const hair_asset_info* info)
            info->file_vertices, info->fewest, info->most);
     printf("%-10s least %.6g, mean %.6g, greatest %.6g m\n", "length:", (double)info->length[0],
            (double)info->length[1], (double)info->length[2]);
-    printf("%-10s x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m\n", "bounds:", (double)l[0], (double)u[0],
-           (double)l[1], (double)u[1], (double)l[2], (double)u[2]);
+    // Adding 0 turns the -0 of a turned axis into 0.
+    printf("%-10s x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m\n", "bounds:", l[0] + 0.0, u[0] + 0.0,
+           l[1] + 0.0, u[1] + 0.0, l[2] + 0.0, u[2] + 0.0);
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
     print_repairs(&info->repairs);
 }

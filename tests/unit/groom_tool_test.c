@@ -74,7 +74,7 @@ static void info_tells_what_is_in_a_haircut(void** state)
     assert_non_null(strstr(said, "fewest 2, most 4"));
     assert_non_null(strstr(said, "nothing repaired"));
     assert_non_null(strstr(said, "guides of"));
-    expect(0, "$T info --scale 0.01 --up z $D/a3.tfx", "x 0 to 0.02, y 0 to 0.00375, z -0.03 to -0 m");
+    expect(0, "$T info --scale 0.01 --up z $D/a3.tfx", "x 0 to 0.02, y 0 to 0.00375, z -0.03 to 0 m");
     expect(0, "$T info $D/a2.tfx", "tfx2");
     expect(0, "$T info --share 0.4 $D/a4.tfx", "strands:   1, of 3 in the file");
 }
