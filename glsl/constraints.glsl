@@ -43,6 +43,6 @@ vec3 push_out(vec3 position, hair_capsule solid, float share, float margin)
     vec3  out_to = position - nearest;
     float radius = a.w + margin;
     float l      = length(out_to);
-    if (l >= radius) return position;
+    if (!(l < radius)) return position; // NaN stays NaN, for the solver to find.
     return nearest + (l > 1e-9 ? out_to * (radius / l) : vec3(0.0, radius, 0.0));
 }
