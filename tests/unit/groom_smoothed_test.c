@@ -1,0 +1,120 @@
+// groom_smoothed_test.c - guides and followers at rest, as the groom fits them, are those that will be drawn.
+#include "tests/support/grooms.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "lib/reference/reference.h"
+
+// Curved strands of 3 to 34 vertices, 2 cm apart, about 20 cm long.
+static hair_vec3 curved(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    float bend = 0.5f + 0.1f * (float)(strand % 20), x = 0.02f * (float)(strand % 10),
+          z = 0.02f * (float)(strand / 10);
+    return hair_v3(x + 0.03f * sinf(9 * bend * t), 0.2f * t * (1 - 0.8f * t * bend),
+                   z + 0.02f * t * cosf(7 * t));
+}
+
+struct fixture {
+    struct hair_test_host         host;
+    hair_groom*                   groom;
+    struct hair_reference_sample* samples;
+    uint32_t                      each; // samples of a guide
+};
+
+static int start(void** state)
+{
+    static struct fixture fixture;
+    hair_test_host_init(&fixture.host);
+    struct hair_test_strands strands = hair_test_strands_make(100, 34);
+    for (uint32_t i = 0; i < 100; ++i) hair_test_strands_add(&strands, 3 + i % 32, curved, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&fixture.host, &strands);
+    desc.guide_count     = 20;
+    hair_result result   = hair_groom_create(&desc, &fixture.groom);
+    hair_test_strands_free(&strands);
+    if (result) return -1;
+
+    // At rest, with the head where the groom is.
+    hair_groom*                    groom = fixture.groom;
+    static struct hair_step_params params;
+    params.rotation_before = params.rotation_after = params.rotation_now = (hair_vec4){0, 0, 0, 1};
+    params.smooth_vertices = fixture.each = 2 * (groom->most_vertices - 1) + 1;
+    fixture.samples = calloc((size_t)groom->info.guide_count * fixture.each, sizeof *fixture.samples);
+    for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
+        const struct hair_guide*     guide = &groom->guides[i];
+        const struct hair_rest*      rest  = groom->rest + guide->first;
+        struct hair_reference_vertex vertex[HAIR_MAX_GUIDE_VERTICES];
+        memset(vertex, 0, sizeof vertex);
+        for (uint32_t j = 0; j < guide->count; ++j) {
+            vertex[j].position[0] = (double)rest[j].position.x;
+            vertex[j].position[1] = (double)rest[j].position.y;
+            vertex[j].position[2] = (double)rest[j].position.z;
+        }
+        hair_reference_smooth((struct hair_reference_guide){guide, rest, &params}, vertex,
+                              fixture.samples + (size_t)i * fixture.each);
+    }
+    *state = &fixture;
+    return 0;
+}
+
+static int finish(void** state)
+{
+    struct fixture* fixture = *state;
+    hair_groom_destroy(fixture->groom);
+    free(fixture->samples);
+    return fixture->host.blocks ? -1 : 0;
+}
+
+static void assert_vec3(hair_vec3 a, const double b[3], double tolerance)
+{
+    assert_float_equal(a.x, b[0], tolerance);
+    assert_float_equal(a.y, b[1], tolerance);
+    assert_float_equal(a.z, b[2], tolerance);
+}
+
+static void guides_are_smoothed_as_the_reference_smooths_them(void** state)
+{
+    struct fixture* fixture = *state;
+    for (uint32_t i = 0; i < fixture->groom->info.guide_count; ++i) {
+        struct hair_smoothed smoothed;
+        hair_smooth_guide(fixture->groom, i, &smoothed);
+        assert_int_equal(smoothed.count, fixture->each);
+        for (uint32_t k = 0; k < fixture->each; ++k) {
+            const struct hair_reference_sample* sample = fixture->samples + (size_t)i * fixture->each + k;
+            const double*                       q      = sample->frame;
+            hair_quat                           p      = smoothed.frame[k];
+            assert_vec3(smoothed.position[k], sample->position, 1e-6);
+            assert_vec3(smoothed.tangent[k], sample->tangent, 1e-4);
+            double together =
+                (double)p.x * q[0] + (double)p.y * q[1] + (double)p.z * q[2] + (double)p.w * q[3];
+            assert_float_equal(fabs(together), 1, 1e-6);
+        }
+    }
+}
+
+static void followers_are_where_the_reference_has_them(void** state)
+{
+    struct fixture*         fixture = *state;
+    struct hair_draw_params draw    = {.smooth_vertices = fixture->each, .radius = 1e-4f, .segments = 16};
+    for (uint32_t i = 0; i < fixture->groom->info.follower_count; ++i)
+        for (uint32_t j = 0; j <= 16; ++j) {
+            const struct hair_follower* follower = &fixture->groom->followers[i];
+            struct hair_reference_point point;
+            hair_reference_follower(follower, &draw, fixture->samples, j / 16.0, &point);
+            assert_vec3(hair_test_single(fixture->groom, follower, (float)j / 16), point.position, 2e-6);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(guides_are_smoothed_as_the_reference_smooths_them),
+        cmocka_unit_test(followers_are_where_the_reference_has_them),
+    };
+    return cmocka_run_group_tests(tests, start, finish);
+}
