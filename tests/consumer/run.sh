@@ -1,0 +1,77 @@
+#!/bin/sh
+# run.sh - programs that use hair as anyone would: from an installed tree, through pkg-config, in C and in C++,
+# with the static and with the shared libraries. And the README's program is the one that is run.
+#   run.sh PREFIX OUT      PREFIX/usr was installed to; OUT is where programs go
+# CC, CXX: the compilers. OPT: options that the libraries were built with, such as sanitizers.
+set -eu
+prefix=$1
+out=$2
+here=$(dirname "$0")
+CC=${CC:-cc}
+CXX=${CXX:-c++}
+OPT=${OPT:-}
+export PKG_CONFIG_PATH="$prefix/usr/lib/pkgconfig"
+mkdir -p "$out"
+
+fail() { echo "consumer: $*" >&2; exit 1; }
+
+strict='-pedantic -Wall -Wextra -Wshadow -Wconversion -Werror'
+said=
+
+# build_and_run NAME COMPILER LINKING-OPTIONS...
+build_and_run() {
+    name=$1
+    compiler=$2
+    shift 2
+    # shellcheck disable=SC2086
+    $compiler $strict $OPT "$here/hello.c" -x none "$@" -o "$out/$name" || fail "$name does not build"
+    # Under a sanitizer: the driver's own leaks are not the program's.
+    output=$(ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH="$prefix/usr/lib" "$out/$name") || fail "$name does not run"
+    case $output in
+    "the tip is at ("*") m") ;;
+    *) fail "$name printed \"$output\"" ;;
+    esac
+    [ -z "$said" ] || [ "$output" = "$said" ] || fail "$name printed \"$output\", another \"$said\""
+    said=$output
+    echo "consumer: $name: $output"
+}
+
+# The .pc files find their tree by where they lie themselves.
+static=$(pkg-config --static --cflags --libs hair_egl)
+shared=$(pkg-config --cflags --libs hair_egl)
+case $shared in *"-L$prefix/usr/lib"* | *"-L$prefix/usr/lib/pkgconfig/../../lib"*) ;; *) fail "pkg-config says \"$shared\"" ;; esac
+pkg-config --exists "hair >= 0.1" || fail "hair.pc has no version"
+[ "$(pkg-config --modversion hair)" = "$(pkg-config --modversion hair_egl)" ] || fail "two versions are installed"
+
+for standard in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++" "$CXX -std=c++17 -x c++" "$CXX -std=c++20 -x c++"; do
+    language=$(echo "$standard" | sed 's/.*-std=\([^ ]*\).*/\1/')
+    # -Bstatic for hair alone: the system's EGL has no static library.
+    static_hair=$(echo "$static" | sed 's/-lhair_egl/-l:libhair_egl.a/; s/-lhair\( \|$\)/-l:libhair.a\1/')
+    # shellcheck disable=SC2086
+    build_and_run "hello-$language-static" "$standard" $static_hair
+    # shellcheck disable=SC2086
+    build_and_run "hello-$language-shared" "$standard" -DHAIR_SHARED $shared
+done
+
+# A program that links the static library does not pass its symbols on, also when it exports its own.
+# shellcheck disable=SC2086
+$CC -std=c99 $OPT -rdynamic "$here/hello.c" $static_hair -o "$out/hello-exporting"
+if nm -D --defined-only "$out/hello-exporting" | grep ' hair_'; then fail "the static library exports these (above)"; fi
+
+# Every header can be the only one.
+for header in "$prefix"/usr/include/hair/*.h; do
+    for compiler in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++"; do
+        # shellcheck disable=SC2086
+        echo "#include <hair/$(basename "$header")>" | $compiler $strict -I"$prefix/usr/include" -fsyntax-only - ||
+            fail "$(basename "$header") cannot be included alone"
+    done
+done
+
+# The README shows this very program.
+readme=$here/../../README.md
+if [ -e "$readme" ]; then
+    awk '/^```c$/ {on = 1; next} /^```$/ {on = 0} on' "$readme" | diff -u "$here/hello.c" - >"$out/readme.diff" || {
+        cat "$out/readme.diff"
+        fail "README.md does not show tests/consumer/hello.c"
+    }
+fi
