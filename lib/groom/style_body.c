@@ -2,8 +2,6 @@
 // Based on: Quilez, "Distance functions" and "Smooth minimum"; proportions of an adult head, 0.23 m high.
 #include "lib/groom/style_body.h"
 
-#define BLEND 0.012f // Radius of the fillets between the parts. m.
-
 struct ellipsoid {
     hair_vec3 center, axes;
 };
@@ -14,14 +12,16 @@ struct capsule {
 };
 
 static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X, HAIR_SKULL_Y, HAIR_SKULL_Z}};
-static const struct ellipsoid jaw   = {{0, 1.560f, 0.038f}, {0.056f, 0.068f, 0.058f}};
-static const struct ellipsoid chest = {{0, 1.270f, -0.010f}, {0.165f, 0.150f, 0.105f}};
-static const struct ellipsoid face  = {{0, 1.565f, 0.085f}, {0.052f, 0.120f, 0.060f}};
+static const struct ellipsoid cheeks = {{0, 1.580f, 0.038f}, {0.060f, 0.063f, 0.053f}};
+static const struct ellipsoid jaw    = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
+static const struct ellipsoid chest  = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
+static const struct ellipsoid room   = {{0, 1.565f, 0.085f}, {0.052f, 0.120f, 0.060f}}; // before the face
 
 // On the left side; the bust is symmetrical, so they are met by |x|.
-static const struct capsule neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.047f};
-static const struct capsule shoulder = {{0.030f, 1.440f, -0.030f}, {0.155f, 1.375f, -0.025f}, 0.045f};
-static const struct capsule arm      = {{0.160f, 1.360f, -0.025f}, {0.180f, 1.220f, -0.020f}, 0.042f};
+static const struct ellipsoid breast   = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
+static const struct capsule   neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.048f};
+static const struct capsule   shoulder = {{0.030f, 1.434f, -0.032f}, {0.158f, 1.370f, -0.025f}, 0.044f};
+static const struct capsule   arm      = {{0.162f, 1.362f, -0.025f}, {0.182f, 1.200f, -0.020f}, 0.043f};
 
 // First order: |p/a| (|p/a| - 1) / |p/a^2|, exact on the surface.
 static float ellipsoid_distance(const struct ellipsoid* e, hair_vec3 p)
@@ -41,10 +41,11 @@ static float capsule_distance(const struct capsule* c, hair_vec3 p)
     return hair_distance(p, hair_lerp(c->a, c->b, fminf(fmaxf(t, 0), 1))) - c->radius;
 }
 
-static float blend(float a, float b)
+// With a fillet of about k metres.
+static float blend(float a, float b, float k)
 {
-    float h = fmaxf(BLEND - fabsf(a - b), 0) / BLEND;
-    return fminf(a, b) - h * h * BLEND * 0.25f;
+    float h = fmaxf(k - fabsf(a - b), 0) / k;
+    return fminf(a, b) - h * h * k * 0.25f;
 }
 
 hair_vec3 hair_skull_point(hair_vec3 unit)
@@ -68,11 +69,13 @@ hair_vec3 hair_skull_normal(hair_vec3 p)
 float hair_body_distance(hair_vec3 p)
 {
     hair_vec3 m = {fabsf(p.x), p.y, p.z};
-    float     d = capsule_distance(&neck, m);
-    d           = blend(d, ellipsoid_distance(&jaw, m));
-    d           = blend(d, capsule_distance(&shoulder, m));
-    d           = blend(d, capsule_distance(&arm, m));
-    d           = blend(d, ellipsoid_distance(&chest, m));
+    float     d = ellipsoid_distance(&chest, m);
+    d           = blend(d, capsule_distance(&arm, m), 0.05f);
+    d           = blend(d, capsule_distance(&shoulder, m), 0.06f);
+    d           = blend(d, ellipsoid_distance(&breast, m), 0.07f);
+    d           = blend(d, capsule_distance(&neck, m), 0.05f);
+    d           = blend(d, ellipsoid_distance(&cheeks, m), 0.016f);
+    d           = blend(d, ellipsoid_distance(&jaw, m), 0.024f);
     return fminf(d, ellipsoid_distance(&skull, m)); // No fillet here: roots stay on the surface.
 }
 
@@ -92,7 +95,7 @@ hair_vec3 hair_body_normal(hair_vec3 p)
 
 float hair_face_distance(hair_vec3 p)
 {
-    return ellipsoid_distance(&face, p);
+    return ellipsoid_distance(&room, p);
 }
 
 hair_vec3 hair_face_normal(hair_vec3 p)

@@ -19,7 +19,7 @@ struct walk {
     float     press;        // share of what it is above the clearance that a step removes
     float     inward;       // turn towards the neck near the tip, 1/m
     float     inward_below; // height from which on, m
-    float     tilt;         // turn to the front (+) or the back of the shoulder (-), 1/m
+    float     split;        // turn to the front or the back of the shoulder, 1/m
     float     floor;        // height that the hair is cut at, m
     float     face;         // distance kept from the face, m
     float     most;         // length, m
@@ -95,7 +95,8 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
     float     width  = mix(0.0005f, 0.045f, smooth(0.9f, 1.5f, along)); // Over which sides change.
     float     side   = fminf(fmaxf((p.x - hair_parting_x(parting, p.z)) / width, -1), 1);
     float     back   = mix(back_front, back_crown, smooth(0, 1, along));
-    hair_vec3 v      = {side, -0.7f, -back};
+    float     above  = smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
+    hair_vec3 v      = {side * above, -0.7f, -back * above};
     return hair_normalize(tangential(v, normal), tangential(hair_v3(0, -1, 0), normal));
 }
 
@@ -104,11 +105,20 @@ static void push_out(hair_vec3* p, float distance, float wanted, hair_vec3 norma
     if (distance < wanted) *p = hair_add(*p, hair_scale(normal, fminf(wanted - distance, 0.8f * STRIDE)));
 }
 
+// Hair that comes down on the ridge of a shoulder slides off to the front or to the back: 1 or -1 on either
+// side of it, fading away from it.
+static float split_at_shoulder(hair_vec3 p)
+{
+    float off = (p.z + 0.034f) / 0.020f;
+    return fminf(fmaxf(off, -1), 1) * smooth(4.0f, 1.5f, fabsf(off)) * smooth(1.60f, 1.55f, p.y) *
+           smooth(1.37f, 1.42f, p.y);
+}
+
 static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
 {
     float     share = 1 - expf(-s / walk->hold);
     hair_vec3 v     = hair_v3(0, -walk->gravity * share, 0);
-    if (p.y < 1.60f) v.z += walk->tilt * smooth(1.60f, 1.52f, p.y);
+    v.z += walk->split * split_at_shoulder(p);
     if (p.y < walk->inward_below) {
         hair_vec3 in = hair_normalize(hair_v3(-p.x, 0, -0.02f - p.z), hair_v3(0, 0, -1));
         v            = hair_add(v, hair_scale(in, walk->inward));
@@ -169,7 +179,6 @@ struct curl {
     float start, full;   // distance from the root where it begins, and where the radius is reached, m
     float phase;         // radians
     float flat;          // 1: a helix; 0: a wave in one plane
-    float hand;          // 1 or -1: which way it winds
 };
 
 // Lay a helix round a course, in a frame carried along it without twist, clear of the bust.
@@ -190,7 +199,7 @@ static void wind(struct hair_course* course, const struct curl* curl)
             hair_normalize(tangential(hair_rotate(hair_quat_between(tangent, next), across), next), across);
         tangent = next, last = p;
         s += step;
-        angle += curl->hand * 2 * PI * step / curl->pitch;
+        angle += 2 * PI * step / curl->pitch;
         float     radius = curl->radius * smooth(curl->start, curl->full, s);
         hair_vec3 along  = hair_scale(hair_cross(tangent, across), curl->flat * radius * sinf(angle));
         hair_vec3 q      = hair_add(p, hair_add(hair_scale(across, radius * cosf(angle)), along));
@@ -206,35 +215,34 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_co
 {
     float       front = frontness(root), high = layer(root);
     struct walk walk = {
-        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.25f, 1.1f),
-        .rise         = 0.35f,
-        .clearance    = mix(0.004f, 0.017f, high) + 0.002f * noise(root, 0.03f, seed),
-        .lift         = 0.05f,
-        .gravity      = 22,
-        .hold         = 0.05f,
-        .tilt         = mix(-7, 6, front),
+        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
+        .rise         = 0.16f,
+        .clearance    = mix(0.004f, 0.014f, high) + 0.002f * noise(root, 0.03f, seed),
+        .lift         = 0.06f,
+        .gravity      = 45,
+        .hold         = 0.04f,
+        .split        = 25,
         .floor        = mix(1.30f, 1.335f, front) + 0.008f * noise(root, 0.02f, seed + 1),
         .face         = 0.010f,
         .inward_below = 0,
     };
     run_cut(&walk, root, scale, 0.03f, course);
-    struct curl wave = {0.007f, 0.11f, 0.12f * scale, 0.38f * scale, 1.5f * PI * noise(root, 0.06f, seed + 2),
-                        0.5f,   1};
+    struct curl wave = {
+        0.011f, 0.105f, 0.07f * scale, 0.38f * scale, 1.5f * PI * noise(root, 0.06f, seed + 2), 0.5f};
     wind(course, &wave);
 }
 
 static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       front = frontness(root), high = layer(root);
+    float       high = layer(root);
     float       cut  = mix(1.528f, 1.500f, smooth(-0.07f, 0.04f, root.z));
     struct walk walk = {
-        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.15f, 1.0f),
-        .rise         = 0.40f,
-        .clearance    = mix(0.005f, 0.021f, high) + 0.001f * noise(root, 0.03f, seed),
+        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
+        .rise         = 0.22f,
+        .clearance    = mix(0.005f, 0.017f, high) + 0.001f * noise(root, 0.03f, seed),
         .lift         = 0.045f,
-        .gravity      = 22,
-        .hold         = 0.05f,
-        .tilt         = mix(0, 4, front),
+        .gravity      = 40,
+        .hold         = 0.04f,
         .inward       = 22,
         .inward_below = cut + 0.045f,
         .floor        = cut + 0.003f * noise(root, 0.02f, seed + 1),
@@ -262,22 +270,25 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_c
 
 static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       front = frontness(root), high = layer(root);
+    float       high = layer(root);
     struct walk walk = {
         .comb      = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
-        .rise      = 0.5f,
-        .clearance = mix(0.014f, 0.040f, high) + 0.006f * noise(root, 0.03f, seed),
+        .rise      = 0.22f,
+        .clearance = mix(0.014f, 0.030f, high) + 0.006f * noise(root, 0.03f, seed),
         .lift      = 0.06f,
-        .gravity   = 13,
-        .hold      = 0.07f,
-        .tilt      = mix(-4, 4, front),
+        .gravity   = 40,
+        .hold      = 0.04f,
+        .split     = 15,
         .floor     = 1.405f + 0.02f * noise(root, 0.025f, seed + 1),
         .face      = 0.018f,
     };
     run_cut(&walk, root, scale, 0.04f, course);
-    float       hand = root.x > 0 ? 1.0f : -1.0f;
-    struct curl curl = {0.0095f + 0.002f * noise(root, 0.04f, seed + 2), 0.028f, 0.008f, 0.07f,
-                        1.6f * PI * noise(root, 0.055f, seed + 3),       1,      hand};
+    struct curl curl = {.radius = 0.0100f + 0.0025f * noise(root, 0.04f, seed + 2),
+                        .pitch  = 0.028f * (1 + 0.12f * noise(root, 0.05f, seed + 4)),
+                        .start  = 0.008f,
+                        .full   = 0.07f,
+                        .phase  = 2 * PI * noise(root, 0.05f, seed + 3),
+                        .flat   = 1};
     wind(course, &curl);
 }
 
@@ -298,7 +309,7 @@ static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_co
         float t = (float)i / (float)count;
         add_point(course, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
     }
-    struct curl curl = {0.0042f, 0.0125f, 0.002f, 0.025f, 2 * PI * noise(root, 0.045f, seed + 1), 1, 1};
+    struct curl curl = {0.0042f, 0.0125f, 0.002f, 0.025f, 2 * PI * noise(root, 0.045f, seed + 1), 1};
     wind(course, &curl);
 }
 
@@ -378,8 +389,7 @@ static void grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hai
     gather(hair_add(tie, offset), normal, course);
     fall(offset, scale * TAIL_LENGTH * (1 + 0.08f * noise(root, 0.02f, seed)), course);
     struct curl wave = {
-        0.004f, 0.12f, course->length - 0.2f * scale, course->length, PI * noise(root, 0.1f, seed + 1),
-        0.5f,   1};
+        0.004f, 0.12f, course->length - 0.2f * scale, course->length, PI * noise(root, 0.1f, seed + 1), 0.5f};
     wind(course, &wave);
 }
 

@@ -13,7 +13,7 @@
 #define CANDIDATES 12        // Places tried per vertex.
 #define RELAXATIONS 6        // The spacing of 166 vertices is even to a fifth after as many.
 #define CLEARANCE 0.65f      // Of inner vertices from the middle of an edge of the outline, in its lengths.
-#define PARTING_HALF 0.0016f // Half its width at the hairline, m: a comb's line.
+#define PARTING_HALF 0.0010f // Half its width at the hairline, m: a comb's line.
 
 struct build {
     const hair_host*    host;
