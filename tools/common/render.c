@@ -3,18 +3,17 @@
 #include "tools/common/file.h"
 #include "tools/common/shaders.h"
 #include "tools/common/subject.h"
+#include "tools/common/targets.h"
 
 #include <epoxy/gl.h>
 
 #include <stdlib.h>
 #include <string.h>
 
-#define SHADOW_SIZE 2048
 #define MAX_TILE 4096 // Pixels drawn at once, in each direction: what any OpenGL 4.5 can hold.
 
 enum program { BACKGROUND, SKIN, DEPTH, TONE, PROGRAM_COUNT };
 enum buffer { POSITIONS, NORMALS, COLORS, TRIANGLES, BUFFER_COUNT }; // the first three are attributes too
-enum target { SHADOW, DRAWN, RESOLVED, ENCODED, TARGET_COUNT };
 
 struct hair_render {
     const char*             tool;
@@ -22,50 +21,14 @@ struct hair_render {
     struct hair_image       image;
     uint32_t                tile; // side, in the picture's pixels
     GLuint                  program[PROGRAM_COUNT];
-    GLuint                  framebuffer[TARGET_COUNT];
-    GLuint                  color_samples, depth_samples;          // renderbuffers
-    GLuint                  shadow, resolved, encoded, linear;     // textures
-    GLuint                  shadow_sampler, vertex_array, nothing; // nothing: a vertex array without vertices
+    struct hair_targets     targets;
+    GLuint                  vertex_array, nothing; // nothing: a vertex array without vertices
     GLuint                  buffer[BUFFER_COUNT];
     uint32_t                indices;
     float                   bend[2];
 };
 
-// Programs --------------------------------------------------------------------------------------------------
-
-static GLuint compile(const char* tool, GLenum stage, const char* text)
-{
-    GLuint shader = glCreateShader(stage);
-    GLint  good;
-    glShaderSource(shader, 1, &text, NULL);
-    glCompileShader(shader);
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    if (good) return shader;
-    char reason[512] = "";
-    glGetShaderInfoLog(shader, sizeof reason, NULL, reason);
-    hair_complain(tool, "a shader does not compile: %s", reason);
-    glDeleteShader(shader);
-    return 0;
-}
-
-static GLuint link_program(const char* tool, const char* vert, const char* frag)
-{
-    GLuint vertex = compile(tool, GL_VERTEX_SHADER, vert), fragment = compile(tool, GL_FRAGMENT_SHADER, frag);
-    GLuint program = glCreateProgram();
-    GLint  good    = 0;
-    if (vertex && fragment) {
-        glAttachShader(program, vertex);
-        glAttachShader(program, fragment);
-        glLinkProgram(program);
-        glGetProgramiv(program, GL_LINK_STATUS, &good);
-        if (!good) hair_complain(tool, "a program does not link");
-    }
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
-    if (good) return program;
-    glDeleteProgram(program);
-    return 0;
-}
+// Making ----------------------------------------------------------------------------------------------------
 
 static bool make_programs(struct hair_render* render)
 {
@@ -74,83 +37,9 @@ static bool make_programs(struct hair_render* render)
                                                        [DEPTH]      = {hair_mesh_vert, hair_nothing_frag},
                                                        [TONE]       = {hair_whole_vert, hair_tone_frag}};
     for (int i = 0; i < PROGRAM_COUNT; ++i) {
-        render->program[i] = link_program(render->tool, text[i][0], text[i][1]);
+        render->program[i] = hair_shaders_link(render->tool, text[i][0], text[i][1]);
         if (!render->program[i]) return false;
     }
-    return true;
-}
-
-// Targets ---------------------------------------------------------------------------------------------------
-
-static GLuint make_texture(GLenum format, GLsizei width, GLsizei height)
-{
-    GLuint texture;
-    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-    glTextureStorage2D(texture, 1, format, width, height);
-    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
-static GLuint make_samples(GLenum format, GLsizei samples, GLsizei width, GLsizei height)
-{
-    GLuint buffer;
-    glCreateRenderbuffers(1, &buffer);
-    glNamedRenderbufferStorageMultisample(buffer, samples, format, width, height);
-    return buffer;
-}
-
-// What the hair's own shadows and the head's share: depth from the light, compared only for the head.
-static void make_shadow(struct hair_render* render)
-{
-    render->shadow = make_texture(GL_DEPTH_COMPONENT32F, SHADOW_SIZE, SHADOW_SIZE);
-    glCreateSamplers(1, &render->shadow_sampler);
-    GLuint sampler = render->shadow_sampler;
-    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glNamedFramebufferTexture(render->framebuffer[SHADOW], GL_DEPTH_ATTACHMENT, render->shadow, 0);
-    glNamedFramebufferDrawBuffer(render->framebuffer[SHADOW], GL_NONE);
-}
-
-static bool make_targets(struct hair_render* render)
-{
-    const struct hair_render_desc* desc   = &render->desc;
-    GLsizei                        tile   = (GLsizei)render->tile;
-    GLsizei                        width  = (GLsizei)desc->width < tile ? (GLsizei)desc->width : tile;
-    GLsizei                        height = (GLsizei)desc->height < tile ? (GLsizei)desc->height : tile;
-    GLsizei wide = width * (GLsizei)desc->supersample, high = height * (GLsizei)desc->supersample;
-    GLint   most = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &most);
-    GLsizei samples = (GLint)desc->samples < most ? (GLsizei)desc->samples : most;
-    if (samples == 1) samples = 0;
-
-    glCreateFramebuffers(TARGET_COUNT, render->framebuffer);
-    make_shadow(render);
-    render->color_samples = make_samples(GL_RGBA16F, samples, wide, high);
-    render->depth_samples = make_samples(GL_DEPTH_COMPONENT32F, samples, wide, high);
-    render->resolved      = make_texture(GL_RGBA16F, wide, high);
-    render->encoded       = make_texture(GL_RGBA8, width, height);
-    render->linear        = make_texture(GL_RGBA16F, width, height);
-
-    static const GLenum both[]      = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    const GLuint*       framebuffer = render->framebuffer;
-    glNamedFramebufferRenderbuffer(framebuffer[DRAWN], GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                                   render->color_samples);
-    glNamedFramebufferRenderbuffer(framebuffer[DRAWN], GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                                   render->depth_samples);
-    glNamedFramebufferTexture(framebuffer[RESOLVED], GL_COLOR_ATTACHMENT0, render->resolved, 0);
-    glNamedFramebufferTexture(framebuffer[ENCODED], GL_COLOR_ATTACHMENT0, render->encoded, 0);
-    glNamedFramebufferTexture(framebuffer[ENCODED], GL_COLOR_ATTACHMENT1, render->linear, 0);
-    glNamedFramebufferDrawBuffers(framebuffer[ENCODED], 2, both);
-    for (int i = 0; i < TARGET_COUNT; ++i)
-        if (glCheckNamedFramebufferStatus(framebuffer[i], GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            return false;
     return true;
 }
 
@@ -170,8 +59,9 @@ static int make(struct hair_render* render)
     if (!make_programs(render)) return HAIR_EXIT_OPENGL;
     glCreateVertexArrays(1, &render->vertex_array);
     glCreateVertexArrays(1, &render->nothing);
-    bool complete = make_targets(render);
-    if (glGetError() || !complete) {
+    uint32_t width  = desc->width < render->tile ? desc->width : render->tile;
+    uint32_t height = desc->height < render->tile ? desc->height : render->tile;
+    if (!hair_targets_make(&render->targets, width, height, desc->supersample, desc->samples)) {
         hair_complain(render->tool, "OpenGL has no memory for %u x %u pixels of %u samples", desc->width,
                       desc->height, desc->samples);
         return HAIR_EXIT_OPENGL;
@@ -209,15 +99,10 @@ static void delete_mesh(struct hair_render* render)
 void hair_render_destroy(struct hair_render* render)
 {
     if (!render) return;
-    const GLuint textures[]      = {render->shadow, render->resolved, render->encoded, render->linear};
-    const GLuint renderbuffers[] = {render->color_samples, render->depth_samples};
     const GLuint vertex_arrays[] = {render->vertex_array, render->nothing};
     for (int i = 0; i < PROGRAM_COUNT; ++i) glDeleteProgram(render->program[i]);
-    glDeleteFramebuffers(TARGET_COUNT, render->framebuffer);
-    glDeleteTextures(4, textures);
-    glDeleteRenderbuffers(2, renderbuffers);
     glDeleteVertexArrays(2, vertex_arrays);
-    glDeleteSamplers(1, &render->shadow_sampler);
+    hair_targets_delete(&render->targets);
     delete_mesh(render);
     free(render->image.encoded);
     free(render->image.linear);
@@ -315,9 +200,9 @@ static hair_result draw_hair(const struct frame* frame, const struct hair_matric
 static hair_result draw_shadow(const struct hair_render* render, const struct frame* frame)
 {
     static const float far = 1;
-    glBindFramebuffer(GL_FRAMEBUFFER, render->framebuffer[SHADOW]);
-    glViewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
-    glClearNamedFramebufferfv(render->framebuffer[SHADOW], GL_DEPTH, 0, &far);
+    glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_SHADOW]);
+    glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
+    glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_SHADOW], GL_DEPTH, 0, &far);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL); // A surface does not shade itself.
     glPolygonOffset(2, 4);
@@ -354,8 +239,8 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     set_vec3(program, HAIR_AT_AMBIENT, view->ambient);
     set_mat4(program, HAIR_AT_SHADOW, shadow);
     glProgramUniform1f(program, HAIR_AT_TEXEL, frame->texel);
-    glBindTextureUnit(0, render->shadow);
-    glBindSampler(0, render->shadow_sampler);
+    glBindTextureUnit(0, render->targets.shadow);
+    glBindSampler(0, render->targets.shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);
     glBindSampler(0, 0);
 }
@@ -363,20 +248,20 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
 // Average the samples, then the pixels of a supersampled one, and encode.
 static void develop(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
-    GLuint program = render->program[TONE], drawn = render->framebuffer[DRAWN],
-           resolved = render->framebuffer[RESOLVED];
+    GLuint program = render->program[TONE], drawn = render->targets.framebuffer[HAIR_TARGET_DRAWN],
+           resolved = render->targets.framebuffer[HAIR_TARGET_RESOLVED];
     GLsizei width = (GLsizei)tile->width, height = (GLsizei)tile->height,
             scale = (GLsizei)render->desc.supersample;
     glBlitNamedFramebuffer(drawn, resolved, 0, 0, width * scale, height * scale, 0, 0, width * scale,
                            height * scale, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, render->framebuffer[ENCODED]);
+    glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_ENCODED]);
     glViewport(0, 0, width, height);
     glProgramUniform1i(program, HAIR_AT_SUPERSAMPLE, scale);
     glProgramUniform1f(program, HAIR_AT_EXPOSURE, frame->scene->exposure);
     glProgramUniform1i(program, HAIR_AT_HEIGHT, height);
     glUseProgram(program);
     glBindVertexArray(render->nothing);
-    glBindTextureUnit(0, render->resolved);
+    glBindTextureUnit(0, render->targets.resolved);
     glDisable(GL_DEPTH_TEST);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -385,7 +270,7 @@ static void read_pixels(struct hair_render* render, const struct tile* tile)
 {
     size_t  first = 3 * ((size_t)tile->y * render->desc.width + tile->x);
     GLsizei width = (GLsizei)tile->width, height = (GLsizei)tile->height;
-    GLuint  encoded = render->framebuffer[ENCODED];
+    GLuint  encoded = render->targets.framebuffer[HAIR_TARGET_ENCODED];
     glBindFramebuffer(GL_READ_FRAMEBUFFER, encoded);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_PACK_ROW_LENGTH, (GLint)render->desc.width);
@@ -400,12 +285,12 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
 {
     static const float far   = 1;
     GLsizei            scale = (GLsizei)render->desc.supersample;
-    glBindFramebuffer(GL_FRAMEBUFFER, render->framebuffer[DRAWN]);
+    glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_DRAWN]);
     glViewport(0, 0, (GLsizei)tile->width * scale, (GLsizei)tile->height * scale);
-    glClearNamedFramebufferfv(render->framebuffer[DRAWN], GL_DEPTH, 0, &far);
+    glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_DRAWN], GL_DEPTH, 0, &far);
     draw_background(render, frame, tile);
     draw_skin(render, frame, tile);
-    hair_result result = draw_hair(frame, &tile->camera, HAIR_PASS_COLOR, render->shadow);
+    hair_result result = draw_hair(frame, &tile->camera, HAIR_PASS_COLOR, render->targets.shadow);
     if (result) return result;
     develop(render, frame, tile);
     read_pixels(render, tile);
@@ -437,7 +322,7 @@ int hair_render_frame(struct hair_render* render, const struct hair_scene* scene
 {
     struct frame         frame = {.scene = scene, .transform = transform, .hair = hair};
     struct hair_matrices camera;
-    frame.texel = 2 * reach / SHADOW_SIZE;
+    frame.texel = 2 * reach / HAIR_SHADOW_SIZE;
     hair_light_matrices(scene, transform, reach, &frame.light);
     hair_camera_matrices(scene, transform, reach, &camera);
     hair_result result = draw_shadow(render, &frame);

@@ -1,5 +1,8 @@
 // shaders.c - GLSL of what a capture draws beside the hair.
 #include "tools/common/shaders.h"
+#include "tools/common/file.h"
+
+#include <epoxy/gl.h>
 
 #define TEXT(x) #x
 #define AT(x) "layout(location = " TEXT(x) ") uniform "
@@ -84,8 +87,9 @@ const char hair_skin_frag[] = HEAD          //
                       "void main()\n"
                       "{\n"
                       "    const vec3 wrap   = vec3(0.30, 0.16, 0.12);\n"
-                      "    const float toned = 0.25; // A matt bust, so that what is seen first is the hair.\n"
-    "    vec3  n       = normalize(normal);\n"
+                      "    const float toned = 0.25; // A matt bust, so that what is seen first is the "
+                      "hair.\n"
+                      "    vec3  n       = normalize(normal);\n"
                       "    vec3  to_eye  = normalize(eye - position);\n"
                       "    vec3  halfway = normalize(to_eye + light_to);\n"
                       "    float shade   = lit(n);\n"
@@ -125,3 +129,37 @@ const char hair_tone_frag[] = HEAD                      //
                        "    h      = (h ^ (h >> 12)) * 0x297a2d39u;\n"
                        "    encoded = vec4(c + (float(h >> 8) / 16777216.0 - 0.5) / 255.0, 1.0);\n"
                        "}\n";
+
+static GLuint compile(const char* tool, GLenum stage, const char* text)
+{
+    GLuint shader = glCreateShader(stage);
+    GLint  good;
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (good) return shader;
+    char reason[512] = "";
+    glGetShaderInfoLog(shader, sizeof reason, NULL, reason);
+    hair_complain(tool, "a shader does not compile: %s", reason);
+    glDeleteShader(shader);
+    return 0;
+}
+
+unsigned hair_shaders_link(const char* tool, const char* vert, const char* frag)
+{
+    GLuint vertex = compile(tool, GL_VERTEX_SHADER, vert), fragment = compile(tool, GL_FRAGMENT_SHADER, frag);
+    GLuint program = glCreateProgram();
+    GLint  good    = 0;
+    if (vertex && fragment) {
+        glAttachShader(program, vertex);
+        glAttachShader(program, fragment);
+        glLinkProgram(program);
+        glGetProgramiv(program, GL_LINK_STATUS, &good);
+        if (!good) hair_complain(tool, "a program does not link");
+    }
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
+    if (good) return program;
+    glDeleteProgram(program);
+    return 0;
+}

@@ -28,4 +28,7 @@ extern const char hair_skin_frag[];       // lit, in the shadow of the hair
 extern const char hair_nothing_frag[];    // depth alone
 extern const char hair_tone_frag[];       // from light to 8 bits
 
+// The name of a program; 0: it does not compile, and `tool` has complained.
+unsigned hair_shaders_link(const char* tool, const char* vert, const char* frag);
+
 #endif

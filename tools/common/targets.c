@@ -1,0 +1,84 @@
+// targets.c - what a capture draws into: the shadow map, the samples, the picture.
+#include "tools/common/targets.h"
+
+#include <epoxy/gl.h>
+
+static GLuint make_texture(GLenum format, GLsizei width, GLsizei height)
+{
+    GLuint texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, format, width, height);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+static GLuint make_samples(GLenum format, GLsizei samples, GLsizei width, GLsizei height)
+{
+    GLuint buffer;
+    glCreateRenderbuffers(1, &buffer);
+    glNamedRenderbufferStorageMultisample(buffer, samples, format, width, height);
+    return buffer;
+}
+
+// What the hair's own shadows and the head's share: depth from the light, compared only for the head.
+static void make_shadow(struct hair_targets* targets)
+{
+    GLuint framebuffer = targets->framebuffer[HAIR_TARGET_SHADOW];
+    targets->shadow    = make_texture(GL_DEPTH_COMPONENT32F, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
+    glCreateSamplers(1, &targets->shadow_sampler);
+    GLuint sampler = targets->shadow_sampler;
+    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, targets->shadow, 0);
+    glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+}
+
+bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t height, uint32_t supersample,
+                       uint32_t samples)
+{
+    GLsizei w = (GLsizei)width, h = (GLsizei)height, wide = w * (GLsizei)supersample,
+            high = h * (GLsizei)supersample;
+    GLint most   = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    GLsizei count = (GLint)samples < most ? (GLsizei)samples : most;
+    if (count == 1) count = 0;
+
+    glCreateFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
+    make_shadow(targets);
+    targets->color_samples = make_samples(GL_RGBA16F, count, wide, high);
+    targets->depth_samples = make_samples(GL_DEPTH_COMPONENT32F, count, wide, high);
+    targets->resolved      = make_texture(GL_RGBA16F, wide, high);
+    targets->encoded       = make_texture(GL_RGBA8, w, h);
+    targets->linear        = make_texture(GL_RGBA16F, w, h);
+
+    static const GLenum both[]      = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    const GLuint*       framebuffer = targets->framebuffer;
+    GLuint              drawn = framebuffer[HAIR_TARGET_DRAWN], encoded = framebuffer[HAIR_TARGET_ENCODED];
+    glNamedFramebufferRenderbuffer(drawn, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, targets->color_samples);
+    glNamedFramebufferRenderbuffer(drawn, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, targets->depth_samples);
+    glNamedFramebufferTexture(framebuffer[HAIR_TARGET_RESOLVED], GL_COLOR_ATTACHMENT0, targets->resolved, 0);
+    glNamedFramebufferTexture(encoded, GL_COLOR_ATTACHMENT0, targets->encoded, 0);
+    glNamedFramebufferTexture(encoded, GL_COLOR_ATTACHMENT1, targets->linear, 0);
+    glNamedFramebufferDrawBuffers(encoded, 2, both);
+    for (int i = 0; i < HAIR_TARGET_COUNT; ++i)
+        if (glCheckNamedFramebufferStatus(framebuffer[i], GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+            return false;
+    return !glGetError();
+}
+
+void hair_targets_delete(struct hair_targets* targets)
+{
+    const GLuint textures[]      = {targets->shadow, targets->resolved, targets->encoded, targets->linear};
+    const GLuint renderbuffers[] = {targets->color_samples, targets->depth_samples};
+    glDeleteFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
+    glDeleteTextures(4, textures);
+    glDeleteRenderbuffers(2, renderbuffers);
+    glDeleteSamplers(1, &targets->shadow_sampler);
+}
