@@ -59,9 +59,10 @@ static hair_result check_cleaned(const struct hair_source* source, const hair_as
             "good vertices, %u are shorter than 10 micrometres",
             asset->file_strands, source->size, repairs->dropped_single, repairs->dropped_short);
     if (asset->strands.strand_count > MOST_STRANDS)
-        return hair_fail(source->host, HAIR_ERROR_FILE,
-                         "the %zu bytes hold %u strands, more than %u: keep fewer by hair_import.share",
-                         source->size, asset->strands.strand_count, MOST_STRANDS);
+        return hair_fail(
+            source->host, HAIR_ERROR_FILE,
+            "%u strands are left between byte 0 and byte %zu, more than %u: keep fewer by hair_import.share",
+            asset->strands.strand_count, source->size, MOST_STRANDS);
     return HAIR_OK;
 }
 
