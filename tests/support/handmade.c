@@ -132,3 +132,19 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.patch_count        = patches;
     return groom;
 }
+
+static hair_vec4 anywhere(uint32_t* random, hair_vec4 around, float reach)
+{
+    float x = between(random, -reach, reach), y = between(random, -reach, reach),
+          z = between(random, -reach, reach);
+    return (hair_vec4){around.x + x, around.y + y, around.z + z, 0};
+}
+
+void hair_test_scatter(const hair_groom* groom, float away, float moved, uint32_t* random,
+                       struct hair_state* state)
+{
+    for (uint32_t i = 0; i < groom->info.guide_vertex_count; ++i) {
+        state[i].position     = anywhere(random, groom->rest[i].position, away);
+        state[i].displacement = anywhere(random, (hair_vec4){0}, moved);
+    }
+}

@@ -1,0 +1,181 @@
+// expand_test.c - followers read back are where the double-precision reference has them.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/reference/reference.h"
+#include "tests/support/handmade.h"
+
+#define STATES 1024
+
+struct fixture {
+    struct hair_test*             test;
+    hair_groom*                   groom;
+    hair_instance*                hair;
+    struct hair_reference_sample* samples;
+};
+
+// Guides in disorder, smoothed on the GPU and by the reference.
+static struct fixture start(void** state)
+{
+    static struct hair_state  vertices[STATES];
+    struct fixture            f      = {.test = *state};
+    hair_desc                 desc   = hair_desc_default();
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    uint32_t                  random = 99;
+    wanted.fewest = 5, wanted.most = 30, wanted.guides = 26, wanted.followers = 200;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    hair_test_scatter(f.groom, 0.001f, 0, &random, vertices);
+    glNamedBufferSubData(f.hair->sim.state, 0, f.groom->info.guide_vertex_count * sizeof *vertices, vertices);
+    struct hair_gl* gl = &f.test->context->gl;
+    hair_gl_enter(gl);
+    hair_smooth_run(&f.hair->smooth, &f.hair->sim);
+    hair_gl_leave(gl);
+
+    uint32_t                each   = 2 * f.groom->most_vertices - 1;
+    struct hair_step_params params = {.smooth_vertices = each,
+                                      .rotation_before = {0, 0, 0, 1},
+                                      .rotation_after  = {0, 0, 0, 1},
+                                      .rotation_now    = {0, 0, 0, 1}};
+    f.samples                      = calloc(each * wanted.guides, sizeof *f.samples);
+    for (uint32_t g = 0; g < wanted.guides; ++g) {
+        static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
+        const struct hair_guide*            guide = &f.groom->guides[g];
+        for (uint32_t i = 0; i < guide->count; ++i) {
+            hair_vec4 p  = vertices[guide->first + i].position;
+            in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
+        }
+        hair_reference_smooth((struct hair_reference_guide){guide, f.groom->rest + guide->first, &params},
+                              in_double, f.samples + g * each);
+    }
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    free(f->samples);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static struct hair_draw_params params_of(const struct fixture* f, const hair_look* look)
+{
+    return (struct hair_draw_params){.radius          = look->radius,
+                                     .tip_radius      = look->tip_radius,
+                                     .clump           = look->clump,
+                                     .frizz           = look->frizz,
+                                     .segments        = look->segments,
+                                     .smooth_vertices = 2 * f->groom->most_vertices - 1};
+}
+
+// A sample is right to 6 sqrt(20) 2^-24 m and its frame to 8 / 5 mm of that (smooth_test.c says why). The frame turns
+// offsets of up to 15 mm; those and up to three guides add.
+#define SAMPLE (6 * 4.5 / 16777216)
+#define TOLERANCE (3 * SAMPLE + 0.015 * 8 * SAMPLE / 0.005)
+
+static void compare(struct fixture* f, const hair_look* look)
+{
+    struct hair_gl*         gl       = &f->test->context->gl;
+    struct hair_draw_params draw     = params_of(f, look);
+    hair_vec4*              vertices = NULL;
+    double                  worst    = 0;
+    hair_test_ok(f->test, hair_set_look(f->hair, look));
+    hair_gl_enter(gl);
+    hair_result result = hair_draw_expand(&f->hair->draw, &f->hair->smooth, &vertices);
+    hair_gl_leave(gl);
+    hair_test_ok(f->test, result);
+    for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
+        struct hair_reference_point expected;
+        double                      t = (double)(i % (look->segments + 1)) / look->segments;
+        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], &draw, f->samples, t,
+                                &expected);
+        hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
+        hair_test_near("y", i, vertices[i].y, expected.position[1], TOLERANCE);
+        hair_test_near("z", i, vertices[i].z, expected.position[2], TOLERANCE);
+        hair_test_near("radius", i, vertices[i].w, expected.radius, 8 * 2 * look->radius / 16777216);
+        worst = fmax(worst, fabs(vertices[i].x - expected.position[0]));
+    }
+    print_message("    %u segments: off by up to %.2g m of %.2g m\n", look->segments, worst, TOLERANCE);
+    hair_free(&f->test->host.host, vertices);
+}
+
+static void followers_are_where_the_reference_has_them(void** state)
+{
+    static const uint32_t segments[] = {1, 2, 31, 64, 65, 256};
+    struct fixture        f          = start(state);
+    hair_look             look       = hair_look_default();
+    for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
+        look.segments = segments[i];
+        compare(&f, &look);
+    }
+    finish(&f);
+}
+
+static void clump_frizz_and_taper_do_what_the_reference_does(void** state)
+{
+    struct fixture f    = start(state);
+    hair_look      look = hair_look_default();
+    look.segments       = 20;
+    for (int i = 0; i < 27; ++i) {
+        look.clump      = 0.5f * (float)(i % 3);
+        look.frizz      = 0.03f * (float)(i / 3 % 3);
+        look.tip_radius = 0.5f * (float)(i / 9);
+        compare(&f, &look);
+    }
+    finish(&f);
+}
+
+// Far out in the world, positions are as near as floats of the world allow.
+static void what_is_read_is_in_the_world(void** state)
+{
+    struct fixture f    = start(state);
+    hair_look      look = hair_look_default();
+    look.segments       = 3;
+    uint32_t count      = f.groom->info.follower_count * 4, there;
+    float*   near       = malloc(3 * sizeof *near * count);
+    float*   far        = malloc(3 * sizeof *far * count);
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, near, count, &there));
+    assert_int_equal(there, count);
+    float away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, -2000, 500, 1};
+    hair_test_ok(f.test, hair_teleport(f.hair, away));
+    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, far, count, &there));
+    for (uint32_t i = 0; i < 3 * count; ++i)
+        hair_test_near("coordinate", i, far[i] - (double)away[12 + i % 3], near[i], 2000.0 / 16777216);
+    free(near);
+    free(far);
+    finish(&f);
+}
+
+static void no_more_than_the_capacity_is_written(void** state)
+{
+    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
+    struct fixture              f       = start(state);
+    for (int i = 0; i < 3; ++i) {
+        float    some[3 * 8];
+        uint32_t all, count;
+        hair_test_ok(f.test, hair_read(f.hair, whats[i], NULL, 0, &all));
+        memset(some, 0xff, sizeof some);
+        hair_test_ok(f.test, hair_read(f.hair, whats[i], some, 7, &count));
+        assert_int_equal(all, count);
+        assert_true(all > 8);
+        for (int k = 0; k < 24; ++k) assert_true(isnan(some[k]) == (k >= 21));
+    }
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(followers_are_where_the_reference_has_them),
+        HAIR_TEST(clump_frizz_and_taper_do_what_the_reference_does),
+        HAIR_TEST(what_is_read_is_in_the_world),
+        HAIR_TEST(no_more_than_the_capacity_is_written),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}

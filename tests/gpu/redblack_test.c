@@ -1,0 +1,409 @@
+// redblack_test.c - the solver on the GPU moves every guide as the double-precision reference does.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/base/math.h"
+#include "lib/reference/reference.h"
+#include "tests/support/handmade.h"
+
+#define STATES 4096 // Guide vertices of a test at most.
+
+// A groom in a state of which every part is switched on or off by the params.
+struct fixture {
+    struct hair_test*       test;
+    hair_groom*             groom;
+    hair_instance*          hair;
+    struct hair_step_params params;
+    struct hair_state       state[STATES];
+    uint32_t                random;
+};
+
+static hair_quat turn_about(hair_vec3 axis, float angle)
+{
+    axis = hair_scale(hair_normalize(axis, hair_v3(0, 1, 0)), sinf(angle / 2));
+    return (hair_quat){axis.x, axis.y, axis.z, cosf(angle / 2)};
+}
+
+static hair_vec4 vec4_of_quat(hair_quat q)
+{
+    return (hair_vec4){q.x, q.y, q.z, q.w};
+}
+
+static void scatter(struct fixture* f, float away, float moved)
+{
+    hair_test_scatter(f->groom, away, moved, &f->random, f->state);
+}
+
+// All of the solver off: nothing moves but pinned vertices.
+static struct fixture start(void** state)
+{
+    struct fixture            f      = {.test = *state, .random = 12345};
+    hair_desc                 desc   = hair_desc_default();
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    wanted.guides = 61, wanted.fewest = 4, wanted.most = 64; // one of each
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    f.params.gravity.w = 1.0f / 120;
+    f.params.substeps  = 1;
+    f.params.guides    = f.groom->info.guide_count;
+    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
+        f.params.substep[i] =
+            (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1) / HAIR_STEP_SUBSTEPS}};
+    scatter(&f, 0.002f, 0.001f);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static void move_head(struct fixture* f)
+{
+    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i) {
+        float share          = (float)(i + 1) / 5;
+        f->params.substep[i] = (struct hair_substep){vec4_of_quat(turn_about(hair_v3(1, 2, 3), 0.2f * share)),
+                                                     {0.005f, -0.002f, 0.003f, share}};
+    }
+}
+
+static void put_solids(struct fixture* f)
+{
+    f->params.margin = 0.001f;
+    f->params.solids = 3;
+    f->params.solid[0] =
+        (struct hair_capsule){{{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}, {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
+    f->params.solid[1] = (struct hair_capsule){{{-0.2f, 0.2f, 0, 0.05f}, {0.2f, 0.25f, 0, 0.05f}},
+                                               {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
+    f->params.solid[2] = (struct hair_capsule){{{0.1f, 0.3f, 0.1f, 0.04f}, {0.1f, 0.3f, 0.1f, 0.04f}},
+                                               {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
+}
+
+static void switch_all_on(struct fixture* f)
+{
+    f->params.gravity    = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
+    f->params.keep       = 0.97f;
+    f->params.pull_root  = 25;
+    f->params.pull_tip   = 3;
+    f->params.angular    = 150;
+    f->params.bend       = 0.1f;
+    f->params.iterations = 20;
+    move_head(f);
+    put_solids(f);
+}
+
+// How far a position may be from its double: the probabilistic bound of Higham and Mary 2019 ("A New Approach to
+// Probabilistic Rounding Error Analysis"): after n operations the error is no more than l sqrt(n) u |x| but for a share
+// 2 exp(-l^2 / 2) of all cases. u = 2^-24; no position is farther than 1 m from the head's origin; a million comparisons
+// want l = 6. Those operations count that round at the size of a position; all others work on what neighbours differ
+// by, a hundredth of it:
+//   a substep       4 to integrate, and with the angular force one per segment for the frame carried there
+//   an iteration    1 for each of two distance and two bend links, 2 for each solid
+// Constraints hardly make errors larger: a link divides them among its ends; out of a solid by more than half its radius
+// nothing is pushed here. Hence the factor 2.
+static double tolerance(const struct hair_step_params* params)
+{
+    double substep   = 4 + (params->angular > 0 ? HAIR_MAX_GUIDE_VERTICES : 0);
+    double iteration = (params->bend > 0 ? 4 : 2) + 2 * params->solids;
+    return 2 * 6 * sqrt(params->substeps * (substep + params->iterations * iteration)) / 16777216;
+}
+
+static void run(struct fixture* f)
+{
+    struct hair_gl* gl   = &f->test->context->gl;
+    size_t          size = f->groom->info.guide_vertex_count * sizeof *f->state;
+    glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
+    glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
+    hair_gl_enter(gl);
+    hair_sim_bind(&f->hair->sim);
+    hair_gl_run(gl, HAIR_GL_REDBLACK, f->params.guides);
+    hair_gl_leave(gl);
+    glGetNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
+}
+
+static double largest(const hair_vec4* a, const double* b)
+{
+    double x = fabs(a->x - b[0]), y = fabs(a->y - b[1]), z = fabs(a->z - b[2]);
+    return x + y + z == x + y + z ? fmax(x, fmax(y, z)) : INFINITY;
+}
+
+static struct hair_reference_vertex in_double(const struct hair_state* state)
+{
+    hair_vec4 p = state->position, d = state->displacement;
+    return (struct hair_reference_vertex){{p.x, p.y, p.z}, {d.x, d.y, d.z}};
+}
+
+// Step the GPU and the reference from the same state; they end in the same.
+static void compare(struct fixture* f, const char* what)
+{
+    static struct hair_reference_vertex expected[STATES];
+    uint32_t                            vertices = f->groom->info.guide_vertex_count;
+    double                              limit = tolerance(&f->params), worst = 0, moved = 0;
+    for (uint32_t i = 0; i < vertices; ++i) expected[i] = in_double(&f->state[i]);
+    for (uint32_t g = 0; g < f->params.guides; ++g) {
+        const struct hair_guide* guide = &f->groom->guides[g];
+        hair_reference_redblack(
+            (struct hair_reference_guide){guide, f->groom->rest + guide->first, &f->params},
+            expected + guide->first);
+    }
+    for (uint32_t i = 0; i < vertices; ++i)
+        moved = fmax(moved, largest(&f->state[i].position, expected[i].position));
+    run(f);
+    for (uint32_t i = 0; i < vertices; ++i) {
+        double error = fmax(largest(&f->state[i].position, expected[i].position),
+                            largest(&f->state[i].displacement, expected[i].displacement));
+        worst        = fmax(worst, error);
+        if (!(error <= limit)) {
+            print_message("    %s: vertex %u\n", what, i);
+            hair_test_near("x", i, f->state[i].position.x, expected[i].position[0], limit);
+            hair_test_near("y", i, f->state[i].position.y, expected[i].position[1], limit);
+            hair_test_near("z", i, f->state[i].position.z, expected[i].position[2], limit);
+            fail_msg("its displacement is wrong by %g", error);
+        }
+    }
+    print_message("    %s: moved up to %.2g m, off by up to %.2g m of %.2g m\n", what, moved, worst, limit);
+}
+
+static void integration_is_as_the_reference_has_it(void** state)
+{
+    struct fixture f   = start(state);
+    f.params.gravity   = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
+    f.params.keep      = 0.97f;
+    f.params.pull_root = 25;
+    f.params.pull_tip  = 3;
+    move_head(&f);
+    compare(&f, "integrate");
+    finish(&f);
+}
+
+static void angular_forces_are_as_the_reference_has_them(void** state)
+{
+    struct fixture f = start(state);
+    f.params.angular = 5000;
+    scatter(&f, 0.002f, 0);
+    compare(&f, "angular");
+    finish(&f);
+}
+
+static void distance_constraints_are_as_the_reference_has_them(void** state)
+{
+    struct fixture f    = start(state);
+    f.params.iterations = 1;
+    scatter(&f, 0.002f, 0);
+    compare(&f, "1 iteration");
+    f.params.iterations = 20;
+    scatter(&f, 0.002f, 0);
+    compare(&f, "20 iterations");
+    finish(&f);
+}
+
+// From the rest pose the distance constraints have nothing to do. What bends over two segments is then told to be longer.
+static void angular_constraints_are_as_the_reference_has_them(void** state)
+{
+    struct fixture f = start(state);
+    for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) f.groom->rest[i].direction.w *= 1.1f;
+    glNamedBufferSubData(f.hair->sim.rest, 0, f.groom->info.guide_vertex_count * sizeof *f.groom->rest,
+                         f.groom->rest);
+    f.params.bend       = 0.5f;
+    f.params.iterations = 1;
+    scatter(&f, 0, 0);
+    compare(&f, "bend");
+    finish(&f);
+}
+
+static void collisions_are_as_the_reference_has_them(void** state)
+{
+    struct fixture f    = start(state);
+    f.params.iterations = 1;
+    put_solids(&f);
+    scatter(&f, 0, 0);
+    compare(&f, "collide");
+    finish(&f);
+}
+
+static void no_vertex_is_left_inside_a_solid(void** state)
+{
+    struct fixture f = start(state);
+    switch_all_on(&f);
+    f.params.solids   = 1;
+    f.params.substeps = 5;
+    run(&f);
+    for (uint32_t g = 0; g < f.params.guides; ++g)
+        for (uint32_t i = 2; i < f.groom->guides[g].count; ++i) {
+            hair_vec4 p = f.state[f.groom->guides[g].first + i].position;
+            assert_true(hair_length(hair_v3(p.x, p.y, p.z)) > 0.091f - 1e-6f);
+        }
+    finish(&f);
+}
+
+static void one_to_five_substeps_are_as_the_reference_has_them(void** state)
+{
+    for (uint32_t substeps = 1; substeps <= 5; ++substeps) {
+        struct fixture f = start(state);
+        switch_all_on(&f);
+        f.params.substeps = substeps;
+        char what[32];
+        snprintf(what, sizeof what, "%u substeps", substeps);
+        compare(&f, what);
+        finish(&f);
+    }
+}
+
+// Every stage beside the others: on alone with integration, and off alone.
+static void each_stage_does_its_part_among_the_others(void** state)
+{
+    for (int stages = 0; stages < 32; ++stages) {
+        struct fixture f = start(state);
+        switch_all_on(&f);
+        f.params.substeps = 3;
+        if (stages & 1) f.params.angular = 0;
+        if (stages & 2) f.params.bend = 0;
+        if (stages & 4) f.params.solids = 0;
+        if (stages & 8) f.params.pull_root = f.params.pull_tip = 0;
+        if (stages & 16) f.params.iterations = 1;
+        char what[32];
+        snprintf(what, sizeof what, "without %c%c%c%c%c", stages & 1 ? 'a' : '-', stages & 2 ? 'b' : '-',
+                 stages & 4 ? 'c' : '-', stages & 8 ? 'p' : '-', stages & 16 ? 'i' : '-');
+        compare(&f, what);
+        finish(&f);
+    }
+}
+
+// hair_step, from what the application says to where the guides are: the head turns and moves, a solid moves, in a step
+// of four substeps.
+static void a_step_is_what_the_application_asked_for(void** state)
+{
+    struct fixture f       = start(state);
+    hair_physics   physics = hair_physics_default();
+    physics.damping        = 3;
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    hair_solid solid = {
+        HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)}, {0.05f, 0.1f}};
+    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    hair_test_ok(f.test, hair_reset(f.hair));
+    double angle = 0.3, to[3] = {0.04, -0.01, 0.02};
+    float  transform[16] = {(float)cos(angle),
+                            0,
+                            (float)-sin(angle),
+                            0,
+                            0,
+                            1,
+                            0,
+                            0,
+                            (float)sin(angle),
+                            0,
+                            (float)cos(angle),
+                            0,
+                            (float)to[0],
+                            (float)to[1],
+                            (float)to[2],
+                            1};
+    hair_test_ok(f.test, hair_set_transform(f.hair, transform));
+    hair_solid there = solid;
+    there.position[1] += 0.03f;
+    hair_test_ok(f.test, hair_set_solids(f.hair, &there, 1, sizeof there));
+    hair_test_ok(f.test, hair_step(f.hair, 4.0f / 120));
+
+    struct hair_step_params* p  = &f.params;
+    double                   dt = (double)(float)(1.0 / 120), tau = 6.283185307179586;
+    p->gravity    = (hair_vec4){0, -9.81f, 0, (float)dt};
+    p->keep       = (float)exp(-3 * dt);
+    p->pull_root  = (float)(tau * 4);
+    p->pull_tip   = (float)(tau * 0.5);
+    p->angular    = (float)(tau * tau * 2 * 2);
+    p->bend       = 0.1f;
+    p->margin     = 0.001f;
+    p->iterations = 20;
+    p->substeps   = 4;
+    p->solids     = 1;
+    for (int i = 0; i < 4; ++i) {
+        float share = (float)(i + 1) / 4;
+        p->substep[i] =
+            (struct hair_substep){{0, (float)sin(angle * share / 2), 0, (float)cos(angle * share / 2)},
+                                  {(float)(to[0] / 4), (float)(to[1] / 4), (float)(to[2] / 4), share}};
+    }
+    for (int end = 0; end < 2; ++end) {
+        float x = (float)((end ? -1 : 1) * sin(0.8) * 0.1), y = (float)((end ? 1 : -1) * cos(0.8) * 0.1);
+        p->solid[0].start[end] = (hair_vec4){0.1f + x, 0.25f + y, 0, 0.05f};
+        p->solid[0].end[end] =
+            (hair_vec4){(float)(0.1 + x - to[0]), (float)(0.28 + y - to[1]), (float)-to[2], 0.05f};
+    }
+    static struct hair_reference_vertex expected[STATES];
+    static float                        got[3 * STATES];
+    uint32_t                            count;
+    scatter(&f, 0, 0);
+    for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) expected[i] = in_double(&f.state[i]);
+    for (uint32_t g = 0; g < p->guides; ++g) {
+        const struct hair_guide* guide = &f.groom->guides[g];
+        hair_reference_redblack((struct hair_reference_guide){guide, f.groom->rest + guide->first, p},
+                                expected + guide->first);
+    }
+    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_GUIDES, got, STATES, &count));
+    assert_int_equal(count, f.groom->info.guide_vertex_count);
+    for (uint32_t i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k)
+            hair_test_near("guide vertex", i, got[3 * i + k], expected[i].position[k] + to[k],
+                           2 * tolerance(p));
+    finish(&f);
+}
+
+// Of a strand that is not finite every vertex goes back to the rest pose, in one substep; the others do not notice.
+static void what_is_not_finite_goes_back_to_rest_alone(void** state)
+{
+    static const float       bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};
+    static struct hair_state sound[STATES];
+    for (size_t n = 0; n < sizeof bad / sizeof *bad; ++n) {
+        struct fixture f = start(state);
+        switch_all_on(&f);
+        f.params.pull_root = f.params.pull_tip = 0; // which would bring 1e6 m back by itself
+        run(&f);
+        memcpy(sound, f.state, sizeof sound);
+
+        f.random = 12345;
+        scatter(&f, 0.002f, 0.001f);
+        struct hair_guide broken = f.groom->guides[17];
+        if (n % 2)
+            f.state[broken.first + 9].displacement.y = bad[n];
+        else
+            f.state[broken.first + 9].position.z = bad[n];
+        run(&f);
+        for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) {
+            if (i < broken.first || i >= broken.first + broken.count) {
+                assert_memory_equal(&f.state[i], &sound[i], sizeof sound[i]);
+                continue;
+            }
+            hair_vec4 q = f.params.substep[0].rotation, p = f.groom->rest[i].position;
+            hair_vec3 rest = hair_rotate((hair_quat){q.x, q.y, q.z, q.w}, hair_v3(p.x, p.y, p.z));
+            hair_test_near("x", i, f.state[i].position.x, rest.x, 1e-6);
+            hair_test_near("y", i, f.state[i].position.y, rest.y, 1e-6);
+            hair_test_near("z", i, f.state[i].position.z, rest.z, 1e-6);
+            assert_true(f.state[i].displacement.x == 0 && f.state[i].displacement.y == 0 &&
+                        f.state[i].displacement.z == 0);
+        }
+        finish(&f);
+    }
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(integration_is_as_the_reference_has_it),
+        HAIR_TEST(angular_forces_are_as_the_reference_has_them),
+        HAIR_TEST(distance_constraints_are_as_the_reference_has_them),
+        HAIR_TEST(angular_constraints_are_as_the_reference_has_them),
+        HAIR_TEST(collisions_are_as_the_reference_has_them),
+        HAIR_TEST(no_vertex_is_left_inside_a_solid),
+        HAIR_TEST(one_to_five_substeps_are_as_the_reference_has_them),
+        HAIR_TEST(each_stage_does_its_part_among_the_others),
+        HAIR_TEST(a_step_is_what_the_application_asked_for),
+        HAIR_TEST(what_is_not_finite_goes_back_to_rest_alone),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
