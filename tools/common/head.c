@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BLOCK 4 // Grid points a side that are skipped together when far from the surface.
+#define COLLAR_REACH 0.0026f // Half the spacing of the grid there. m.
+#define BLOCK 4              // Grid points a side that are skipped together when far from the surface.
 
 typedef struct head_point point;
 
@@ -128,15 +129,36 @@ static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k,
     return 1;
 }
 
-static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
+// One step of Newton's method, held to the cell's neighbourhood.
+static point onto_surface(point p)
 {
-    // One step of Newton's method, held to the cell's neighbourhood.
     point g      = gradient(p);
     float square = fmaxf(g.x * g.x + g.y * g.y + g.z * g.z, 0.25f);
     float step   = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
-    p            = (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
-    g            = gradient(p);
-    float size   = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
+    return (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
+}
+
+// A vertex near the edge of the garment is slid onto it, so that the edge is a line and no staircase.
+static point onto_collar(point p)
+{
+    float below = head_below_collar(p);
+    if (fabsf(below) > COLLAR_REACH) return p;
+    const float h     = 1e-3f;
+    point       n     = gradient(p);
+    point       c     = {(head_below_collar((point){p.x + h, p.y, p.z}) - below) / h,
+                         (head_below_collar((point){p.x, p.y + h, p.z}) - below) / h,
+                         (head_below_collar((point){p.x, p.y, p.z + h}) - below) / h};
+    float       along = (c.x * n.x + c.y * n.y + c.z * n.z) / fmaxf(n.x * n.x + n.y * n.y + n.z * n.z, 0.25f);
+    c                 = (point){c.x - n.x * along, c.y - n.y * along, c.z - n.z * along};
+    float step        = below / fmaxf(c.x * c.x + c.y * c.y + c.z * c.z, 0.3f);
+    return onto_surface((point){p.x - c.x * step, p.y - c.y * step, p.z - c.z * step});
+}
+
+static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
+{
+    p          = onto_collar(onto_surface(p));
+    point g    = gradient(p);
+    float size = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
     memcpy(mesh->positions + 3 * vertex, &p, sizeof p);
     g = (point){g.x / size, g.y / size, g.z / size};
     memcpy(mesh->normals + 3 * vertex, &g, sizeof g);
@@ -230,7 +252,7 @@ int head_mesh_create(struct head_mesh* out)
     const struct stretch y[] = {{1.604f, 1.616f, 0.0014f},
                                 {1.546f, 1.560f, 0.0018f},
                                 {1.510f, 1.645f, 0.0030f},
-                                {1.400f, 1.450f, 0.0050f}};
+                                {1.400f, 1.450f, 0.0042f}};
     const struct stretch z[] = {{0.075f, 0.110f, 0.0026f}, {-0.030f, 0.100f, 0.0042f}};
     make_axis(&net.axis[0], -0.235f, 0.235f, x, 2);
     make_axis(&net.axis[1], HEAD_BOTTOM - 0.004f, 1.740f, y, 4);

@@ -105,9 +105,9 @@ static float bones(point p, float d)
              limb(fold(p, 0.010f), (point){0.039f, 1.545f, 0.012f}, (point){0.012f, 1.519f, 0.070f}, 0.014f,
                   0.013f),
              0.030f);
-    d = join(d, ellipsoid(p, (point){0, 1.549f, 0.044f}, (point){0.043f, 0.036f, 0.044f}), 0.024f);
+    d = join(d, ellipsoid(p, (point){0, 1.550f, 0.043f}, (point){0.045f, 0.038f, 0.045f}), 0.024f);
     d = join(d, ellipsoid(p, (point){0, 1.518f, 0.0735f}, (point){0.019f, 0.0145f, 0.0165f}), 0.016f);
-    d = join(d, ellipsoid(p, (point){0.043f, 1.590f, 0.056f}, (point){0.019f, 0.014f, 0.021f}), 0.026f);
+    d = join(d, ellipsoid(p, (point){0.041f, 1.588f, 0.053f}, (point){0.020f, 0.017f, 0.022f}), 0.034f);
     return join(d,
                 limb(fold(p, 0.010f), (point){0.006f, 1.637f, 0.0850f}, (point){0.046f, 1.639f, 0.066f},
                      0.0075f, 0.007f),
@@ -135,8 +135,8 @@ static float eye(point p, float d)
 
 static float nose(point p, float d)
 {
-    float n = limb(p, (point){0, 1.622f, 0.0830f}, (point){0, 1.590f, 0.1025f}, 0.0065f, 0.0080f);
-    n       = join(n, ellipsoid(p, (point){0, 1.5860f, 0.1040f}, (point){0.0092f, 0.0080f, 0.0092f}), 0.008f);
+    float n = limb(p, (point){0, 1.622f, 0.0830f}, (point){0, 1.590f, 0.1005f}, 0.0062f, 0.0078f);
+    n       = join(n, ellipsoid(p, (point){0, 1.5870f, 0.1015f}, (point){0.0090f, 0.0080f, 0.0090f}), 0.008f);
     n = join(n, ellipsoid(p, (point){0.0095f, 1.5835f, 0.0955f}, (point){0.0068f, 0.0062f, 0.0090f}), 0.007f);
     d = join(d, n, 0.012f);
     return carve(d, ellipsoid(p, (point){0.0058f, 1.5772f, 0.0990f}, (point){0.0030f, 0.0026f, 0.0050f}),
@@ -145,20 +145,20 @@ static float nose(point p, float d)
 
 static float mouth(point p, float d)
 {
-    d = join(d, ellipsoid(p, (point){0, 1.556f, 0.069f}, (point){0.031f, 0.025f, 0.0245f}), 0.018f);
-    d = carve(d, limb(p, (point){0, 1.573f, 0.0985f}, (point){0, 1.564f, 0.0985f}, 0.0018f, 0.0028f), 0.006f);
+    d = join(d, ellipsoid(p, (point){0, 1.556f, 0.068f}, (point){0.032f, 0.026f, 0.0245f}), 0.018f);
+    d = carve(d, limb(p, (point){0, 1.574f, 0.0980f}, (point){0, 1.565f, 0.0980f}, 0.0016f, 0.0026f), 0.006f);
     // Lips swell in the middle and run out to the corners.
-    point q = fold(p, 0.003f);
+    point q = fold(p, 0.004f);
     d       = join(
-              d, limb(q, (point){0.0050f, 1.5582f, 0.0895f}, (point){0.0215f, 1.5540f, 0.0795f}, 0.0052f, 0.0030f),
-              0.005f);
+              d, limb(q, (point){0.0050f, 1.5582f, 0.0868f}, (point){0.0225f, 1.5545f, 0.0775f}, 0.0054f, 0.0024f),
+              0.006f);
     d = join(
-        d, limb(q, (point){0.0030f, 1.5500f, 0.0888f}, (point){0.0195f, 1.5528f, 0.0800f}, 0.0058f, 0.0030f),
-        0.005f);
+        d, limb(q, (point){0.0040f, 1.5502f, 0.0862f}, (point){0.0205f, 1.5532f, 0.0780f}, 0.0058f, 0.0024f),
+        0.006f);
     d = carve(
-        d, limb(q, (point){0.0030f, 1.5545f, 0.0965f}, (point){0.0250f, 1.5530f, 0.0835f}, 0.0010f, 0.0006f),
-        0.004f);
-    return carve(d, ellipsoid(p, (point){0, 1.5370f, 0.0965f}, (point){0.016f, 0.004f, 0.006f}), 0.010f);
+        d, limb(q, (point){0.0040f, 1.5545f, 0.0962f}, (point){0.0250f, 1.5535f, 0.0825f}, 0.0009f, 0.0006f),
+        0.005f);
+    return carve(d, ellipsoid(p, (point){0, 1.5375f, 0.0965f}, (point){0.016f, 0.004f, 0.006f}), 0.012f);
 }
 
 // Turned out by 25 degrees and back by 12, in its own axes: out of the head, up, back.
@@ -201,7 +201,7 @@ static float neck(point p, float d)
 }
 
 // How far p is below the collar of the garment. m.
-static float below_collar(point p)
+float head_below_collar(point p)
 {
     return 1.437f - 0.36f * (p.z + 0.03f) - p.y;
 }
@@ -219,15 +219,15 @@ float head_distance(point p)
         if (p.y > 1.52f) d = mix(d, bone, scalp(p));
         if (p.x > 0.05f && fabsf(p.z) < 0.06f && p.y > 1.53f && p.y < 1.68f) d = join(d, ear(p), 0.005f);
     }
-    if (p.y < 1.50f) d -= 0.0025f * smooth(-0.004f, 0.004f, below_collar(p));
+    if (p.y < 1.50f) d -= 0.0025f * smooth(-0.001f, 0.003f, head_below_collar(p));
     return fmaxf(d, HEAD_BOTTOM - p.y);
 }
 
 void head_color(point p, float rgb[3])
 {
-    const float skin[3] = {0.56f, 0.40f, 0.33f}, lips[3] = {0.46f, 0.24f, 0.21f},
-                hair[3]  = {0.16f, 0.10f, 0.08f};
-    const float cloth[3] = {0.095f, 0.11f, 0.14f};
+    const float skin[3] = {0.39f, 0.255f, 0.195f}, lips[3] = {0.30f, 0.135f, 0.115f},
+                hair[3]  = {0.11f, 0.07f, 0.055f};
+    const float cloth[3] = {0.030f, 0.036f, 0.048f};
     p.x                  = fabsf(p.x);
     float low            = mix(1.5440f, 1.5525f, smooth(0.004f, 0.024f, p.x));
     float high           = mix(1.5630f, 1.5560f, smooth(0.004f, 0.025f, p.x));
@@ -240,7 +240,8 @@ void head_color(point p, float rgb[3])
     float front = smooth(0.045f, 0.055f, p.z);
     brow *= smooth(0.011f, 0.018f, p.x) * smooth(0.051f, 0.044f, p.x) * 0.6f;
     lip *= smooth(0.0255f, 0.0225f, p.x);
-    float dark = front * fmaxf(brow, 0.8f * lash);
-    float worn = smooth(-0.002f, 0.002f, below_collar(p));
+    // Skin that hair grows from is darkened by it, as at a shaved head.
+    float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.5f * scalp(p));
+    float worn = smooth(0, 0.002f, head_below_collar(p));
     for (int i = 0; i < 3; ++i) rgb[i] = mix(mix(mix(skin[i], lips[i], lip), hair[i], dark), cloth[i], worn);
 }

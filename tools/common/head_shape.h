@@ -12,6 +12,9 @@ struct head_point {
 // Distance to the skin or garment, negative inside; near the truth within a few centimetres. m.
 float head_distance(struct head_point p);
 
+// How far p is below the collar of the garment. m.
+float head_below_collar(struct head_point p);
+
 // Linear reflectance of the surface at p.
 void head_color(struct head_point p, float rgb[3]);
 
