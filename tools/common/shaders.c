@@ -8,127 +8,123 @@
 #define AT(x) "layout(location = " TEXT(x) ") uniform "
 #define HEAD "#version 450 core\n"
 
-const char hair_whole_vert[] = HEAD        //
-           AT(HAIR_AT_TILE) "vec4 tile;\n" // Of the picture: xy from its upper left, zw its size, as shares.
-                     "layout(location = 0) out vec2 place;\n"
-                     "void main()\n"
-                     "{\n"
-                     "    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
-                     "    place       = tile.xy + tile.zw * vec2(0.5 + 0.5 * corner.x, 0.5 - 0.5 * "
-                     "corner.y);\n"
-                     "    gl_Position = vec4(corner, 0.0, 1.0);\n"
-                     "}\n";
+// clang-format off: GLSL keeps its own lines.
+const char hair_whole_vert[] = HEAD
+    AT(HAIR_AT_TILE) "vec4 tile;\n" // Of the picture: xy from its upper left, zw its size, as shares.
+    "layout(location = 0) out vec2 place;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
+    "    place       = tile.xy + tile.zw * vec2(0.5 + 0.5 * corner.x, 0.5 - 0.5 * corner.y);\n"
+    "    gl_Position = vec4(corner, 0.0, 1.0);\n"
+    "}\n";
 
-const char hair_background_frag[] = HEAD       //
-           AT(HAIR_AT_CENTRE) "vec3 centre;\n" //
-    AT(HAIR_AT_EDGE) "vec3 edge;\n"            //
-    AT(HAIR_AT_ASPECT) "float aspect;\n"       //
-                       "layout(location = 0) in vec2 place;\n"
-                       "layout(location = 0) out vec4 color;\n"
-                       "void main()\n"
-                       "{\n"
-                       "    vec2 from = (place - vec2(0.5, 0.42)) * vec2(aspect, 1.0) / max(0.5 * aspect, "
-                       "0.5);\n"
-                       "    color     = vec4(mix(centre, edge, smoothstep(0.0, 1.25, length(from))), 1.0);\n"
-                       "}\n";
+const char hair_background_frag[] = HEAD
+    AT(HAIR_AT_CENTRE) "vec3 centre;\n"
+    AT(HAIR_AT_EDGE) "vec3 edge;\n"
+    AT(HAIR_AT_ASPECT) "float aspect;\n"
+    "layout(location = 0) in vec2 place;\n"
+    "layout(location = 0) out vec4 color;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 from = (place - vec2(0.5, 0.42)) * vec2(aspect, 1.0) / max(0.5 * aspect, 0.5);\n"
+    "    color     = vec4(mix(centre, edge, smoothstep(0.0, 1.25, length(from))), 1.0);\n"
+    "}\n";
 
-const char hair_mesh_vert[] = HEAD         //
-           AT(HAIR_AT_HEAD) "mat4 head;\n" //
-    AT(HAIR_AT_VIEW) "mat4 view;\n"        //
-    AT(HAIR_AT_PROJECTION) "mat4 clip;\n"  //
-    AT(HAIR_AT_BEND) "vec2 bend;\n"        // Heights: above the first it moves, below the second it rests.
-                     "layout(location = 0) in vec3 rest_position;\n"
-                     "layout(location = 1) in vec3 rest_normal;\n"
-                     "layout(location = 2) in vec3 paint;\n"
-                     "layout(location = 0) out vec3 position;\n"
-                     "layout(location = 1) out vec3 normal;\n"
-                     "layout(location = 2) out vec3 albedo;\n"
-                     "void main()\n"
-                     "{\n"
-                     "    albedo     = paint;\n"
-                     "    float y    = rest_position.y;\n"
-                     "    float w    = y >= bend.x ? 1.0 : smoothstep(bend.y, bend.x, y);\n"
-                     "    position   = mix(rest_position, (head * vec4(rest_position, 1.0)).xyz, w);\n"
-                     "    normal     = mix(rest_normal, mat3(head) * rest_normal, w);\n"
-                     "    gl_Position = clip * (view * vec4(position, 1.0));\n"
-                     "}\n";
+const char hair_mesh_vert[] = HEAD
+    AT(HAIR_AT_HEAD) "mat4 head;\n"
+    AT(HAIR_AT_VIEW) "mat4 view;\n"
+    AT(HAIR_AT_PROJECTION) "mat4 clip;\n"
+    AT(HAIR_AT_BEND) "vec2 bend;\n" // Heights: above the first it moves, below the second it rests.
+    "layout(location = 0) in vec3 rest_position;\n"
+    "layout(location = 1) in vec3 rest_normal;\n"
+    "layout(location = 2) in vec3 paint;\n"
+    "layout(location = 0) out vec3 position;\n"
+    "layout(location = 1) out vec3 normal;\n"
+    "layout(location = 2) out vec3 albedo;\n"
+    "void main()\n"
+    "{\n"
+    "    float y     = rest_position.y;\n"
+    "    float w     = y >= bend.x ? 1.0 : smoothstep(bend.y, bend.x, y);\n"
+    "    position    = mix(rest_position, (head * vec4(rest_position, 1.0)).xyz, w);\n"
+    "    normal      = mix(rest_normal, mat3(head) * rest_normal, w);\n"
+    "    albedo      = paint;\n"
+    "    gl_Position = clip * (view * vec4(position, 1.0));\n"
+    "}\n";
 
 const char hair_nothing_frag[] = HEAD "void main() {}\n";
 
 // Skin lets red light farther round the terminator than blue; its gloss is faint and wide. Shadows are an
-// average over Vogel's spiral.
-const char hair_skin_frag[] = HEAD          //
-           AT(HAIR_AT_EYE) "vec3 eye;\n"    //
-    AT(HAIR_AT_LIGHT_TO) "vec3 light_to;\n" //
-    AT(HAIR_AT_LIGHT) "vec3 light;\n"       //
-    AT(HAIR_AT_AMBIENT) "vec3 ambient;\n"   //
-    AT(HAIR_AT_SHADOW) "mat4 shadow;\n"     // World to texture and depth.
-    AT(HAIR_AT_TEXEL) "float texel;\n"      // Of the shadow map, m.
-                      "layout(binding = 0) uniform sampler2DShadow shadow_map;\n"
-                      "layout(location = 0) in vec3 position;\n"
-                      "layout(location = 1) in vec3 normal;\n"
-                      "layout(location = 2) in vec3 albedo;\n"
-                      "layout(location = 0) out vec4 color;\n"
-                      "float lit(vec3 n)\n"
-                      "{\n"
-                      "    vec3  at    = (shadow * vec4(position + 3.0 * texel * n, 1.0)).xyz;\n"
-                      "    vec2  size  = 1.0 / vec2(textureSize(shadow_map, 0));\n"
-                      "    float angle = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, "
-                      "vec2(0.06711056, 0.00583715))));\n"
-                      "    float sum   = 0.0;\n"
-                      "    for (int i = 0; i < 16; ++i) {\n"
-                      "        float r = 7.0 * sqrt((float(i) + 0.5) / 16.0), theta = angle + 2.399963 * "
-                      "float(i);\n"
-                      "        sum += texture(shadow_map, vec3(at.xy + r * size * vec2(cos(theta), "
-                      "sin(theta)), at.z));\n"
-                      "    }\n"
-                      "    return sum / 16.0;\n"
-                      "}\n"
-                      "void main()\n"
-                      "{\n"
-                      "    const vec3 wrap   = vec3(0.30, 0.16, 0.12);\n"
-                      "    const float toned = 0.25; // A matt bust, so that what is seen first is the "
-                      "hair.\n"
-                      "    vec3  n       = normalize(normal);\n"
-                      "    vec3  to_eye  = normalize(eye - position);\n"
-                      "    vec3  halfway = normalize(to_eye + light_to);\n"
-                      "    float shade   = lit(n);\n"
-                      "    vec3  diffuse = clamp((dot(n, light_to) + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
-                      "    float grazing = pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 5.0);\n"
-                      "    float gloss   = (0.028 + 0.5 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * "
-                      "max(dot(n, light_to), 0.0);\n"
-                      "    vec3  sky     = ambient * (0.65 + 0.35 * n.y);\n"
-                      "    color         = vec4(light * shade * (albedo * diffuse + gloss) + sky * (albedo + "
-                      "0.1 * grazing), 1.0);\n"
-                      "}\n";
+// average over Vogel's spiral, turned from pixel to pixel (interleaved gradient noise, Jimenez 2014). `tone`
+// keeps the bust darker than its paint, so that what is seen first is the hair.
+const char hair_skin_frag[] = HEAD
+    AT(HAIR_AT_EYE) "vec3 eye;\n"
+    AT(HAIR_AT_LIGHT_TO) "vec3 light_to;\n"
+    AT(HAIR_AT_LIGHT) "vec3 light;\n"
+    AT(HAIR_AT_AMBIENT) "vec3 ambient;\n"
+    AT(HAIR_AT_SHADOW) "mat4 shadow;\n" // World to texture and depth.
+    AT(HAIR_AT_TEXEL) "float texel;\n"  // Of the shadow map, m.
+    "layout(binding = 0) uniform sampler2DShadow shadow_map;\n"
+    "layout(location = 0) in vec3 position;\n"
+    "layout(location = 1) in vec3 normal;\n"
+    "layout(location = 2) in vec3 albedo;\n"
+    "layout(location = 0) out vec4 color;\n"
+    "float lit(vec3 n)\n"
+    "{\n"
+    "    vec3  at    = (shadow * vec4(position + 3.0 * texel * n, 1.0)).xyz;\n"
+    "    vec2  size  = 1.0 / vec2(textureSize(shadow_map, 0));\n"
+    "    float turn  = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));\n"
+    "    float sum   = 0.0;\n"
+    "    for (int i = 0; i < 16; ++i) {\n"
+    "        float r     = 7.0 * sqrt((float(i) + 0.5) / 16.0);\n"
+    "        float theta = 6.2831853 * turn + 2.399963 * float(i);\n"
+    "        vec2  tap   = at.xy + r * size * vec2(cos(theta), sin(theta));\n"
+    "        sum += texture(shadow_map, vec3(tap, at.z));\n"
+    "    }\n"
+    "    return sum / 16.0;\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    const float tone = 0.45;\n"
+    "    const vec3  wrap = vec3(0.30, 0.16, 0.12);\n"
+    "    vec3  n       = normalize(normal);\n"
+    "    vec3  to_eye  = normalize(eye - position);\n"
+    "    vec3  halfway = normalize(to_eye + light_to);\n"
+    "    float facing  = dot(n, light_to);\n"
+    "    vec3  diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
+    "    float grazing = pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 5.0);\n"
+    "    float gloss   = (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
+    "    vec3  sky     = ambient * (0.65 + 0.35 * n.y) * (tone * albedo + 0.05 * grazing);\n"
+    "    color         = vec4(light * lit(n) * (tone * albedo * diffuse + gloss) + sky, 1.0);\n"
+    "}\n";
 
 // Straight up to a half, then a shoulder that never quite reaches white; then the sRGB curve (IEC 61966-2-1)
 // and half a step of noise, so that the gradient shows no bands.
-const char hair_tone_frag[] = HEAD                      //
-           AT(HAIR_AT_SUPERSAMPLE) "int supersample;\n" //
-    AT(HAIR_AT_EXPOSURE) "float exposure;\n"            //
+const char hair_tone_frag[] = HEAD
+    AT(HAIR_AT_SUPERSAMPLE) "int supersample;\n"
+    AT(HAIR_AT_EXPOSURE) "float exposure;\n"
     AT(HAIR_AT_HEIGHT) "int height;\n" // Of the tile, in the picture's pixels: the upper row goes first.
-                       "layout(binding = 0) uniform sampler2D drawn;\n"
-                       "layout(location = 0) out vec4 encoded;\n"
-                       "layout(location = 1) out vec4 linear;\n"
-                       "void main()\n"
-                       "{\n"
-                       "    ivec2 at  = ivec2(gl_FragCoord.xy);\n"
-                       "    ivec2 up  = supersample * ivec2(at.x, height - 1 - at.y);\n"
-                       "    vec3  sum = vec3(0.0);\n"
-                       "    for (int y = 0; y < supersample; ++y)\n"
-                       "        for (int x = 0; x < supersample; ++x) sum += texelFetch(drawn, up + ivec2(x, "
-                       "y), 0).rgb;\n"
-                       "    linear = vec4(sum / float(supersample * supersample), 1.0);\n"
-                       "    vec3 c = exposure * linear.rgb;\n"
-                       "    c      = mix(c, 1.0 - 0.5 * exp(1.0 - 2.0 * c), greaterThan(c, vec3(0.5)));\n"
-                       "    c      = mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-9)), vec3(1.0 / 2.4)) - "
-                       "0.055, greaterThan(c, vec3(0.0031308)));\n"
-                       "    uint h = uint(at.x) * 1664525u + uint(at.y) * 22695477u;\n"
-                       "    h      = (h ^ (h >> 15)) * 0x2c1b3c6du;\n"
-                       "    h      = (h ^ (h >> 12)) * 0x297a2d39u;\n"
-                       "    encoded = vec4(c + (float(h >> 8) / 16777216.0 - 0.5) / 255.0, 1.0);\n"
-                       "}\n";
+    "layout(binding = 0) uniform sampler2D drawn;\n"
+    "layout(location = 0) out vec4 encoded;\n"
+    "layout(location = 1) out vec4 linear;\n"
+    "void main()\n"
+    "{\n"
+    "    ivec2 at  = ivec2(gl_FragCoord.xy);\n"
+    "    ivec2 up  = supersample * ivec2(at.x, height - 1 - at.y);\n"
+    "    vec3  sum = vec3(0.0);\n"
+    "    for (int y = 0; y < supersample; ++y)\n"
+    "        for (int x = 0; x < supersample; ++x) sum += texelFetch(drawn, up + ivec2(x, y), 0).rgb;\n"
+    "    linear = vec4(sum / float(supersample * supersample), 1.0);\n"
+    "    vec3 c = exposure * linear.rgb;\n"
+    "    c      = mix(c, 1.0 - 0.5 * exp(1.0 - 2.0 * c), greaterThan(c, vec3(0.5)));\n"
+    "    vec3 s = 1.055 * pow(max(c, vec3(1e-9)), vec3(1.0 / 2.4)) - 0.055;\n"
+    "    c      = mix(12.92 * c, s, greaterThan(c, vec3(0.0031308)));\n"
+    "    uint h = uint(at.x) * 1664525u + uint(at.y) * 22695477u;\n"
+    "    h      = (h ^ (h >> 15)) * 0x2c1b3c6du;\n"
+    "    h      = (h ^ (h >> 12)) * 0x297a2d39u;\n"
+    "    encoded = vec4(c + (float(h >> 8) / 16777216.0 - 0.5) / 255.0, 1.0);\n"
+    "}\n";
+// clang-format on
 
 static GLuint compile(const char* tool, GLenum stage, const char* text)
 {
