@@ -195,8 +195,8 @@ typedef struct hair_physics {
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
     float     damping;    ///< Decay rate of velocity relative to the air at rest. 1/s. [0, 1000]. Default 4.
     float     pull_root;  ///< Pull to the rest pose near the root, as the frequency it swings at. Hz. [0, 30]. Default 4.
-    float     pull_tip;   ///< The same at the tip; between them it changes linearly. Hz. [0, 30]. Default 0.5.
-    float     angular;    ///< Angular force: pull to the rest angle in the frame of the segment before. Hz. [0, 30]. Default 2.
+    float     pull_tip;   ///< The same at the tip; between them it changes linearly. Hz. [0, 30]. Default 1.
+    float     angular;    ///< Angular force: pull to the rest angle in the frame of the segment before. Hz. [0, 30]. Default 8.
     float     bend;       ///< Angular constraint: share of the bend from rest that an iteration removes. [0, 1]. Default 0.1.
     uint32_t  iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
     float     margin;     ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
@@ -206,16 +206,16 @@ HAIR_DESC(hair_physics)
 /// How hair looks.
 typedef struct hair_look {
     hair_made made;
-    float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.075, 0.03, 0.012).
-    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.14, 0.06, 0.024).
-    float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.3.
+    float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.06, 0.027, 0.012).
+    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.12, 0.058, 0.028).
+    float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
     float     specular[2];   ///< Strength of the first (white) and second (coloured) highlight. [0, 4]. Default (0.1, 0.5).
     float     gloss[2];      ///< Their exponents. [1, 1000]. Default (60, 15).
     float     radius;        ///< Of a drawn strand, which may stand for several real ones. m. [1e-6, 0.01]. Default 1.5e-4.
-    float     tip_radius;    ///< At the tip, as a share of that. [0, 1]. Default 0.3.
-    float     clump;         ///< How far tips gather around their guide: 0 spread evenly, 1 in locks. [0, 1]. Default 0.5.
+    float     tip_radius;    ///< At the tip, as a share of that. [0, 1]. Default 0.5.
+    float     clump;         ///< How far tips gather around their guide: 0 spread evenly, 1 in locks. [0, 1]. Default 0.6.
     float     frizz;         ///< Strands' own deviation, as a share of their length. [0, 0.2]. Default 0.01.
-    float     absorption;    ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 120.
+    float     absorption;    ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
     float     density;       ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t  segments;      ///< Line segments of a drawn strand. [1, 256]. Default 32.
 } hair_look;
