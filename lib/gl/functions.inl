@@ -2,6 +2,7 @@
 FUNCTION(void, ActiveTexture, (GLenum))
 FUNCTION(void, AttachShader, (GLuint, GLuint))
 FUNCTION(void, BeginTransformFeedback, (GLenum))
+FUNCTION(void, BindBuffer, (GLenum, GLuint))
 FUNCTION(void, BindBuffersBase, (GLenum, GLuint, GLsizei, const GLuint*))
 FUNCTION(void, BindBuffersRange, (GLenum, GLuint, GLsizei, const GLuint*, const GLintptr*, const GLsizeiptr*))
 FUNCTION(void, BindFramebuffer, (GLenum, GLuint))

@@ -35,10 +35,8 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
     hair_gl_end(gl, pass);
 }
 
-float hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass)
+static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 {
-    struct hair_gl_timer* timer = &gl->timer[pass];
-    if (!timer->query[0][0]) return 0;
     if (timer->begun - timer->read > HAIR_GL_TIMER_DEPTH) timer->read = timer->begun - HAIR_GL_TIMER_DEPTH;
     for (; timer->read < timer->begun; ++timer->read) {
         const GLuint* query = timer->query[timer->read % HAIR_GL_TIMER_DEPTH];
@@ -49,6 +47,17 @@ float hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass)
         gl->GetQueryObjectui64v(query[1], GL_QUERY_RESULT, &end);
         timer->ms = (float)((double)(end - start) * 1e-6);
     }
+}
+
+float hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass)
+{
+    struct hair_gl_timer* timer = &gl->timer[pass];
+    if (!timer->query[0][0]) return 0;
+    GLint buffer = 0; // While the host has one bound, results go there instead.
+    gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
+    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
+    read_timer(gl, timer);
+    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
     return timer->ms;
 }
 
