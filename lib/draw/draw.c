@@ -116,6 +116,8 @@ hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* s
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, &expanded);
         hair_gl_run(gl, HAIR_GL_EXPAND, (uint32_t)((count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
         gl->GetNamedBufferSubData(expanded, 0, (GLsizeiptr)size, vertices);
+        // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, NULL);
     }
     hair_gl_free_buffer(gl, &expanded);
     if (result) {
