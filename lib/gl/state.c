@@ -49,9 +49,20 @@ void hair_gl_enter(struct hair_gl* gl)
                  HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
+// Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it: so none
+// of the library's stays bound.
+static void unbind_buffers(struct hair_gl* gl)
+{
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_EXPANDED + 1, NULL);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_DRAW + 1, NULL);
+}
+
 void hair_gl_leave(struct hair_gl* gl)
 {
-    if (gl->promise == HAIR_GL_CLOBBER) return;
+    if (gl->promise == HAIR_GL_CLOBBER) {
+        unbind_buffers(gl);
+        return;
+    }
     struct hair_gl_saved* saved = &gl->saved;
     gl->UseProgram((GLuint)saved->program);
     gl->BindVertexArray((GLuint)saved->vertex_array);
