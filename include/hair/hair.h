@@ -300,7 +300,8 @@ typedef struct hair_view {
 } hair_view;
 HAIR_DESC(hair_view)
 
-/// Draw into the bound framebuffer and viewport, with the depth function that is set.
+/// Draw into the bound framebuffer and viewport, with the depth function that is set. HAIR_ERROR_OPENGL when the
+/// framebuffer is not complete.
 HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 
 // Looking inside: [GL] --------------------------------------------------------------------------------------

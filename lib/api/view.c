@@ -17,6 +17,16 @@ static hair_result check_view(const hair_instance* hair, const hair_view* view)
     return HAIR_OK;
 }
 
+// Drawing into an incomplete one would raise the host's error flag and draw nothing.
+static hair_result check_framebuffer(const hair_instance* hair)
+{
+    GLenum status = hair->context->gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return HAIR_OK;
+    return hair_fail(&hair->context->host, HAIR_ERROR_OPENGL,
+                     "%s: the bound framebuffer is not complete: status 0x%04X%s", hair->label, status,
+                     status == GL_FRAMEBUFFER_UNDEFINED ? ", there is none" : "");
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -25,6 +35,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_result   result = HAIR_TAKE(&context->host, hair_view, view, &own);
     if (!result) result = check_view(hair, &own);
     if (!result) result = hair_check_current(context);
+    if (!result) result = check_framebuffer(hair);
     if (result) return result;
     hair_gl_enter(&context->gl);
     hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);

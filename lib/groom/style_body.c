@@ -15,7 +15,7 @@ static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X,
 static const struct ellipsoid cheeks = {{0, 1.580f, 0.038f}, {0.060f, 0.063f, 0.053f}};
 static const struct ellipsoid jaw    = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
 static const struct ellipsoid chest  = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
-static const struct ellipsoid room   = {{0, 1.565f, 0.085f}, {0.052f, 0.120f, 0.060f}}; // before the face
+static const struct ellipsoid room   = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.060f}}; // before the face
 
 // On the left side; the bust is symmetrical, so they are met by |x|.
 static const struct ellipsoid breast   = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
@@ -66,26 +66,32 @@ hair_vec3 hair_skull_normal(hair_vec3 p)
     return hair_normalize(hair_v3(u.x / HAIR_SKULL_X, u.y / HAIR_SKULL_Y, u.z / HAIR_SKULL_Z), u);
 }
 
+static float face_distance(const hair_vec3* m)
+{
+    return blend(ellipsoid_distance(&cheeks, *m), ellipsoid_distance(&jaw, *m), 0.024f);
+}
+
 float hair_body_distance(hair_vec3 p)
 {
     hair_vec3 m = {fabsf(p.x), p.y, p.z};
-    float     d = ellipsoid_distance(&chest, m);
-    d           = blend(d, capsule_distance(&arm, m), 0.05f);
-    d           = blend(d, capsule_distance(&shoulder, m), 0.06f);
-    d           = blend(d, ellipsoid_distance(&breast, m), 0.07f);
-    d           = blend(d, capsule_distance(&neck, m), 0.05f);
-    d           = blend(d, ellipsoid_distance(&cheeks, m), 0.016f);
-    d           = blend(d, ellipsoid_distance(&jaw, m), 0.024f);
+    if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&skull, m)); // Far above the rest.
+    float d = ellipsoid_distance(&chest, m);
+    d       = blend(d, capsule_distance(&arm, m), 0.05f);
+    d       = blend(d, capsule_distance(&shoulder, m), 0.06f);
+    d       = blend(d, ellipsoid_distance(&breast, m), 0.07f);
+    d       = blend(d, capsule_distance(&neck, m), 0.05f);
+    if (p.y < 1.42f) return d; // Far below the head.
+    d = blend(d, face_distance(&m), 0.016f);
     return fminf(d, ellipsoid_distance(&skull, m)); // No fillet here: roots stay on the surface.
 }
 
 static hair_vec3 gradient(float (*distance)(hair_vec3), hair_vec3 p)
 {
+    // By four points of a tetrahedron (Quilez).
     const float h = 5e-4f;
-    hair_vec3   g = {distance(hair_v3(p.x + h, p.y, p.z)) - distance(hair_v3(p.x - h, p.y, p.z)),
-                     distance(hair_v3(p.x, p.y + h, p.z)) - distance(hair_v3(p.x, p.y - h, p.z)),
-                     distance(hair_v3(p.x, p.y, p.z + h)) - distance(hair_v3(p.x, p.y, p.z - h))};
-    return hair_normalize(g, hair_v3(0, 1, 0));
+    float a = distance(hair_v3(p.x + h, p.y - h, p.z - h)), b = distance(hair_v3(p.x - h, p.y - h, p.z + h));
+    float c = distance(hair_v3(p.x - h, p.y + h, p.z - h)), d = distance(hair_v3(p.x + h, p.y + h, p.z + h));
+    return hair_normalize(hair_v3(a - b - c + d, c + d - a - b, b + d - a - c), hair_v3(0, 1, 0));
 }
 
 hair_vec3 hair_body_normal(hair_vec3 p)

@@ -100,11 +100,6 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
     return hair_normalize(tangential(v, normal), tangential(hair_v3(0, -1, 0), normal));
 }
 
-static void push_out(hair_vec3* p, float distance, float wanted, hair_vec3 normal)
-{
-    if (distance < wanted) *p = hair_add(*p, hair_scale(normal, fminf(wanted - distance, 0.8f * STRIDE)));
-}
-
 // Hair that comes down on the ridge of a shoulder slides off to the front or to the back: 1 or -1 on either
 // side of it, fading away from it.
 static float split_at_shoulder(hair_vec3 p)
@@ -126,6 +121,21 @@ static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
     return v;
 }
 
+// The normal is asked for only near the clearance: most of a long hair hangs free.
+static hair_vec3 clear_of_bust(const struct walk* walk, hair_vec3 p, float s)
+{
+    float wanted = walk->clearance * (1 - expf(-s / walk->lift));
+    float over   = hair_body_distance(p) - wanted;
+    if (over < 0)
+        p = hair_add(p, hair_scale(hair_body_normal(p), fminf(-over, 0.8f * STRIDE)));
+    else if (walk->press > 0)
+        p = hair_sub(p, hair_scale(hair_body_normal(p), walk->press * over));
+
+    over = hair_face_distance(p) - walk->face * (1 - expf(-s / 0.03f));
+    if (over < 0) p = hair_add(p, hair_scale(hair_face_normal(p), fminf(-over, 0.8f * STRIDE)));
+    return p;
+}
+
 static void run(const struct walk* walk, hair_vec3 root, struct hair_course* course)
 {
     hair_vec3 p = root, normal = hair_skull_normal(root);
@@ -134,20 +144,30 @@ static void run(const struct walk* walk, hair_vec3 root, struct hair_course* cou
     add_point(course, p);
     while (course->length < walk->most && course->count < HAIR_COURSE_POINTS && p.y > walk->floor) {
         hair_vec3 last = p;
-        float     s    = course->length;
-        d              = hair_normalize(hair_add(d, hair_scale(pull(walk, p, s), STRIDE)), d);
-        p              = hair_add(p, hair_scale(d, STRIDE));
-
-        float wanted   = walk->clearance * (1 - expf(-s / walk->lift));
-        float distance = hair_body_distance(p);
-        normal         = hair_body_normal(p);
-        push_out(&p, distance, wanted, normal);
-        if (distance > wanted) p = hair_sub(p, hair_scale(normal, walk->press * (distance - wanted)));
-        float face = hair_face_distance(p);
-        if (face < walk->face) push_out(&p, face, walk->face * (1 - expf(-s / 0.03f)), hair_face_normal(p));
-        d = hair_normalize(hair_sub(p, last), d);
+        d              = hair_normalize(hair_add(d, hair_scale(pull(walk, p, course->length), STRIDE)), d);
+        p              = clear_of_bust(walk, hair_add(p, hair_scale(d, STRIDE)), course->length);
+        d              = hair_normalize(hair_sub(p, last), d);
         add_point(course, p);
     }
+}
+
+// Walks end on a whole stride; take off what is over.
+static void trim(struct hair_course* course, float most)
+{
+    float over = course->length - most;
+    if (over <= 0 || course->count < 3) return;
+    hair_vec3 *tip = &course->point[course->count - 1], *before = tip - 1;
+    float      step = hair_distance(*tip, *before);
+    *tip            = hair_lerp(*tip, *before, fminf(over / step, 0.99f));
+    course->length -= fminf(over, 0.99f * step);
+}
+
+static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_course* course)
+{
+    walk->most  = length;
+    walk->floor = -INFINITY;
+    run(walk, root, course);
+    trim(course, length);
 }
 
 // A cut at a height gives every root its own length; `scale` then lengthens or shortens that.
@@ -155,9 +175,8 @@ static void run_cut(struct walk* walk, hair_vec3 root, float scale, float least,
 {
     walk->most = 0.6f;
     run(walk, root, course);
-    walk->most  = fmaxf(course->length, least) * scale;
-    walk->floor = -INFINITY;
-    run(walk, root, course);
+    if (scale == 1 && course->length >= least) return;
+    run_to(walk, root, fmaxf(course->length, least) * scale, course);
 }
 
 // 0 at the hairline of nape and sides, 1 at the crown: how far up in the layers of hair a root is.
@@ -262,10 +281,9 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_c
         .gravity   = 8,
         .hold      = 0.04f,
         .press     = 0.03f,
-        .floor     = -INFINITY,
-        .most      = scale * mix(0.026f, 0.068f, top) * (1 + 0.12f * noise(root, 0.02f, seed + 1)),
     };
-    run(&walk, root, course);
+    float length = mix(0.026f, 0.068f, top) * (1 + 0.12f * noise(root, 0.02f, seed + 1));
+    run_to(&walk, root, scale * length, course);
 }
 
 static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)

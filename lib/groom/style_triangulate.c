@@ -1,7 +1,10 @@
 // style_triangulate.c - Delaunay triangles of a few thousand points in the plane.
+// Points come in from left to right: a triangle whose circle lies to the left of the newest is final and is not
+// looked at again, which leaves about the square root of all to be looked at.
 // Based on: Bowyer 1981, "Computing Dirichlet tessellations"; Watson 1981, the same year and journal.
 #include "lib/groom/style_scalp.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // Corners of the triangle around all points, whose extent is about 1: near enough for circles through them to
@@ -17,11 +20,20 @@ struct edge {
     uint32_t a, b;
 };
 
+struct place {
+    double   x;
+    uint32_t index;
+};
+
 struct work {
-    double*      points; // with the three far corners behind them
-    struct face* faces;
-    struct edge* edges;
-    uint32_t     face_count, edge_count;
+    double*       points; // with the three far corners behind them
+    struct place* order;
+    struct face*  faces; // not final
+    struct edge*  edges;
+    uint32_t      face_count, edge_count;
+    uint32_t      count; // of points
+    uint32_t*     out;
+    uint32_t      out_count;
 };
 
 static struct face make_face(const double* points, uint32_t a, uint32_t b, uint32_t c)
@@ -51,17 +63,33 @@ static void toggle_edge(struct work* work, uint32_t a, uint32_t b)
     work->edges[work->edge_count++] = (struct edge){a, b};
 }
 
+static void keep(struct work* work, const struct face* face)
+{
+    const uint32_t* corner = face->corner;
+    if (corner[0] >= work->count || corner[1] >= work->count || corner[2] >= work->count) return;
+    memcpy(work->out + 3 * work->out_count++, corner, 3 * sizeof *corner);
+}
+
+static int is_final(const struct face* face, double x)
+{
+    return x > face->x && (x - face->x) * (x - face->x) > face->square;
+}
+
 static void insert(struct work* work, uint32_t point)
 {
+    const double* p  = work->points + 2 * point;
     work->edge_count = 0;
     for (uint32_t i = 0; i < work->face_count;) {
-        if (!encloses(&work->faces[i], work->points + 2 * point)) {
+        struct face* face = &work->faces[i];
+        if (is_final(face, p[0])) {
+            keep(work, face);
+        } else if (encloses(face, p)) {
+            for (uint32_t k = 0; k < 3; ++k) toggle_edge(work, face->corner[k], face->corner[(k + 1) % 3]);
+        } else {
             ++i;
             continue;
         }
-        const uint32_t* corner = work->faces[i].corner;
-        for (uint32_t k = 0; k < 3; ++k) toggle_edge(work, corner[k], corner[(k + 1) % 3]);
-        work->faces[i] = work->faces[--work->face_count];
+        *face = work->faces[--work->face_count];
     }
     for (uint32_t i = 0; i < work->edge_count; ++i)
         work->faces[work->face_count++] = make_face(work->points, work->edges[i].a, work->edges[i].b, point);
@@ -77,34 +105,38 @@ static void copy_points(const double* points, uint32_t count, double* out)
     memcpy(out + 2 * count, corners, sizeof corners);
 }
 
-static uint32_t triangulate(struct work* work, uint32_t count, uint32_t* out)
+static int compare(const void* a, const void* b)
 {
-    work->faces[work->face_count++] = make_face(work->points, count, count + 1, count + 2);
-    for (uint32_t i = 0; i < count; ++i) insert(work, i);
+    double x = ((const struct place*)a)->x, y = ((const struct place*)b)->x;
+    return (x > y) - (x < y);
+}
 
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < work->face_count; ++i) {
-        const uint32_t* corner = work->faces[i].corner;
-        if (corner[0] >= count || corner[1] >= count || corner[2] >= count) continue;
-        memcpy(out + 3 * found++, corner, 3 * sizeof *corner);
-    }
-    return found;
+static void triangulate(struct work* work)
+{
+    for (uint32_t i = 0; i < work->count; ++i) work->order[i] = (struct place){work->points[2 * i], i};
+    qsort(work->order, work->count, sizeof *work->order, compare);
+    work->faces[work->face_count++] = make_face(work->points, work->count, work->count + 1, work->count + 2);
+    for (uint32_t i = 0; i < work->count; ++i) insert(work, work->order[i].index);
+    for (uint32_t i = 0; i < work->face_count; ++i) keep(work, &work->faces[i]);
 }
 
 uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t count, uint32_t* out)
 {
     // n points and three corners have 2 n + 1 triangles; a hole of k has at most 3 k edges while it is found.
-    size_t      most  = 2 * (size_t)count + 8;
-    struct work work  = {hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
-                         hair_alloc(host, most, sizeof(struct face)),
-                         hair_alloc(host, 3 * most, sizeof(struct edge)), 0, 0};
-    uint32_t    found = 0;
-    if (work.points && work.faces && work.edges) {
+    size_t      most = 2 * (size_t)count + 8;
+    struct work work = {.points = hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
+                        .order  = hair_alloc(host, count, sizeof(struct place)),
+                        .faces  = hair_alloc(host, most, sizeof(struct face)),
+                        .edges  = hair_alloc(host, 3 * most, sizeof(struct edge)),
+                        .count  = count,
+                        .out    = out};
+    if (work.points && work.order && work.faces && work.edges) {
         copy_points(points, count, work.points);
-        found = triangulate(&work, count, out);
+        triangulate(&work);
     }
     hair_free(host, work.edges);
     hair_free(host, work.faces);
+    hair_free(host, work.order);
     hair_free(host, work.points);
-    return found;
+    return work.out_count;
 }
