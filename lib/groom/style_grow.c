@@ -6,7 +6,8 @@
 #include "lib/groom/style_body.h"
 
 #define PI 3.14159265f
-#define STRIDE 0.002f // Of a walk, m: a tenth of the sharpest bend here.
+#define CUSHION 0.020f // Height above the clearance from which on hair turns along the bust. m.
+#define STRIDE 0.002f  // Of a walk, m: a tenth of the sharpest bend here.
 
 // How the hair of one root runs.
 struct walk {
@@ -121,15 +122,27 @@ static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
     return v;
 }
 
-// The normal is asked for only near the clearance: most of a long hair hangs free.
-static hair_vec3 clear_of_bust(const struct walk* walk, hair_vec3 p, float s)
+// Turns hair that comes down on a shoulder before it meets it, so that it bends and does not break.
+static hair_vec3 cushion(hair_vec3 d, hair_vec3 normal, float over)
 {
-    float wanted = walk->clearance * (1 - expf(-s / walk->lift));
-    float over   = hair_body_distance(p) - wanted;
+    float into = -hair_dot(d, normal), near = 1 - over / CUSHION;
+    return into > 0 ? hair_normalize(hair_add(d, hair_scale(normal, into * near * 70 * STRIDE)), d) : d;
+}
+
+// The normal is asked for only near the clearance: most of a long hair hangs free.
+static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_vec3 d, float s)
+{
+    float     wanted = walk->clearance * (1 - expf(-s / walk->lift));
+    float     over   = hair_body_distance(p) - wanted;
+    hair_vec3 normal = {0, 0, 0};
+    if (over < CUSHION || walk->press > 0) normal = hair_body_normal(p);
+    if (over > 0 && over < CUSHION) d = cushion(d, normal, over);
+    p    = hair_add(p, hair_scale(d, STRIDE));
+    over = hair_body_distance(p) - wanted;
     if (over < 0)
-        p = hair_add(p, hair_scale(hair_body_normal(p), fminf(-over, 0.8f * STRIDE)));
-    else if (walk->press > 0)
-        p = hair_sub(p, hair_scale(hair_body_normal(p), walk->press * over));
+        p = hair_add(p, hair_scale(normal, fminf(-over, 0.8f * STRIDE)));
+    else
+        p = hair_sub(p, hair_scale(normal, walk->press * over));
 
     over = hair_face_distance(p) - walk->face * (1 - expf(-s / 0.03f));
     if (over < 0) p = hair_add(p, hair_scale(hair_face_normal(p), fminf(-over, 0.8f * STRIDE)));
@@ -145,7 +158,7 @@ static void run(const struct walk* walk, hair_vec3 root, struct hair_course* cou
     while (course->length < walk->most && course->count < HAIR_COURSE_POINTS && p.y > walk->floor) {
         hair_vec3 last = p;
         d              = hair_normalize(hair_add(d, hair_scale(pull(walk, p, course->length), STRIDE)), d);
-        p              = clear_of_bust(walk, hair_add(p, hair_scale(d, STRIDE)), course->length);
+        p              = step_clear_of_bust(walk, p, d, course->length);
         d              = hair_normalize(hair_sub(p, last), d);
         add_point(course, p);
     }

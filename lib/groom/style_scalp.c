@@ -10,7 +10,7 @@
 
 #define PI 3.14159265f
 #define FINE 1024            // Samples of the hairline that the outline is measured by.
-#define CANDIDATES 12        // Places tried per vertex.
+#define CANDIDATES 4         // Places tried per vertex.
 #define RELAXATIONS 6        // The spacing of 166 vertices is even to a fifth after as many.
 #define CLEARANCE 0.65f      // Of inner vertices from the middle of an edge of the outline, in its lengths.
 #define PARTING_HALF 0.0010f // Half its width at the hairline, m: a comb's line.
@@ -167,27 +167,30 @@ static hair_vec3 vertex_at(const struct build* build, uint32_t i)
     return hair_load3(build->scalp.positions + 3 * (size_t)i);
 }
 
-static void shrink_gaps(struct build* build, hair_vec3 p)
+// Returns the candidate with the widest gap left.
+static uint32_t shrink_gaps(struct build* build, hair_vec3 p)
 {
+    uint32_t widest = 0;
     for (uint32_t i = 0; i < build->candidate_count; ++i) {
-        hair_vec3 d   = hair_sub(build->candidates[i], p);
-        build->gap[i] = fminf(build->gap[i], hair_dot(d, d));
+        hair_vec3 d      = hair_sub(build->candidates[i], p);
+        float     square = hair_dot(d, d);
+        if (square < build->gap[i]) build->gap[i] = square;
+        if (build->gap[i] > build->gap[widest]) widest = i;
     }
+    return widest;
 }
 
 static void fill_gaps(struct build* build, uint32_t vertex_count)
 {
+    uint32_t widest = 0;
     for (uint32_t i = 0; i < build->candidate_count; ++i) build->gap[i] = INFINITY;
     for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
         shrink_gaps(build, vertex_at(build, i));
-        shrink_gaps(build, hair_lerp(vertex_at(build, i), vertex_at(build, j), 0.5f));
+        widest = shrink_gaps(build, hair_lerp(vertex_at(build, i), vertex_at(build, j), 0.5f));
     }
     while (build->scalp.vertex_count < vertex_count) {
-        uint32_t widest = 0;
-        for (uint32_t i = 1; i < build->candidate_count; ++i)
-            if (build->gap[i] > build->gap[widest]) widest = i;
         add_vertex(build, build->candidates[widest]);
-        shrink_gaps(build, build->candidates[widest]);
+        widest = shrink_gaps(build, build->candidates[widest]);
     }
 }
 
