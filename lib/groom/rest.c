@@ -36,7 +36,7 @@ static void sample(const float* positions, uint32_t vertices, float* out, uint32
         hair_strand_resample(positions, vertices, out, count);
         have = hair_strand_merge(out, count);
         // A strand that runs to and fro may have all its samples in one place: its first part will do.
-        if (have < 2) {
+        if (!hair_strand_is_fit(out, have)) {
             memcpy(out, positions, 3 * (size_t)count * sizeof *out);
             have = count;
         }

@@ -216,6 +216,28 @@ static void strands_of_different_vertex_counts_are_followed_in_one_groom(void** 
     hair_test_strands_free(&strands);
 }
 
+static void a_follower_is_as_long_as_its_strand(void** state)
+{
+    (void)state;
+    float           positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 6, 0};
+    uint32_t        vertices[]  = {2, 2, 2};
+    hair_groom_desc desc        = hair_groom_desc_default();
+    desc.host                   = &test.host;
+    desc.positions              = positions;
+    desc.strand_vertices        = vertices;
+    desc.strand_count           = 3;
+    desc.guide_count            = 1;
+    hair_groom* groom           = make(&desc);
+    for (uint32_t i = 0; i < 3; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        hair_vec3                   root     = hair_test_single(groom, follower, 0);
+        float                       length   = positions[6 * (int)(root.x + 0.5f) + 4];
+        assert_float_equal(follower->length_ratio * groom->guides[0].length, length, 1e-5);
+        assert_float_equal(hair_test_single(groom, follower, 1).y, length, 1e-5);
+    }
+    hair_groom_destroy(groom);
+}
+
 // Around guides ---------------------------------------------------------------------------------------------
 
 static void without_followers_asked_for_each_guide_is_drawn(void** state)
@@ -455,6 +477,28 @@ static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewher
     free_grown(&grown);
 }
 
+static void triangles_of_other_densities_share_no_patch(void** state)
+{
+    (void)state;
+    struct grown grown = prepare(20, 4, 4000, sparse); // Five followers on a triangle.
+    float        density[441];
+    for (int i = 0; i < 441; ++i) density[i] = i % 21 < 10 ? 0.25f : 0.75f;
+    grown.desc.scalp_density = density;
+    hair_groom* groom        = make(&grown.desc);
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
+        struct hair_patch patch = groom->patches[i];
+        for (uint32_t j = 0; j < patch.count; ++j) {
+            hair_vec3 p = hair_test_multi(groom, &groom->followers[patch.first + j], 0);
+            if (p.x < 0.0899f) assert_float_equal(patch.density, 0.25f, 1e-6);
+            if (p.x > 0.1001f) assert_float_equal(patch.density, 0.75f, 1e-6);
+        }
+    }
+    // But those of one do: of 800 triangles the 40 between the two densities have patches of their own.
+    assert_true(groom->info.patch_count < 200);
+    hair_groom_destroy(groom);
+    free_grown(&grown);
+}
+
 static void the_scalp_is_scaled_and_turned_as_the_strands_are(void** state)
 {
     (void)state;
@@ -504,6 +548,7 @@ int main(void)
         TEST(strands_of_a_real_haircut_are_followed_closely),
         TEST(guides_follow_themselves_without_an_offset),
         TEST(strands_of_different_vertex_counts_are_followed_in_one_groom),
+        TEST(a_follower_is_as_long_as_its_strand),
         TEST(without_followers_asked_for_each_guide_is_drawn),
         TEST(followers_surround_their_guides_evenly_within_the_clump_radius),
         TEST(grown_roots_lie_on_the_scalp_by_either_interpolation),
@@ -512,6 +557,7 @@ int main(void)
         TEST(grown_roots_are_spread_without_clumps_or_gaps),
         TEST(nothing_is_blended_across_a_parting),
         TEST(nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere),
+        TEST(triangles_of_other_densities_share_no_patch),
         TEST(the_scalp_is_scaled_and_turned_as_the_strands_are),
         TEST(one_guide_or_two_are_enough_for_a_scalp),
     };

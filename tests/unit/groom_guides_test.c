@@ -126,6 +126,31 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     hair_test_strands_free(&strands);
 }
 
+// By turns over a square of 10 cm, and over one of 1 cm beside it.
+static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
+{
+    (void)user;
+    uint32_t random = hair_hash(strand);
+    float    size = strand % 2 ? 0.1f : 0.01f, x = strand % 2 ? 0.2f : 0;
+    return hair_v3(x + size * hair_random(&random), 0.1f * t, size * hair_random(&random));
+}
+
+// For as many strands as over the square of 1 cm, (10^2)^(2/3) = 22 times as many guides over that of 10 cm.
+static void guides_go_where_strands_differ_more_than_where_they_are_many(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_strands_make(4000, 4);
+    for (int i = 0; i < 4000; ++i) hair_test_strands_add(&strands, 4, wide_and_narrow, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.guide_count     = 230;
+    hair_groom* groom    = make(&desc);
+    uint32_t    narrow   = 0;
+    for (uint32_t i = 0; i < 230; ++i) narrow += vertex(groom, i, 0).x < 0.1f;
+    assert_in_range(narrow, 5, 20);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
 static void strands_that_are_all_alike_are_shared_out_too(void** state)
 {
     (void)state;
@@ -142,6 +167,13 @@ static void strands_that_are_all_alike_are_shared_out_too(void** state)
     hair_groom* groom    = make(&desc);
     assert_int_equal(groom->info.guide_count, 100);
     assert_int_equal(groom->info.follower_count, 300);
+    uint32_t drawn     = 0;
+    bool     seen[100] = {false};
+    for (uint32_t i = 0; i < 300; ++i) {
+        drawn += !seen[groom->followers[i].guide0];
+        seen[groom->followers[i].guide0] = true;
+    }
+    assert_int_equal(drawn, 100);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }
@@ -300,9 +332,9 @@ static hair_vec3 zigzag(float t, uint32_t strand, const void* user)
 static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 {
     (void)state;
-    struct hair_test_strands strands = hair_test_strands_make(3, 256);
-    for (uint32_t vertices = 4; vertices <= 256; vertices *= 8)
-        hair_test_strands_add(&strands, vertices, zigzag, &vertices);
+    struct hair_test_strands strands    = hair_test_strands_make(3, 256);
+    static const uint32_t    vertices[] = {4, 32, 241}; // Of 240 segments 41 samples take every sixth vertex.
+    for (int i = 0; i < 3; ++i) hair_test_strands_add(&strands, vertices[i], zigzag, &vertices[i]);
     for (uint32_t guide_vertices = 4; guide_vertices <= 64; ++guide_vertices) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
         desc.guide_vertices  = guide_vertices;
@@ -329,6 +361,7 @@ int main(void)
         TEST(strands_given_as_guides_are_the_guides_in_their_order),
         TEST(guides_are_as_many_as_asked_for_or_one_in_ten),
         TEST(a_few_strands_of_another_shape_get_guides_of_their_own),
+        TEST(guides_go_where_strands_differ_more_than_where_they_are_many),
         TEST(strands_that_are_all_alike_are_shared_out_too),
         TEST(a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_at_least_four),
         TEST(a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples),

@@ -321,6 +321,51 @@ static void followers_of_a_patch_are_neighbours(void** state)
     hair_test_strands_free(&strands);
 }
 
+static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(500);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    desc.strands_are                 = HAIR_STRANDS_GUIDES;
+    desc.follower_count              = 5000;
+    hair_groom* groom                = make(&desc);
+    // Of ten followers of a guide, some but not all are in the first half of the patch.
+    uint32_t *first = calloc(500, sizeof *first), split = 0;
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i)
+        for (uint32_t j = 0; j < groom->patches[i].count / 2; ++j)
+            ++first[groom->followers[groom->patches[i].first + j].guide0];
+    for (int i = 0; i < 500; ++i) split += first[i] > 0 && first[i] < 10;
+    assert_true(split > 490);
+    free(first);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+static int compare(const void* a, const void* b)
+{
+    uint32_t x = *(const uint32_t*)a, y = *(const uint32_t*)b;
+    return (x > y) - (x < y);
+}
+
+static void followers_differ_in_their_seeds_and_with_the_seed_of_the_groom(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(2000);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    static uint32_t          seeds[4000];
+    for (uint32_t seed = 0; seed < 2; ++seed) {
+        desc.seed         = seed;
+        hair_groom* groom = make(&desc);
+        for (uint32_t i = 0; i < 2000; ++i) seeds[2000 * seed + i] = groom->followers[i].seed;
+        hair_groom_destroy(groom);
+    }
+    qsort(seeds, 4000, sizeof *seeds, compare);
+    uint32_t alike = 0;
+    for (int i = 1; i < 4000; ++i) alike += seeds[i] == seeds[i - 1];
+    assert_in_range(alike, 0, 2); // 4000^2 / 2^33 of 32 bits would meet by chance.
+    hair_test_strands_free(&strands);
+}
+
 static void built_in_haircuts_become_grooms(void** state)
 {
     (void)state;
@@ -366,6 +411,8 @@ int main(void)
         TEST(a_groom_describes_its_strands),
         TEST(fur_of_50000_strands_needs_no_head_and_fills_its_patches),
         TEST(followers_of_a_patch_are_neighbours),
+        TEST(cutting_the_end_off_a_patch_thins_all_of_it),
+        TEST(followers_differ_in_their_seeds_and_with_the_seed_of_the_groom),
         TEST(built_in_haircuts_become_grooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
