@@ -1,0 +1,290 @@
+// state_test.c - the host's OpenGL comes back as it was, its error flag too, and the library makes no errors of its own.
+#include "tests/support/support.h"
+
+#include <epoxy/egl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/groom/groom.h"
+#include "tests/support/glstate.h"
+#include "tests/support/handmade.h"
+
+// A host with a debug context of its own, everything in it set to odd values.
+struct fixture {
+    struct hair_test_host host;
+    hair_egl*             egl;
+    EGLDisplay            display;
+    EGLContext            debug;
+    int                   planting;     // an error of the host's own
+    char                  message[512]; // the last error that was not planted
+    hair_groom*           groom;
+    hair_context*         context;
+    hair_instance*        hair;
+    GLuint                shadow;
+    hair_gl_state         promise;
+};
+
+static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                            const GLchar* message, const void* user)
+{
+    (void)source, (void)id, (void)severity, (void)length;
+    struct fixture* f = (struct fixture*)(uintptr_t)user;
+    if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP || type == GL_DEBUG_TYPE_OTHER ||
+        type == GL_DEBUG_TYPE_PERFORMANCE || f->planting)
+        return;
+    snprintf(f->message, sizeof f->message, "%s", message);
+}
+
+static int start(void** state)
+{
+    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    4,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    5,
+                                    EGL_CONTEXT_OPENGL_DEBUG,
+                                    EGL_TRUE,
+                                    EGL_NONE};
+    struct fixture*     f        = calloc(1, sizeof *f);
+    *state                       = f;
+    hair_test_host_init(&f->host);
+    if (hair_egl_create(&f->host.host, -1, &f->egl)) return -1;
+    f->display = eglGetCurrentDisplay();
+    f->debug   = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    if (!eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug)) return -1;
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(listen, f);
+    glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
+    glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
+    hair_test_glstate_disturb();
+    if (glGetError() || *f->message) {
+        fprintf(stderr, "the test's own state is in error: %s\n", f->message);
+        return -1;
+    }
+    f->groom = hair_test_groom(&f->host.host, hair_test_handmade_default());
+    return 0;
+}
+
+static int finish(void** state)
+{
+    struct fixture* f = *state;
+    hair_groom_destroy(f->groom);
+    glPopDebugGroup(); // Mesa forgets those that are left.
+    eglDestroyContext(f->display, f->debug);
+    hair_egl_destroy(f->egl);
+    int left = (int)f->host.blocks;
+    free(f);
+    return left;
+}
+
+// Every [GL] call, in an order in which they can be made.
+static hair_result create_context(struct fixture* f)
+{
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &f->host.host;
+    desc.get_proc          = hair_egl_get_proc;
+    desc.timings           = 1;
+    desc.gl_state          = f->promise;
+    return hair_context_create(&desc, &f->context);
+}
+static hair_result reload(struct fixture* f)
+{
+    return hair_context_reload(f->context);
+}
+static hair_result create(struct fixture* f)
+{
+    hair_desc desc = hair_desc_default();
+    return hair_create(f->context, f->groom, &desc, &f->hair);
+}
+static hair_result step(struct fixture* f)
+{
+    return hair_step(f->hair, 1.0f / 30);
+}
+static hair_result step_without_substep(struct fixture* f)
+{
+    return hair_step(f->hair, 1e-4f);
+}
+static hair_result reset(struct fixture* f)
+{
+    return hair_reset(f->hair);
+}
+static hair_result set_all(struct fixture* f)
+{
+    hair_physics physics = hair_physics_default();
+    hair_look    look    = hair_look_default();
+    hair_desc    desc    = hair_desc_default();
+    hair_solid   solid   = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}};
+    look.segments        = 100; // of two parts
+    hair_result result   = hair_set_physics(f->hair, &physics);
+    if (!result) result = hair_set_look(f->hair, &look);
+    if (!result) result = hair_set_transform(f->hair, desc.transform);
+    return result ? result : hair_set_solids(f->hair, &solid, 1, sizeof solid);
+}
+static hair_result teleport(struct fixture* f)
+{
+    hair_desc desc     = hair_desc_default();
+    desc.transform[12] = 3;
+    return hair_teleport(f->hair, desc.transform);
+}
+static hair_result draw(struct fixture* f)
+{
+    hair_result result = HAIR_OK;
+    for (int i = 0; i < 12 && !result; ++i) {
+        hair_view view      = hair_view_default();
+        view.pass           = (hair_pass)(i % 3);
+        view.primitive      = (hair_primitive)(i / 3 % 2);
+        view.shadow_texture = i / 6 ? f->shadow : 0;
+        result              = hair_draw(f->hair, &view);
+    }
+    return result;
+}
+static hair_result read_all(struct fixture* f)
+{
+    float       positions[300];
+    uint32_t    count;
+    hair_result result = HAIR_OK;
+    for (int what = 0; what < 3 && !result; ++what)
+        result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
+    return result;
+}
+static hair_result time_all(struct fixture* f)
+{
+    hair_timing timings[32];
+    return hair_timings(f->context, timings, 32) > 0 ? HAIR_OK : HAIR_ERROR_OPENGL;
+}
+static hair_result destroy(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    return HAIR_OK;
+}
+static hair_result destroy_context(struct fixture* f)
+{
+    hair_context_destroy(f->context);
+    return HAIR_OK;
+}
+
+static const struct {
+    const char* name;
+    hair_result (*call)(struct fixture*);
+} calls[] = {
+    {"hair_context_create", create_context},
+    {"hair_create", create},
+    {"hair_step", step},
+    {"hair_step without a substep", step_without_substep},
+    {"setters", set_all},
+    {"hair_step with a solid", step},
+    {"hair_draw", draw},
+    {"hair_read", read_all},
+    {"hair_teleport", teleport},
+    {"hair_reset", reset},
+    {"hair_timings", time_all},
+    {"hair_context_reload", reload},
+    {"hair_draw after a reload", draw},
+    {"hair_destroy", destroy},
+    {"hair_context_destroy", destroy_context},
+};
+
+static void plant_an_error(struct fixture* f)
+{
+    f->planting = 1;
+    glEnable(0xbad);
+    f->planting = 0;
+}
+
+// What a context with HAIR_GL_CLOBBER may change, as hair.h lists it.
+static int may_change(const char* name)
+{
+    static const char* const listed[] = {"GL_CURRENT_PROGRAM", "GL_VERTEX_ARRAY_BINDING",
+                                         "GL_ELEMENT_ARRAY_BUFFER_BINDING", // of the vertex array
+                                         "GL_PATCH_VERTICES", "GL_CULL_FACE"};
+    for (size_t i = 0; i < sizeof listed / sizeof *listed; ++i)
+        if (strcmp(name, listed[i]) == 0) return 1;
+    const char* number = strrchr(name, ' ');
+    if (!number) return 0;
+    int i = atoi(number + 1);
+    if (strncmp(name, "GL_SHADER_STORAGE_BUFFER_", 25) == 0) return i < 7;
+    if (strncmp(name, "GL_UNIFORM_BUFFER_", 18) == 0) return i < 2;
+    if (strncmp(name, "GL_TEXTURE_BINDING_", 19) == 0 || strncmp(name, "GL_SAMPLER_BINDING", 18) == 0)
+        return i < 7;
+    return 0;
+}
+
+static void check_all_calls(struct fixture* f, hair_gl_state promise)
+{
+    static struct hair_test_glstate before, after;
+    hair_test_glstate_read(&before);
+    print_message("    %zu values\n", before.count);
+    assert_true(before.count > 500);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    f->promise = promise;
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
+        plant_an_error(f);
+        hair_result result  = calls[i].call(f);
+        GLenum      planted = glGetError(), other = glGetError();
+        if (result) fail_msg("%s: %s", calls[i].name, f->host.sentence);
+        if (*f->message) fail_msg("%s: %s", calls[i].name, f->message);
+        if (planted != GL_INVALID_ENUM) fail_msg("%s ate the host's error", calls[i].name);
+        if (other) fail_msg("%s left the error 0x%x", calls[i].name, other);
+        hair_test_glstate_read(&after);
+        for (size_t k = 0; k < before.count; ++k) {
+            k = hair_test_glstate_differ(&before, &after, k);
+            if (k == before.count || (promise == HAIR_GL_CLOBBER && may_change(before.values[k].name)))
+                continue;
+            fail_msg("%s changed %s from %lld to %lld", calls[i].name, before.values[k].name,
+                     (long long)before.values[k].value, (long long)after.values[k].value);
+        }
+    }
+}
+
+static void every_call_leaves_all_state_and_the_error_flag_as_they_were(void** state)
+{
+    check_all_calls(*state, HAIR_GL_RESTORE);
+}
+
+static void a_clobbering_context_changes_only_what_is_listed(void** state)
+{
+    check_all_calls(*state, HAIR_GL_CLOBBER);
+}
+
+// Also where nothing at all is bound.
+static void in_an_untouched_context_nothing_is_left_bound(void** state)
+{
+    struct fixture* f = *state;
+    // A fresh debug context beside the disturbed one.
+    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    4,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    5,
+                                    EGL_CONTEXT_OPENGL_DEBUG,
+                                    EGL_TRUE,
+                                    EGL_NONE};
+    EGLContext          fresh    = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    assert_true(eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, fresh));
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(listen, f);
+    GLuint target, frame; // Drawing wants one.
+    glCreateRenderbuffers(1, &target);
+    glNamedRenderbufferStorage(target, GL_RGBA8, 8, 8);
+    glCreateFramebuffers(1, &frame);
+    glNamedFramebufferRenderbuffer(frame, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
+    glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
+    check_all_calls(f, HAIR_GL_RESTORE);
+    eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug);
+    eglDestroyContext(f->display, fresh);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(every_call_leaves_all_state_and_the_error_flag_as_they_were, start,
+                                        finish),
+        cmocka_unit_test_setup_teardown(a_clobbering_context_changes_only_what_is_listed, start, finish),
+        cmocka_unit_test_setup_teardown(in_an_untouched_context_nothing_is_left_bound, start, finish),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
