@@ -1,0 +1,484 @@
+// style_test.c - the built-in haircuts: an even scalp, guides that grow from it, and the look of each style.
+#include "lib/groom/style_body.h"
+#include "tests/support/host.h"
+
+#include <hair/hair_asset.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <cmocka.h>
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return test.blocks ? -1 : 0;
+}
+
+struct cut {
+    hair_asset*     asset;
+    hair_asset_info info;
+    uint32_t        each; // vertices of a guide
+};
+
+static struct cut cut_with(hair_style style, uint32_t guides, float length, uint32_t seed)
+{
+    hair_style_desc desc = hair_style_desc_default();
+    desc.host            = &test.host;
+    desc.style           = style;
+    desc.guide_count     = guides;
+    desc.length          = length;
+    desc.seed            = seed;
+    struct cut cut       = {NULL, hair_asset_info_default(), 0};
+    assert_int_equal(hair_asset_generate(&desc, &cut.asset), HAIR_OK);
+    assert_int_equal(hair_asset_describe(cut.asset, &cut.info), HAIR_OK);
+    cut.each = cut.info.strand_vertices[0];
+    return cut;
+}
+
+static struct cut cut_style(hair_style style)
+{
+    return cut_with(style, 166, 1, 1);
+}
+
+static hair_vec3 vertex(const struct cut* cut, uint32_t guide, uint32_t i)
+{
+    return hair_load3(cut->info.positions + 3 * ((size_t)guide * cut->each + i));
+}
+
+static hair_vec3 tip(const struct cut* cut, uint32_t guide)
+{
+    return vertex(cut, guide, cut->each - 1);
+}
+
+static hair_vec3 scalp_vertex(const struct cut* cut, uint32_t i)
+{
+    return hair_load3(cut->info.scalp_positions + 3 * (size_t)i);
+}
+
+static float guide_length(const struct cut* cut, uint32_t guide)
+{
+    float length = 0;
+    for (uint32_t i = 1; i < cut->each; ++i)
+        length += hair_distance(vertex(cut, guide, i), vertex(cut, guide, i - 1));
+    return length;
+}
+
+// Guides ---------------------------------------------------------------------------------------------------
+
+static void guides_are_finite_and_of_equal_segments(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut cut = cut_style((hair_style)style);
+        assert_int_equal(cut.info.strand_count, 166);
+        assert_int_equal(cut.info.strands_are, HAIR_STRANDS_GUIDES);
+        assert_int_equal(cut.info.format, HAIR_FORMAT_NONE);
+        for (uint32_t guide = 0; guide < cut.info.strand_count; ++guide) {
+            float mean = guide_length(&cut, guide) / (float)(cut.each - 1);
+            assert_true(mean > 5e-4f && mean < 0.1f);
+            for (uint32_t i = 1; i < cut.each; ++i) {
+                // A chord is shorter than its arc: most where curls are tightest, 5 segments a turn.
+                float segment = hair_distance(vertex(&cut, guide, i), vertex(&cut, guide, i - 1));
+                assert_true(segment > 0.7f * mean && segment < 1.3f * mean);
+            }
+        }
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void guides_have_the_vertices_asked_for(void** state)
+{
+    (void)state;
+    const uint32_t counts[] = {2, 3, 32, 256};
+    for (uint32_t i = 0; i < 4; ++i) {
+        hair_style_desc desc = hair_style_desc_default();
+        hair_asset_info info = hair_asset_info_default();
+        hair_asset*     asset;
+        desc.host            = &test.host;
+        desc.strand_vertices = counts[i];
+        assert_int_equal(hair_asset_generate(&desc, &asset), HAIR_OK);
+        assert_int_equal(hair_asset_describe(asset, &info), HAIR_OK);
+        assert_int_equal(info.fewest, counts[i]);
+        assert_int_equal(info.most, counts[i]);
+        hair_asset_destroy(asset);
+    }
+}
+
+static void guides_grow_from_the_vertices_of_the_scalp(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut cut = cut_style((hair_style)style);
+        assert_int_equal(cut.info.scalp_vertex_count, cut.info.strand_count);
+        for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+            hair_vec3 root = vertex(&cut, i, 0), at = scalp_vertex(&cut, i);
+            assert_memory_equal(&root, &at, sizeof root);
+        }
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void guides_stay_out_of_the_bust(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut cut = cut_style((hair_style)style);
+        for (uint32_t guide = 0; guide < cut.info.strand_count; ++guide)
+            for (uint32_t i = 1; i < cut.each; ++i)
+                assert_true(hair_body_distance(vertex(&cut, guide, i)) > -0.0005f);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void guides_leave_the_face_free(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut cut = cut_style((hair_style)style);
+        for (uint32_t guide = 0; guide < cut.info.strand_count; ++guide)
+            for (uint32_t i = 0; i < cut.each; ++i) {
+                hair_vec3 p = vertex(&cut, guide, i);
+                assert_false(fabsf(p.x) < 0.034f && p.z > 0.05f && p.y > 1.50f && p.y < 1.655f);
+            }
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+// Neighbours are guides of one triangle. They may part on the shoulders and round the crown only: one in ten.
+static void neighbouring_guides_go_similar_ways(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut cut   = cut_style((hair_style)style);
+        uint32_t   edges = 3 * cut.info.scalp_triangle_count, apart = 0;
+        for (uint32_t i = 0; i < edges; ++i) {
+            uint32_t a      = cut.info.scalp_triangles[i];
+            uint32_t b      = cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1];
+            float    length = fmaxf(guide_length(&cut, a), guide_length(&cut, b));
+            apart += hair_distance(tip(&cut, a), tip(&cut, b)) > 0.03f + 0.2f * length;
+        }
+        assert_true(apart * 10 < edges);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void length_scales_the_guides(void** state)
+{
+    (void)state;
+    for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        struct cut one = cut_style((hair_style)style), two = cut_with((hair_style)style, 166, 1.5f, 1);
+        float      ratio = two.info.length[1] / one.info.length[1];
+        // A ponytail is combed to its tie first, whatever its length; curls reach their full width only once.
+        if (style == HAIR_STYLE_PONYTAIL)
+            assert_true(ratio > 1.2f && ratio < 1.5f);
+        else
+            assert_true(ratio > 1.35f && ratio < 1.65f);
+        hair_asset_destroy(two.asset);
+        hair_asset_destroy(one.asset);
+    }
+}
+
+static void extreme_lengths_are_finite(void** state)
+{
+    (void)state;
+    const float lengths[] = {0.1f, 4};
+    for (uint32_t i = 0; i < 2 * HAIR_STYLE_COUNT; ++i) {
+        struct cut cut = cut_with((hair_style)(i / 2), 40, lengths[i % 2], 7);
+        for (uint32_t k = 0; k < 3 * cut.info.vertex_count; ++k) assert_true(isfinite(cut.info.positions[k]));
+        assert_true(cut.info.length[0] > 0.001f && cut.info.length[2] < 4.1f);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static int is_same(const struct cut* a, const struct cut* b)
+{
+    size_t size = 3 * sizeof(float) * a->info.vertex_count;
+    return a->info.vertex_count == b->info.vertex_count &&
+           !memcmp(a->info.positions, b->info.positions, size);
+}
+
+static void the_seed_alone_makes_the_difference(void** state)
+{
+    (void)state;
+    struct cut a = cut_with(HAIR_STYLE_CURLY, 64, 1, 3), b = cut_with(HAIR_STYLE_CURLY, 64, 1, 3);
+    struct cut c = cut_with(HAIR_STYLE_CURLY, 64, 1, 4);
+    assert_true(is_same(&a, &b));
+    assert_false(is_same(&a, &c));
+    hair_asset_destroy(c.asset);
+    hair_asset_destroy(b.asset);
+    hair_asset_destroy(a.asset);
+}
+
+// Looks ----------------------------------------------------------------------------------------------------
+
+static void long_hair_reaches_below_the_shoulders(void** state)
+{
+    (void)state;
+    struct cut cut = cut_style(HAIR_STYLE_LONG);
+    assert_true(cut.info.length[1] > 0.30f && cut.info.length[1] < 0.50f);
+    uint32_t low = 0, before = 0, behind = 0;
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+        hair_vec3 end = tip(&cut, i);
+        low += end.y < 1.38f;
+        before += end.z > 0.02f;
+        behind += end.z < -0.06f;
+    }
+    assert_true(low > 150 && before > 15 && behind > 60);
+    hair_asset_destroy(cut.asset);
+}
+
+static void a_bob_ends_at_the_chin(void** state)
+{
+    (void)state;
+    struct cut cut = cut_style(HAIR_STYLE_BOB);
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i)
+        assert_true(tip(&cut, i).y > 1.47f && tip(&cut, i).y < 1.55f);
+    hair_asset_destroy(cut.asset);
+}
+
+static void short_hair_lies_close_to_the_skull(void** state)
+{
+    (void)state;
+    struct cut cut = cut_style(HAIR_STYLE_SHORT);
+    assert_true(cut.info.length[0] > 0.015f && cut.info.length[2] < 0.085f);
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i)
+        for (uint32_t k = 0; k < cut.each; ++k) assert_true(hair_body_distance(vertex(&cut, i, k)) < 0.032f);
+    hair_asset_destroy(cut.asset);
+}
+
+// The tie is where the guides are nearest to one another: a ring of 11 mm behind the crown.
+static void a_ponytail_is_gathered_at_the_back(void** state)
+{
+    (void)state;
+    const hair_vec3 tie = {0, 1.672f, -0.106f};
+    struct cut      cut = cut_style(HAIR_STYLE_PONYTAIL);
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+        float nearest = INFINITY;
+        for (uint32_t k = 0; k < cut.each; ++k)
+            nearest = fminf(nearest, hair_distance(vertex(&cut, i, k), tie));
+        assert_true(nearest < 0.018f);
+        assert_true(tip(&cut, i).y < 1.52f && tip(&cut, i).z < -0.10f && fabsf(tip(&cut, i).x) < 0.04f);
+    }
+    hair_asset_destroy(cut.asset);
+}
+
+static void curls_turn_many_times(void** state)
+{
+    (void)state;
+    const hair_style styles[] = {HAIR_STYLE_CURLY, HAIR_STYLE_AFRO};
+    for (uint32_t s = 0; s < 2; ++s) {
+        struct cut cut = cut_style(styles[s]);
+        for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+            float turn = 0;
+            for (uint32_t k = 2; k < cut.each; ++k) {
+                hair_vec3 a = hair_sub(vertex(&cut, i, k - 1), vertex(&cut, i, k - 2));
+                hair_vec3 b = hair_sub(vertex(&cut, i, k), vertex(&cut, i, k - 1));
+                turn += acosf(fminf(fmaxf(hair_dot(a, b) / (hair_length(a) * hair_length(b)), -1), 1));
+            }
+            assert_true(turn > 3 * 6.2832f);
+        }
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void an_afro_is_round(void** state)
+{
+    (void)state;
+    const hair_vec3 middle = {0, 1.648f, -0.014f};
+    struct cut      cut    = cut_style(HAIR_STYLE_AFRO);
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+        float radius = hair_distance(tip(&cut, i), middle);
+        assert_true(radius > 0.145f && radius < 0.180f);
+    }
+    hair_asset_destroy(cut.asset);
+}
+
+// Scalp ----------------------------------------------------------------------------------------------------
+
+static float corner_angle(hair_vec3 at, hair_vec3 a, hair_vec3 b)
+{
+    hair_vec3 p = hair_sub(a, at), q = hair_sub(b, at);
+    return acosf(hair_dot(p, q) / (hair_length(p) * hair_length(q))) * 57.29578f;
+}
+
+static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
+{
+    for (uint32_t i = 0; i < cut->info.scalp_triangle_count; ++i) {
+        const uint32_t* corner = cut->info.scalp_triangles + 3 * i;
+        hair_vec3       p[3]   = {scalp_vertex(cut, corner[0]), scalp_vertex(cut, corner[1]),
+                                  scalp_vertex(cut, corner[2])};
+        hair_vec3       normal = hair_cross(hair_sub(p[1], p[0]), hair_sub(p[2], p[0]));
+        assert_true(hair_dot(normal, hair_skull_normal(p[0])) > 0);
+        for (int k = 0; k < 3; ++k) assert_true(corner_angle(p[k], p[(k + 1) % 3], p[(k + 2) % 3]) > 20);
+    }
+}
+
+// Euler and Poincare: vertices - edges + triangles is 1 for a sheet without holes. An edge has at most one
+// triangle on either side.
+static void assert_is_one_sheet(const struct cut* cut)
+{
+    uint32_t       count = cut->info.scalp_vertex_count, edges = 0, vertices = 0;
+    unsigned char* way  = calloc((size_t)count * count, 1);
+    unsigned char* used = calloc(count, 1);
+    for (uint32_t i = 0; i < 3 * cut->info.scalp_triangle_count; ++i) {
+        uint32_t a = cut->info.scalp_triangles[i], b = cut->info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1];
+        assert_int_equal(way[(size_t)a * count + b], 0);
+        edges += !way[(size_t)b * count + a];
+        vertices += !used[a];
+        way[(size_t)a * count + b] = 1;
+        used[a]                    = 1;
+    }
+    assert_int_equal(vertices, count);
+    assert_int_equal((int)count - (int)edges + (int)cut->info.scalp_triangle_count, 1);
+    free(used);
+    free(way);
+}
+
+static void the_scalp_is_one_sheet_of_fat_triangles(void** state)
+{
+    (void)state;
+    const uint32_t counts[] = {16, 17, 23, 40, 100, 166, 333, 700};
+    for (uint32_t i = 0; i < 8; ++i)
+        for (uint32_t seed = 0; seed < 3; ++seed)
+            for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+                struct cut cut = cut_with((hair_style)style, counts[i], 0.1f, seed);
+                assert_int_equal(cut.info.scalp_vertex_count, counts[i]);
+                assert_is_one_sheet(&cut);
+                assert_triangles_are_fat_and_face_outwards(&cut);
+                hair_asset_destroy(cut.asset);
+            }
+}
+
+static void roots_lie_on_the_promised_skull(void** state)
+{
+    (void)state;
+    struct cut cut = cut_style(HAIR_STYLE_LONG);
+    for (uint32_t i = 0; i < cut.info.scalp_vertex_count; ++i) {
+        hair_vec3 p = scalp_vertex(&cut, i); // The numbers of hair_asset.h.
+        float     x = p.x / 0.077f, y = (p.y - 1.63f) / 0.098f, z = p.z / 0.096f;
+        assert_true(fabsf(x * x + y * y + z * z - 1) < 1e-4f);
+        // Bare: the face, and what is below the nape.
+        assert_false(p.z > 0.06f && p.y < 1.66f);
+        assert_true(p.y > 1.55f);
+    }
+    hair_asset_destroy(cut.asset);
+}
+
+// Without a parting, whose sides are a comb's line apart.
+static void roots_are_spread_evenly(void** state)
+{
+    (void)state;
+    const uint32_t counts[] = {40, 166, 1000};
+    for (uint32_t i = 0; i < 3; ++i) {
+        struct cut cut = cut_with(HAIR_STYLE_AFRO, counts[i], 1, 1);
+        uint32_t   n   = cut.info.scalp_vertex_count;
+        float      sum = 0, least = INFINITY, most = 0;
+        for (uint32_t a = 0; a < n; ++a) {
+            float nearest = INFINITY;
+            for (uint32_t b = 0; b < n; ++b)
+                if (a != b)
+                    nearest = fminf(nearest, hair_distance(scalp_vertex(&cut, a), scalp_vertex(&cut, b)));
+            sum += nearest;
+            least = fminf(least, nearest);
+            most  = fmaxf(most, nearest);
+        }
+        assert_true(least > 0.65f * sum / (float)n);
+        assert_true(most < 1.35f * sum / (float)n);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+static void no_triangle_lies_across_the_parting(void** state)
+{
+    (void)state;
+    struct cut cut = cut_style(HAIR_STYLE_LONG);
+    for (uint32_t i = 0; i < 3 * cut.info.scalp_triangle_count; ++i) {
+        hair_vec3 a = scalp_vertex(&cut, cut.info.scalp_triangles[i]);
+        hair_vec3 b = scalp_vertex(&cut, cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1]);
+        if (a.z < -0.03f || b.z < -0.03f || a.y < 1.66f || b.y < 1.66f) continue;
+        assert_true((a.x > 0.003f) == (b.x > 0.003f));
+    }
+    hair_asset_destroy(cut.asset);
+}
+
+// Limits ---------------------------------------------------------------------------------------------------
+
+static void the_most_guides_take_seconds_at_most(void** state)
+{
+    (void)state;
+    struct timespec from, to;
+    timespec_get(&from, TIME_UTC);
+    struct cut cut = cut_with(HAIR_STYLE_LONG, 4096, 1, 1);
+    timespec_get(&to, TIME_UTC);
+    assert_true(difftime(to.tv_sec, from.tv_sec) < 20); // Sanitizers and a shared machine included.
+    assert_int_equal(cut.info.strand_count, 4096);
+    hair_asset_destroy(cut.asset);
+}
+
+static void every_allocation_may_fail(void** state)
+{
+    (void)state;
+    hair_style_desc desc = hair_style_desc_default();
+    desc.host            = &test.host;
+    desc.guide_count     = 20;
+    hair_result result   = HAIR_ERROR_MEMORY;
+    for (uint32_t refuse = 1; result; ++refuse) {
+        hair_asset* asset = NULL;
+        test.allocations  = 0;
+        test.errors       = 0;
+        test.refuse       = refuse;
+        result            = hair_asset_generate(&desc, &asset);
+        if (!result) {
+            hair_asset_destroy(asset);
+            assert_true(refuse > 10);
+            break;
+        }
+        assert_int_equal(result, HAIR_ERROR_MEMORY);
+        assert_null(asset);
+        assert_int_equal(test.errors, 1);
+        assert_int_equal(test.blocks, 0);
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(guides_are_finite_and_of_equal_segments),
+        TEST(guides_have_the_vertices_asked_for),
+        TEST(guides_grow_from_the_vertices_of_the_scalp),
+        TEST(guides_stay_out_of_the_bust),
+        TEST(guides_leave_the_face_free),
+        TEST(neighbouring_guides_go_similar_ways),
+        TEST(length_scales_the_guides),
+        TEST(extreme_lengths_are_finite),
+        TEST(the_seed_alone_makes_the_difference),
+        TEST(long_hair_reaches_below_the_shoulders),
+        TEST(a_bob_ends_at_the_chin),
+        TEST(short_hair_lies_close_to_the_skull),
+        TEST(a_ponytail_is_gathered_at_the_back),
+        TEST(curls_turn_many_times),
+        TEST(an_afro_is_round),
+        TEST(the_scalp_is_one_sheet_of_fat_triangles),
+        TEST(roots_lie_on_the_promised_skull),
+        TEST(roots_are_spread_evenly),
+        TEST(no_triangle_lies_across_the_parting),
+        TEST(the_most_guides_take_seconds_at_most),
+        TEST(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
