@@ -97,7 +97,7 @@ static const struct member members[] = {
     FLOAT(hair_draw_params, density),
     UINT(hair_draw_params, segments),
     UINT(hair_draw_params, smooth_vertices),
-    UINT(hair_draw_params, followers),
+    UINT(hair_draw_params, colored),
 };
 
 static const struct {
