@@ -46,19 +46,20 @@ static const char* find_built_in(const char* name)
     return NULL;
 }
 
-static char* read_file(const hair_host* host, const char* folder, const char* name)
+// *out stays NULL when the file is not there or too long.
+static hair_result read_file(const hair_host* host, const char* folder, const char* name, char** out)
 {
     char path[1024];
-    if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, name) >= sizeof path) return NULL;
+    if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, name) >= sizeof path) return HAIR_OK;
     FILE* file = fopen(path, "rb");
-    if (!file) return NULL;
+    if (!file) return HAIR_OK;
     char* text = hair_alloc(host, MAX_FILE + 1, 1); // Zeroed, so that the text ends where the file does.
-    if (text && fread(text, 1, MAX_FILE, file) == MAX_FILE) {
+    if (text && fread(text, 1, MAX_FILE, file) < MAX_FILE)
+        *out = text;
+    else
         hair_free(host, text);
-        text = NULL;
-    }
     fclose(file);
-    return text;
+    return text ? HAIR_OK : hair_fail_memory(host, "shader text");
 }
 
 // The name between quotes of an #include line, or a length of 0.
@@ -124,7 +125,9 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
         if (strcmp(out->file[i], own) == 0) return HAIR_OK; // Each file once.
     ++out->files;
 
-    char*       read = reader->folder ? read_file(reader->host, reader->folder, own) : NULL;
+    char*       read   = NULL;
+    hair_result result = reader->folder ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
+    if (result) return result;
     const char* text = reader->folder ? read : find_built_in(own);
     if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);
     if (number > 0) {
@@ -132,7 +135,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
         append(&reader->text, directive,
                (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", number));
     }
-    hair_result result = put_lines(reader, text, number);
+    result = put_lines(reader, text, number);
     hair_free(reader->host, read);
     return result;
 }
