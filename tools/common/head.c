@@ -162,7 +162,6 @@ static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
     memcpy(mesh->positions + 3 * vertex, &p, sizeof p);
     g = (point){g.x / size, g.y / size, g.z / size};
     memcpy(mesh->normals + 3 * vertex, &g, sizeof g);
-    head_color(p, mesh->colors + 3 * vertex);
 }
 
 static int grow_vertices(struct net* net)
@@ -267,7 +266,7 @@ int head_mesh_create(struct head_mesh* out)
     mesh.triangles = malloc((size_t)net.triangle_capacity * 3 * sizeof(uint32_t));
     int failed =
         !net.distance || !net.vertex || !mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles;
-    failed = failed || build(&net);
+    failed = failed || build(&net) || head_cut_collar(&mesh);
     free(net.vertex);
     free(net.distance);
     if (failed)

@@ -74,10 +74,10 @@ static float skull(point p)
     return ellipsoid(p, (point){0, 1.63f, 0}, (point){0.077f, 0.098f, 0.096f});
 }
 
-// Where the built-in haircuts have hair, nothing but the skull may show, so that their roots lie on the skin:
-// 1 there, 0 from 8 mm below the hairline on. Azimuth from the face in degrees, height in metres.
-static float scalp(point p)
+// How far p is above the hairline of the built-in haircuts. m.
+static float above_hairline(point p)
 {
+    // Azimuth from the face, degrees, and height, m.
     static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
                                         {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
                                         {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
@@ -86,8 +86,7 @@ static float scalp(point p)
     int                i             = 0;
     while (i < 13 && hairline[i + 1][0] < azimuth) ++i;
     float t = (azimuth - hairline[i][0]) / (hairline[i + 1][0] - hairline[i][0]);
-    float y = mix(hairline[i][1], hairline[i + 1][1], clamp(t, 0, 1));
-    return smooth(y - 0.010f, y - 0.002f, p.y);
+    return p.y - mix(hairline[i][1], hairline[i + 1][1], clamp(t, 0, 1));
 }
 
 // |x| without the crease: what is made of two halves is round where they meet.
@@ -156,7 +155,7 @@ static float mouth(point p, float d)
         d, limb(q, (point){0.0040f, 1.5502f, 0.0862f}, (point){0.0205f, 1.5532f, 0.0780f}, 0.0058f, 0.0024f),
         0.006f);
     d = carve(
-        d, limb(q, (point){0.0040f, 1.5545f, 0.0962f}, (point){0.0250f, 1.5535f, 0.0825f}, 0.0009f, 0.0006f),
+        d, limb(q, (point){0.0040f, 1.5545f, 0.0962f}, (point){0.0250f, 1.5535f, 0.0825f}, 0.0005f, 0.0004f),
         0.005f);
     return carve(d, ellipsoid(p, (point){0, 1.5375f, 0.0965f}, (point){0.016f, 0.004f, 0.006f}), 0.012f);
 }
@@ -188,6 +187,7 @@ static float trunk(point p)
     d = join(d, limb(q, (point){0.030f, 1.434f, -0.032f}, (point){0.158f, 1.370f, -0.025f}, 0.040f, 0.044f),
              0.06f);
     d = join(d, ellipsoid(q, (point){0.062f, 1.330f, 0.045f}, (point){0.080f, 0.075f, 0.035f}), 0.07f);
+    d = join(d, ellipsoid(q, (point){0.055f, 1.350f, -0.062f}, (point){0.085f, 0.095f, 0.045f}), 0.06f);
     return join(d, limb(q, (point){0.024f, 1.407f, 0.020f}, (point){0.140f, 1.410f, -0.008f}, 0.006f, 0.006f),
                 0.03f);
 }
@@ -216,14 +216,15 @@ float head_distance(point p)
         if (p.z > -0.03f && p.y < 1.70f) head = bones(p, head);
         d = p.y < 1.62f ? join(neck(p, d), head, 0.016f) : head;
         if (p.z > 0.04f && p.y > 1.48f && p.y < 1.68f) d = mouth(p, nose(p, eye(p, d)));
-        if (p.y > 1.52f) d = mix(d, bone, scalp(p));
+        // Where hair grows nothing but the skull may show, so that its roots lie on the skin.
+        if (p.y > 1.52f) d = mix(d, bone, smooth(-0.010f, -0.002f, above_hairline(p)));
         if (p.x > 0.05f && fabsf(p.z) < 0.06f && p.y > 1.53f && p.y < 1.68f) d = join(d, ear(p), 0.005f);
     }
-    if (p.y < 1.50f) d -= 0.0025f * smooth(-0.001f, 0.003f, head_below_collar(p));
+    if (p.y < 1.50f) d -= 0.0025f * smooth(0, 0.004f, head_below_collar(p));
     return fmaxf(d, HEAD_BOTTOM - p.y);
 }
 
-void head_color(point p, float rgb[3])
+void head_color(point p, int is_worn, float rgb[3])
 {
     const float skin[3] = {0.39f, 0.255f, 0.195f}, lips[3] = {0.30f, 0.135f, 0.115f},
                 hair[3]  = {0.11f, 0.07f, 0.055f};
@@ -241,7 +242,6 @@ void head_color(point p, float rgb[3])
     brow *= smooth(0.011f, 0.018f, p.x) * smooth(0.051f, 0.044f, p.x) * 0.6f;
     lip *= smooth(0.0255f, 0.0225f, p.x);
     // Skin that hair grows from is darkened by it, as at a shaved head.
-    float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.5f * scalp(p));
-    float worn = smooth(0, 0.002f, head_below_collar(p));
-    for (int i = 0; i < 3; ++i) rgb[i] = mix(mix(mix(skin[i], lips[i], lip), hair[i], dark), cloth[i], worn);
+    float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.6f * smooth(0, 0.012f, above_hairline(p)));
+    for (int i = 0; i < 3; ++i) rgb[i] = is_worn ? cloth[i] : mix(mix(skin[i], lips[i], lip), hair[i], dark);
 }

@@ -2,6 +2,8 @@
 #ifndef TOOLS_COMMON_HEAD_SHAPE_H
 #define TOOLS_COMMON_HEAD_SHAPE_H
 
+#include "tools/common/head.h"
+
 struct head_point {
     float x, y, z;
 };
@@ -15,7 +17,10 @@ float head_distance(struct head_point p);
 // How far p is below the collar of the garment. m.
 float head_below_collar(struct head_point p);
 
-// Linear reflectance of the surface at p.
-void head_color(struct head_point p, float rgb[3]);
+// Linear reflectance of the skin or of the garment at p.
+void head_color(struct head_point p, int is_worn, float rgb[3]);
+
+// Cut a mesh along the collar and colour it. Returns 0, or -1 when memory ran out.
+int head_cut_collar(struct head_mesh* mesh);
 
 #endif
