@@ -288,7 +288,7 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_c
     float       top  = smooth(1.625f, 1.705f, root.y);
     struct walk walk = {
         .comb      = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.25f, 1.3f),
-        .rise      = mix(0.30f, 0.50f, top),
+        .rise      = mix(0.25f, 0.32f, top),
         .clearance = mix(0.005f, 0.013f, top) + 0.003f * noise(root, 0.025f, seed),
         .lift      = 0.02f,
         .gravity   = 8,
