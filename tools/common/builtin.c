@@ -11,7 +11,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
-            " 'settings': {'clump': 0.3, 'radius': 1e-4, 'segments': 8, 'pull_root': 8, 'pull_tip': 6}}"},
+            " 'settings': {'clump': 0.3, 'radius': 1e-4, 'segments': 8, 'guides': 1000, 'iterations': 8, "
+            "'pull_root': 8, 'pull_tip': 6}}"},
     {NULL, NULL},
 };
 

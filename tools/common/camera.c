@@ -13,12 +13,16 @@ void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const flo
     }
 }
 
-static float half_diagonal(const struct hair_bounds* bounds)
+// Of a sphere that the haircut fills: its corners are empty, so that the half diagonal alone is too much.
+static float apparent_radius(const struct hair_bounds* bounds)
 {
-    float sum = 0;
-    for (int i = 0; i < 3; ++i)
-        sum += (bounds->upper[i] - bounds->lower[i]) * (bounds->upper[i] - bounds->lower[i]);
-    return 0.5f * sqrtf(sum);
+    float sum = 0, most = 0;
+    for (int i = 0; i < 3; ++i) {
+        float half = 0.5f * (bounds->upper[i] - bounds->lower[i]);
+        sum += half * half;
+        most = fmaxf(most, half);
+    }
+    return fmaxf(0.75f * sqrtf(sum), 1.08f * most);
 }
 
 void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds)
@@ -26,7 +30,7 @@ void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bound
     float aspect   = (float)scene->width / (float)scene->height;
     float half     = 0.5f * glm_rad(scene->field_of_view);
     float least    = aspect < 1 ? atanf(tanf(half) * aspect) : half;
-    float distance = fmaxf(half_diagonal(bounds) / sinf(least), 1e-4f);
+    float distance = fmaxf(apparent_radius(bounds) / sinf(least), 1e-4f);
     vec3  towards  = {0.45f, 0.12f, 1};
     glm_vec3_normalize(towards);
     for (int i = 0; i < 3; ++i) {

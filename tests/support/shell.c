@@ -1,0 +1,52 @@
+// shell.c - a tool as its users call it: shell commands, exit codes, words.
+#define _XOPEN_SOURCE 700
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+char hair_test_said[16384];
+
+static char folder[64];
+static char program[4096];
+
+int hair_test_shell_start(const char* tool)
+{
+    snprintf(folder, sizeof folder, "/tmp/hair-shell-test-XXXXXX");
+    return realpath(tool, program) && mkdtemp(folder) ? access(program, X_OK) : -1;
+}
+
+int hair_test_shell_finish(void)
+{
+    return hair_test_shell("rm -r \"$D\"");
+}
+
+int hair_test_shell(const char* command)
+{
+    static char line[8192];
+    int         length = snprintf(line, sizeof line, "{ T=%s; D=%s; %s\n} 2>&1", program, folder, command);
+    assert_in_range(length, 1, sizeof line - 1);
+    FILE* pipe = popen(line, "r");
+    assert_non_null(pipe);
+    size_t size          = fread(hair_test_said, 1, sizeof hair_test_said - 1, pipe);
+    hair_test_said[size] = 0;
+    int status           = pclose(pipe);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+void hair_test_shell_expect(int code, const char* command, const char* words)
+{
+    int got = hair_test_shell(command);
+    if (got != code || !strstr(hair_test_said, words))
+        fail_msg("%s: exit %d, not %d; said \"%s\", without \"%s\"", command, got, code, hair_test_said,
+                 words);
+}

@@ -1,0 +1,17 @@
+// shell.h - a tool as its users call it: shell commands, exit codes, words.
+#ifndef HAIR_TESTS_SUPPORT_SHELL_H
+#define HAIR_TESTS_SUPPORT_SHELL_H
+
+// For cmocka_run_group_tests: a new folder, and its end. `tool` is a path.
+int hair_test_shell_start(const char* tool);
+int hair_test_shell_finish(void);
+
+extern char hair_test_said[16384]; // By the last command, both streams.
+
+// Run a shell command in which $T is the tool and $D the folder. Returns its exit code.
+int hair_test_shell(const char* command);
+
+// The command must exit with `code` and say `words`.
+void hair_test_shell_expect(int code, const char* command, const char* words);
+
+#endif

@@ -1,0 +1,370 @@
+// capture_test.c - hair-capture as its users call it: pictures, videos, hashes, exit codes, nothing half written.
+#define _XOPEN_SOURCE 700
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-capture"
+
+// As little hair and as few pixels as show the point.
+#define SMALL "--size 64x36 --followers 300 --guides 32 --samples 1 --set iterations=2"
+
+// Nothing but what was there before: no temporary left.
+#define ANY "[A-Za-z0-9]"
+#define TEMPORARY "*." ANY ANY ANY ANY ANY ANY
+#define CLEAN " && test -z \"$(find $D -name '" TEMPORARY "')\""
+
+#define expect hair_test_shell_expect
+
+static void wrong_use_exits_with_2(void** state)
+{
+    (void)state;
+    static const char* const wrong[][2] = {
+        {"", "nothing to do"},
+        {"-o $D/a.png --frames 3", "--frames"},
+        {"-o $D/a.png --frames 3:3", "A less than B"},
+        {"-o $D/a.png --frames 4:3", "A less than B"},
+        {"-o $D/a.png --frames -1:3", "--frames"},
+        {"-o $D/a.png --frames 0:99999999999999999999", "--frames"},
+        {"-o $D/a.png --frames 0:2", "several frames"},
+        {"-o $D/a.exr --frames 0:2", "several frames"},
+        {"-o $D/a.jpg", "none of .png"},
+        {"-o $D", "none of .png"},
+        {"-o $D/%s.png", "no other %"},
+        {"-o $D/%n%d.png", "no other %"},
+        {"-o $D/%04d%d.png", "no other %"},
+        {"-o $D/a.mp4 --size 65x36", "even"},
+        {"-o $D/a.png --size 0x36", "--size"},
+        {"-o $D/a.png --size 64", "--size"},
+        {"-o $D/a.png --size 64x99999", "--size"},
+        {"-o $D/a.png --fps 0", "--fps"},
+        {"-o $D/a.png --fps x", "--fps"},
+        {"-o $D/a.png --samples 0", "--samples"},
+        {"-o $D/a.png --supersample 9", "--supersample"},
+        {"-o $D/a.png --device 99", "device is 99"},
+        {"-o $D/a.png --device -2", "--device"},
+        {"-o $D/a.png --scene dance", "no scene dance"},
+        {"-o $D/a.png --style dance", "no style dance"},
+        {"-o $D/a.png --motion dance", "no motion dance"},
+        {"-o $D/a.png --solver dance", "not one of: redblack"},
+        {"-o $D/a.png --primitive dance", "not one of: ribbons, lines"},
+        {"-o $D/a.png --set damping", "KEY=VALUE"},
+        {"-o $D/a.png --set dance=1", "no setting dance"},
+        {"-o $D/a.png --set =1", "no setting"},
+        {"-o $D/a.png --set damping=", "damping is empty"},
+        {"-o $D/a.png --set damping=nan", "not a finite number"},
+        {"-o $D/a.png --set damping=1e999", "not a finite number"},
+        {"-o $D/a.png --set iterations=1.5", "not a whole number"},
+        {"-o $D/a.png --set iterations=-1", "not a whole number"},
+        {"-o $D/a.png --set damping=-1", "hair_physics.damping is -1"},
+        {"-o $D/a.png --set segments=257", "hair_look.segments"},
+        {"-o $D/a.png --share 2 --groom $D/x.hair", "hair_import.share"},
+        {"-o $D/a.png --guides 99999", "guide_count"},
+        {"-o $D/a.png --groom a --style bob", "too many"},
+        {"-o $D/a.png --scene demo a.json", "too many"},
+        {"-o $D/a.png a.json b.json", "b.json"},
+        {"-o - --hash", "standard output"},
+        {"-o - --stats -", "standard output"},
+        {"--dance", "--help"},
+        {"--groom", "--help"},
+    };
+    assert_int_equal(hair_test_shell("printf 'HAIR' >$D/x.hair; head -c 124 /dev/zero >>$D/x.hair"), 0);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[512];
+        snprintf(command, sizeof command, "$T %s", wrong[i][0]);
+        expect(2, command, wrong[i][1]);
+    }
+    expect(1, "test -e $D/a.png -o -e $D/a.mp4 -o -e $D/a.exr", "");
+}
+
+static void help_and_version_are_printed_on_the_standard_output(void** state)
+{
+    (void)state;
+    expect(0, "$T --help 2>/dev/null", "gravity.y        -9.81");
+    assert_non_null(strstr(hair_test_said, "Scenes: demo"));
+    expect(0, "$T --version 2>/dev/null", "hair-capture 0.");
+    expect(1, "$T --help >/dev/full", "");
+}
+
+static void unusable_input_exits_with_4_and_says_where(void** state)
+{
+    (void)state;
+    static const char* const wrong[][2] = {
+        {"", "line 2"},
+        {"[]", "must be an object"},
+        {"{\"frames\": 1, \"frames\": 2}", "duplicate"},
+        {"{\"dance\": 1}", "there is no dance"},
+        {"{\"camera\": {\"eye\": [0, 0, 1], \"up\": 1}}", "there is no camera.up"},
+        {"{\"camera\": {\"eye\": [0, 0]}}", "camera.eye must be 3 numbers"},
+        {"{\"camera\": {\"eye\": [0, 0, \"1\"]}}", "camera.eye[2] must be a number"},
+        {"{\"camera\": {\"eye\": [0, 0, 1e9]}}", "in [-1000000, 1000000]"},
+        {"{\"camera\": {\"eye\": [0, 0, 0]}}", "both eye and target"},
+        {"{\"camera\": {\"eye\": [1, 1, 1], \"target\": [1, 1, 1]}}", "not its target"},
+        {"{\"frames\": 1.5}", "a whole number in [1, 1000000]"},
+        {"{\"head\": 1}", "true or false"},
+        {"{\"style\": \"dance\"}", "no style dance"},
+        {"{\"motion\": \"dance\"}", "no motion dance"},
+        {"{\"motion\": [{\"time\": 1}, {\"time\": 1}]}", "in order of time"},
+        {"{\"motion\": [{\"time\": 1, \"dance\": 1}]}", "motion[0].dance"},
+        {"{\"solids\": [{\"shape\": \"cube\"}]}", "solids[0].shape"},
+        {"{\"settings\": {\"dance\": 1}}", "no setting dance"},
+        {"{\"settings\": {\"damping\": null}}", "damping must be a number"},
+        {"{\"groom\": \"\"}", "the name of a file"},
+        {"{\"groom\": \"no/such.hair\"}", "no/such.hair"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[512];
+        snprintf(command, sizeof command, "echo '%s' >$D/s.json; $T $D/s.json -o $D/a.png", wrong[i][0]);
+        expect(4, command, wrong[i][1]);
+    }
+    expect(4, "$T $D/none.json -o $D/a.png", "none.json");
+    expect(4, "$T --groom $D/none.hair -o $D/a.png", "none.hair");
+    expect(4, "$T --groom $D/s.json -o $D/a.png", "hair-capture:");
+    expect(1, "test -e $D/a.png", "");
+}
+
+static void a_driver_that_is_too_old_exits_with_3(void** state)
+{
+    (void)state;
+    expect(3, "LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=softpipe $T " SMALL " --frames 0:1 -o $D/a.png",
+           "no EGL device gives OpenGL 4.5 core");
+    expect(1, "test -e $D/a.png", "");
+}
+
+static void hashes_are_the_same_twice_and_with_any_number_of_threads(void** state)
+{
+    (void)state;
+    expect(0,
+           "$T --hash --frames 2:4 " SMALL " >$D/1 && $T --hash --frames 2:4 " SMALL
+           " >$D/2 && cmp $D/1 $D/2",
+           "");
+    expect(0,
+           "for n in 0 1 2; do LP_NUM_THREADS=$n $T --hash --frames 2:4 " SMALL
+           " >$D/2 && cmp $D/1 $D/2 || exit; done",
+           "");
+    expect(0, "cat $D/1", "strands ");
+    assert_non_null(strstr(hair_test_said, "\npixels "));
+    assert_int_equal(strlen(hair_test_said), strlen("strands 0123456789abcdef\npixels 0123456789abcdef\n"));
+}
+
+// Of two lines both must differ: strands and pixels.
+static void hashes_tell_one_capture_from_another(void** state)
+{
+    (void)state;
+    static const char* const others[] = {"--frames 3:5", "--frames 2:4 --style bob", "--frames 2:4 --seed 7",
+                                         "--frames 2:4 --set gravity.y=-5", "--frames 2:4 --motion still"};
+    expect(0, "$T --hash --frames 2:4 " SMALL " >$D/1", "");
+    for (size_t i = 0; i < sizeof others / sizeof *others; ++i) {
+        char command[512];
+        snprintf(command, sizeof command, "$T --hash %s " SMALL " >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
+                 others[i]);
+        expect(0, command, "4\n");
+    }
+    // What is only looked at leaves the strands alone.
+    expect(0,
+           "$T --hash --frames 2:4 " SMALL
+           " --set root_color.r=0.9 >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
+           "3\n");
+}
+
+static void a_frame_is_the_same_alone_as_among_others(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:4 -o $D/f_%03d.png && $T " SMALL " --frames 3:4 -o $D/f.png", "");
+    expect(0, "cmp $D/f.png $D/f_003.png && test $(ls $D/f_*.png | wc -l) = 4" CLEAN, "");
+    expect(0, "! cmp -s $D/f_000.png $D/f_003.png", "");
+    expect(0, "$T " SMALL " --frames 3:4 -o $D/f_%d.png && cmp $D/f.png $D/f_3.png", "");
+}
+
+static void pictures_and_videos_are_in_their_formats(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:1 -o $D/p.png && head -c 8 $D/p.png | od -An -tx1",
+           "89 50 4e 47 0d 0a 1a 0a");
+    expect(0, "$T " SMALL " --frames 0:1 -o $D/p.exr && head -c 4 $D/p.exr | od -An -tx1", "76 2f 31 01");
+    expect(0, "$T " SMALL " --frames 0:2 -o $D/p.y4m && head -n 1 $D/p.y4m",
+           "YUV4MPEG2 W64 H36 F30000:1000 Ip A1:1 C420jpeg");
+    // A header line, then twice "FRAME" and one and a half bytes a pixel.
+    expect(0, "test $(tail -n +2 $D/p.y4m | wc -c) = $((2 * (6 + 64 * 36 * 3 / 2)))", "");
+    expect(0, "$T " SMALL " --frames 0:2 -o - | cmp - $D/p.y4m", "");
+    expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o - | tail -n 1 | wc -c", "3\n");
+    expect(0, "$T " SMALL " --size 3x5 --frames 0:1 -o - | wc -c", "");
+    expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o $D/1.png && test -s $D/1.png" CLEAN, "");
+}
+
+static void an_mp4_can_be_played_before_all_of_it_is_there(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:3 -o $D/v.mp4 && head -c 8 $D/v.mp4 | tail -c 4", "ftyp");
+    expect(0,
+           "test $(grep -abo moov $D/v.mp4 | cut -d: -f1) -lt $(grep -abo mdat $D/v.mp4 | cut -d: -f1)" CLEAN,
+           "");
+    expect(0, "ffmpeg -v error -i $D/v.mp4 -f rawvideo -pix_fmt gray - | wc -c", "6912\n"); // 3 x 64 x 36
+}
+
+static void an_encoder_that_fails_leaves_no_video(void** state)
+{
+    (void)state;
+    expect(1, "PATH=/nonexistent $T " SMALL " --frames 0:1 -o $D/w.mp4", "cannot start ffmpeg");
+    expect(0, "mkdir -p $D/bin && printf '#!/bin/sh\\nexit 7\\n' >$D/bin/ffmpeg && chmod +x $D/bin/ffmpeg",
+           "");
+    expect(1, "PATH=$D/bin:$PATH $T " SMALL " --frames 0:30 -o $D/w.mp4", "ffmpeg");
+    expect(0, "printf '#!/bin/sh\\ncat >/dev/null; kill -9 $$\\n' >$D/bin/ffmpeg", "");
+    expect(1, "PATH=$D/bin:$PATH $T " SMALL " --frames 0:2 -o $D/w.mp4", "status 137");
+    expect(0, "! test -e $D/w.mp4" CLEAN, "");
+}
+
+static void a_full_disk_exits_with_1_and_leaves_the_device(void** state)
+{
+    (void)state;
+    expect(1, "$T " SMALL " --frames 0:2 -o /dev/full", "No space left");
+    expect(0, "ln -s /dev/full $D/full.png && ln -s /dev/full $D/full.exr && ln -s /dev/full $D/full.mp4",
+           "");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/full.png", "full.png");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/full.exr", "full.exr");
+    expect(1, "$T " SMALL " --frames 0:2 -o $D/full.mp4", "ffmpeg");
+    expect(1, "$T " SMALL " --frames 0:1 --stats /dev/full", "No space left");
+    expect(1, "$T " SMALL " --frames 0:1 --hash >/dev/full", "cannot write");
+    expect(0, "test -c /dev/full && test -L $D/full.png && test -L $D/full.mp4", "");
+}
+
+static void what_is_no_regular_file_is_written_in_place(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:1 -o /dev/null && test -c /dev/null", "");
+    expect(0,
+           "mkfifo $D/p.fifo; $T " SMALL " --frames 0:1 -o $D/p.fifo & head -n 1 $D/p.fifo && wait $!; "
+           "test -p $D/p.fifo",
+           "YUV4MPEG2");
+    expect(0, "$T " SMALL " --frames 0:1 -o /dev/stdout | head -n 1", "YUV4MPEG2");
+}
+
+static void a_reader_that_goes_away_exits_with_1(void** state)
+{
+    (void)state;
+    expect(1,
+           "{ $T " SMALL " --size 640x360 --frames 0:9 -o -; echo $? >$D/code; } | head -c 9 >/dev/null; "
+           "exit $(cat $D/code)",
+           "Broken pipe");
+}
+
+static void an_interrupted_capture_exits_with_1_and_keeps_the_old_file(void** state)
+{
+    (void)state;
+    static const char* const names[] = {"i.y4m", "i.mp4"};
+    for (int i = 0; i < 2; ++i) {
+        char command[512];
+        snprintf(command, sizeof command,
+                 "echo old >$D/%s; $T " SMALL " --frames 0:100000 -o $D/%s & "
+                 "while ! ls $D/" TEMPORARY
+                 " >/dev/null 2>&1; do sleep 0.02; done; sleep 0.2; kill -INT $!; wait $!",
+                 names[i], names[i]);
+        expect(1, command, "interrupted after frame");
+        snprintf(command, sizeof command, "cat $D/%s" CLEAN, names[i]);
+        expect(0, command, "old\n");
+    }
+}
+
+static void a_folder_that_does_not_exist_exits_with_1(void** state)
+{
+    (void)state;
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/none/a.png", "none/a.png");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/none/a_%d.png", "none/a_");
+    expect(1, "$T " SMALL " --frames 0:1 --stats $D/none/s.json", "none/s.json");
+}
+
+static void stats_tell_what_was_drawn(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
+    assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
+    assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
+    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/redblack\""));
+    assert_non_null(strstr(hair_test_said, "\"repairs\""));
+    expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
+}
+
+static void scene_files_say_what_options_say(void** state)
+{
+    (void)state;
+    expect(
+        0,
+        "echo '{\"style\": \"bob\", \"motion\": \"turn\", \"size\": [64, 36], \"fps\": 20, \"frames\": 2,"
+        " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}, \"light\": {\"color\": [2, 2, 2]},"
+        " \"settings\": {\"followers\": 300, \"gravity.y\": -5, \"primitive\": \"lines\"}}' >$D/s.json",
+        "");
+    expect(
+        0,
+        "$T $D/s.json --hash >$D/1 && echo '{\"style\": \"bob\", \"motion\": \"turn\", \"frames\": 2,"
+        " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}}' >$D/t.json && $T $D/t.json --hash"
+        " --size 64x36 --fps 20 --followers 300 --set gravity.y=-5 --primitive lines --set light.r=2"
+        " --set light.g=2 --set light.b=2 >$D/2 && cmp $D/1 $D/2",
+        "");
+}
+
+static void haircuts_from_files_are_framed_and_found_beside_their_scene(void** state)
+{
+    (void)state;
+    expect(0, "TOOL=$(dirname $T)/hair-groom; $TOOL generate bob $D/bob.tfx --vertices 16 --guides 64", "");
+    expect(0, "$T --groom $D/bob.tfx --size 64x36 --frames 0:2 --hash >$D/1", "");
+    expect(
+        0,
+        "echo '{\"groom\": \"bob.tfx\", \"motion\": \"turn\", \"frames\": 2, \"size\": [64, 36]}' >$D/s.json",
+        "");
+    expect(0, "cd / && $T $D/s.json --hash >$D/2 && cmp $D/1 $D/2", "");
+    expect(0, "$T --groom $D/bob.tfx --head --size 64x36 --frames 0:2 --hash >$D/2 && ! cmp -s $D/1 $D/2",
+           "");
+}
+
+static void fur_stands_on_a_ball(void** state)
+{
+    (void)state;
+    expect(0,
+           "echo '{\"fur\": {\"strands\": 2000, \"length\": 0.03}, \"motion\": \"shake\"}' >$D/s.json; "
+           "$T $D/s.json --frames 1:2 --size 64x36 --stats - --quiet",
+           "\"strands\": 2000");
+}
+
+static int start(void** state)
+{
+    (void)state;
+    return hair_test_shell_start(TOOL);
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return hair_test_shell_finish();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wrong_use_exits_with_2),
+        cmocka_unit_test(help_and_version_are_printed_on_the_standard_output),
+        cmocka_unit_test(unusable_input_exits_with_4_and_says_where),
+        cmocka_unit_test(a_driver_that_is_too_old_exits_with_3),
+        cmocka_unit_test(hashes_are_the_same_twice_and_with_any_number_of_threads),
+        cmocka_unit_test(hashes_tell_one_capture_from_another),
+        cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
+        cmocka_unit_test(pictures_and_videos_are_in_their_formats),
+        cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),
+        cmocka_unit_test(an_encoder_that_fails_leaves_no_video),
+        cmocka_unit_test(a_full_disk_exits_with_1_and_leaves_the_device),
+        cmocka_unit_test(what_is_no_regular_file_is_written_in_place),
+        cmocka_unit_test(a_reader_that_goes_away_exits_with_1),
+        cmocka_unit_test(an_interrupted_capture_exits_with_1_and_keeps_the_old_file),
+        cmocka_unit_test(a_folder_that_does_not_exist_exits_with_1),
+        cmocka_unit_test(stats_tell_what_was_drawn),
+        cmocka_unit_test(scene_files_say_what_options_say),
+        cmocka_unit_test(haircuts_from_files_are_framed_and_found_beside_their_scene),
+        cmocka_unit_test(fur_stands_on_a_ball),
+    };
+    return cmocka_run_group_tests(tests, start, finish);
+}
