@@ -126,6 +126,26 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     hair_test_strands_free(&strands);
 }
 
+// Of points chosen at random from a plane the nearest is half their spacing (density^-1/2) away on average, of a
+// square lattice 0.38 of it.
+static void guides_lie_more_evenly_than_by_chance(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(10000);
+    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
+    hair_groom*              groom   = make(&desc);
+    double                   sum     = 0;
+    for (uint32_t i = 0; i < 10000; ++i) {
+        const struct hair_follower* follower = &groom->followers[i];
+        hair_vec3                   root     = hair_test_single(groom, follower, 0);
+        sum += (double)hair_distance(root, vertex(groom, follower->guide0, 0)) / 10000;
+    }
+    printf("guides are %.2f of their spacing away\n", sum * sqrt(1000));
+    assert_true(sum * sqrt(1000) < 0.45);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
 // By turns over a square of 10 cm, and over one of 1 cm beside it.
 static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
 {
@@ -361,6 +381,7 @@ int main(void)
         TEST(strands_given_as_guides_are_the_guides_in_their_order),
         TEST(guides_are_as_many_as_asked_for_or_one_in_ten),
         TEST(a_few_strands_of_another_shape_get_guides_of_their_own),
+        TEST(guides_lie_more_evenly_than_by_chance),
         TEST(guides_go_where_strands_differ_more_than_where_they_are_many),
         TEST(strands_that_are_all_alike_are_shared_out_too),
         TEST(a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_at_least_four),
