@@ -49,10 +49,12 @@ void hair_gl_enter(struct hair_gl* gl)
                  HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
-// Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it: so none
-// of the library's stays bound.
-static void unbind_buffers(struct hair_gl* gl)
+// Nothing that the library may delete stays bound. A program that is deleted while current cannot be made current again
+// by whoever restores what was. Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general
+// binding with it.
+static void unbind(struct hair_gl* gl)
 {
+    gl->UseProgram(0);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_EXPANDED + 1, NULL);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_DRAW + 1, NULL);
 }
@@ -60,7 +62,7 @@ static void unbind_buffers(struct hair_gl* gl)
 void hair_gl_leave(struct hair_gl* gl)
 {
     if (gl->promise == HAIR_GL_CLOBBER) {
-        unbind_buffers(gl);
+        unbind(gl);
         return;
     }
     struct hair_gl_saved* saved = &gl->saved;
