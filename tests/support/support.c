@@ -18,6 +18,13 @@ int hair_test_skips(void)
     return 1;
 }
 
+static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                            const GLchar* message, const void* user)
+{
+    (void)source, (void)id, (void)severity, (void)length, (void)user;
+    if (type == GL_DEBUG_TYPE_ERROR) fprintf(stderr, "%s\n", message);
+}
+
 int hair_test_start(void** state)
 {
     struct hair_test* test = calloc(1, sizeof *test);
@@ -25,6 +32,9 @@ int hair_test_start(void** state)
     *state = test;
     hair_test_host_init(&test->host);
     if (hair_egl_create(&test->host.host, -1, &test->egl)) return -1;
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(listen, NULL);
     hair_context_desc desc = hair_context_desc_default();
     desc.host              = &test->host.host;
     desc.get_proc          = hair_egl_get_proc;

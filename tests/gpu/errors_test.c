@@ -1,0 +1,678 @@
+// errors_test.c - every wrong argument, missing function and refused allocation: the right code, one sentence, nothing
+// leaked, and afterwards it works.
+#define _POSIX_C_SOURCE 200809L
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+// The call failed so, with one sentence that holds `words`.
+static void refused(struct hair_test* test, hair_result result, hair_result expected, const char* words)
+{
+    uint32_t errors = hair_test_forgive(test);
+    if (result != expected)
+        fail_msg("\"%s\" instead of \"%s\" (%s)", hair_result_string(result), hair_result_string(expected),
+                 words);
+    if (errors != 1) fail_msg("%u sentences, not one (%s): %s", errors, words, test->host.sentence);
+    if (!strstr(test->host.sentence, words)) fail_msg("no \"%s\" in: %s", words, test->host.sentence);
+    *test->host.sentence = 0;
+}
+
+static hair_instance* make(struct hair_test* test, hair_groom** groom)
+{
+    hair_instance* hair = NULL;
+    hair_desc      desc = hair_desc_default();
+    *groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
+    return hair;
+}
+
+static void drop(hair_instance* hair, hair_groom* groom)
+{
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+static void null_objects_are_argument_errors(void** state)
+{
+    (void)state;
+    float    transform[16] = {0}, positions[3];
+    uint32_t count;
+    assert_int_equal(hair_context_reload(NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_create(NULL, NULL, NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_solids(NULL, NULL, 0, 0), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_step(NULL, 0.1f), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_reset(NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_teleport(NULL, transform), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_draw(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_read(NULL, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_timings(NULL, NULL, 0), 0);
+    hair_destroy(NULL);
+    hair_context_destroy(NULL);
+    hair_groom_destroy(NULL);
+    hair_asset_destroy(NULL);
+}
+
+static void null_arguments_are_named(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair = make(test, &groom);
+    hair_context*     context;
+    hair_instance*    other;
+    hair_desc         desc = hair_desc_default();
+    hair_context_desc of   = hair_context_desc_default();
+    float             positions[3];
+    uint32_t          count;
+    of.host = &test->host.host;
+    refused(test, hair_context_create(&of, &context), HAIR_ERROR_ARGUMENT,
+            "hair_context_desc.get_proc is NULL");
+    of.get_proc = hair_egl_get_proc;
+    refused(test, hair_context_create(&of, NULL), HAIR_ERROR_ARGUMENT, "out is NULL");
+    assert_int_equal(hair_context_create(NULL, &context), HAIR_ERROR_ARGUMENT);
+    refused(test, hair_create(test->context, NULL, &desc, &other), HAIR_ERROR_ARGUMENT, "groom is NULL");
+    refused(test, hair_create(test->context, groom, NULL, &other), HAIR_ERROR_ARGUMENT, "hair_desc is NULL");
+    refused(test, hair_create(test->context, groom, &desc, NULL), HAIR_ERROR_ARGUMENT, "out is NULL");
+    refused(test, hair_set_physics(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_physics is NULL");
+    refused(test, hair_set_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
+    refused(test, hair_set_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
+    refused(test, hair_teleport(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
+    refused(test, hair_set_solids(hair, NULL, 1, sizeof(hair_solid)), HAIR_ERROR_ARGUMENT, "solids is NULL");
+    refused(test, hair_draw(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_view is NULL");
+    refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, NULL), HAIR_ERROR_ARGUMENT,
+            "count is NULL");
+    refused(test, hair_read(hair, HAIR_READ_GUIDES, NULL, 1, &count), HAIR_ERROR_ARGUMENT,
+            "positions is NULL");
+    refused(test, hair_read(hair, (hair_read_what)3, positions, 1, &count), HAIR_ERROR_ARGUMENT,
+            "what is 3, not in [0, 2]");
+    drop(hair, groom);
+}
+
+// Every number of every desc -------------------------------------------------------------------------------
+
+struct user {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+// Give the library this desc.
+static hair_result use_hair_physics(struct user* user, void* desc)
+{
+    return hair_set_physics(user->hair, desc);
+}
+static hair_result use_hair_look(struct user* user, void* desc)
+{
+    return hair_set_look(user->hair, desc);
+}
+static hair_result use_hair_desc(struct user* user, void* desc)
+{
+    hair_instance* hair   = NULL;
+    hair_result    result = hair_create(user->test->context, user->groom, desc, &hair);
+    hair_destroy(hair);
+    return result;
+}
+static hair_result use_hair_view(struct user* user, void* desc)
+{
+    return hair_draw(user->hair, desc);
+}
+static hair_result use_hair_context_desc(struct user* user, void* given)
+{
+    hair_context_desc* desc    = given;
+    hair_context*      context = NULL;
+    desc->host                 = &user->test->host.host;
+    desc->get_proc             = hair_egl_get_proc;
+    hair_result result         = hair_context_create(desc, &context);
+    hair_context_destroy(context);
+    return result;
+}
+static hair_result use_hair_groom_desc(struct user* user, void* given)
+{
+    static const uint32_t vertices[1] = {2};
+    hair_groom_desc*      desc        = given;
+    hair_groom*           groom       = NULL;
+    // 10 cm long, whatever its unit.
+    float positions[6]    = {0, 0, 0, 0, desc->import ? 0.1f / desc->import->scale : 0.1f, 0};
+    desc->host            = &user->test->host.host;
+    desc->positions       = positions;
+    desc->strand_vertices = vertices;
+    if (desc->strand_count == 0 && desc->made.version) desc->strand_count = 1; // which has no default
+    hair_result result = hair_groom_create(desc, &groom);
+    hair_groom_destroy(groom);
+    return result;
+}
+static hair_result use_hair_import(struct user* user, void* given)
+{
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.import          = given;
+    return use_hair_groom_desc(user, &desc);
+}
+static hair_result use_hair_style_desc(struct user* user, void* given)
+{
+    hair_style_desc* desc  = given;
+    hair_asset*      asset = NULL;
+    desc->host             = &user->test->host.host;
+    hair_result result     = hair_asset_generate(desc, &asset);
+    hair_asset_destroy(asset);
+    return result;
+}
+
+struct subject {
+    const char* name;
+    hair_result (*use)(struct user*, void*);
+    void (*init)(void*);
+    struct hair_fields fields;
+};
+
+#define SUBJECT(S)                                                                                           \
+    static void init_##S(void* out)                                                                          \
+    {                                                                                                        \
+        *(S*)out = S##_default();                                                                            \
+    }
+SUBJECT(hair_physics)
+SUBJECT(hair_look)
+SUBJECT(hair_desc)
+SUBJECT(hair_view)
+SUBJECT(hair_context_desc)
+SUBJECT(hair_groom_desc)
+SUBJECT(hair_import)
+SUBJECT(hair_style_desc)
+#undef SUBJECT
+
+#define SUBJECT(S)                                                                                           \
+    {                                                                                                        \
+#S, use_##S, init_##S, hair_fields_of_##S()                                                          \
+    }
+
+// strand_count is the one number that the test fills in itself when it is 0.
+static int is_filled_in(const char* name)
+{
+    return strcmp(name, "hair_groom_desc.strand_count") == 0;
+}
+
+static void check_field(struct user* user, const struct subject* subject, const struct hair_field* field)
+{
+    _Alignas(16) unsigned char desc[1024];
+    double                     wrong[6] = {NAN};
+    int                        count    = 0;
+    if (field->type == HAIR_FIELD_FLOAT) {
+        wrong[count++] = NAN;
+        wrong[count++] = INFINITY;
+        wrong[count++] = -INFINITY;
+        if (field->max < 1e30) wrong[count++] = (double)nextafterf((float)field->max, INFINITY);
+        if (field->min > -1e30) wrong[count++] = (double)nextafterf((float)field->min, -INFINITY);
+    } else {
+        if (field->max < UINT32_MAX) wrong[count++] = field->max + 1;
+        if (field->max < UINT32_MAX) wrong[count++] = UINT32_MAX;
+        if (field->min > 0 && !is_filled_in(field->name)) wrong[count++] = field->min - 1;
+    }
+    for (int i = 0; i < count; ++i) {
+        subject->init(desc);
+        if (field->type == HAIR_FIELD_FLOAT) {
+            float value = (float)wrong[i];
+            memcpy(desc + field->offset, &value, sizeof value);
+        } else {
+            uint32_t value = (uint32_t)wrong[i];
+            memcpy(desc + field->offset, &value, sizeof value);
+        }
+        char words[96];
+        snprintf(words, sizeof words, "%s is ", field->name);
+        refused(user->test, subject->use(user, desc), HAIR_ERROR_ARGUMENT, words);
+    }
+}
+
+static void check_subjects(void** state, void (*check)(struct user*, const struct subject*))
+{
+    struct user    user       = {.test = *state};
+    struct subject subjects[] = {SUBJECT(hair_physics), SUBJECT(hair_look),         SUBJECT(hair_desc),
+                                 SUBJECT(hair_view),    SUBJECT(hair_context_desc), SUBJECT(hair_groom_desc),
+                                 SUBJECT(hair_import),  SUBJECT(hair_style_desc)};
+    user.hair                 = make(user.test, &user.groom);
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) check(&user, &subjects[i]);
+    drop(user.hair, user.groom);
+}
+
+static void check_fields(struct user* user, const struct subject* subject)
+{
+    for (uint32_t i = 0; i < subject->fields.count; ++i)
+        check_field(user, subject, &subject->fields.field[i]);
+}
+
+static void every_number_outside_its_range_is_named(void** state)
+{
+    check_subjects(state, check_fields);
+}
+
+// At the ends of every range and at the defaults it works. Not hair_desc: a matrix of numbers that are all in their range
+// is no rigid motion.
+static void check_ends(struct user* user, const struct subject* subject)
+{
+    struct hair_test_frame     frame;
+    _Alignas(16) unsigned char desc[1024];
+    hair_test_frame_make(&frame, 8, 8, GL_RGBA8, 0);
+    subject->init(desc);
+    hair_test_ok(user->test, subject->use(user, desc));
+    for (uint32_t i = 0; i < subject->fields.count; ++i) {
+        const struct hair_field* field = &subject->fields.field[i];
+        if (strchr(field->name, '[') && field->max > 1e30) continue;
+        if (field->type == HAIR_FIELD_UINT && field->max > 4096)
+            continue; // counts of arrays, which are not there
+        for (int end = 0; end < 2; ++end) {
+            subject->init(desc);
+            double   value = end ? field->max : field->min;
+            float    real  = (float)value;
+            uint32_t whole = (uint32_t)value;
+            memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
+            hair_test_ok(user->test, subject->use(user, desc));
+        }
+    }
+    hair_test_frame_free(&frame);
+}
+
+static void both_ends_of_every_range_are_inside(void** state)
+{
+    check_subjects(state, check_ends);
+}
+
+static void check_made(struct user* user, const struct subject* subject)
+{
+    static const hair_made wrong[] = {
+        {0, 0},  {0, HAIR_VERSION},         {7, HAIR_VERSION}, {4097, HAIR_VERSION},
+        {64, 0}, {64, HAIR_VERSION + 10000}};
+    _Alignas(16) unsigned char desc[1024];
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        subject->init(desc);
+        memcpy(desc, &wrong[i], sizeof wrong[i]);
+        // Its host is not trusted, so that there may be no sentence.
+        hair_result result = subject->use(user, desc);
+        if (result != HAIR_ERROR_VERSION)
+            fail_msg("%s.made of (%u, %u): %s", subject->name, wrong[i].size, wrong[i].version,
+                     hair_result_string(result));
+        assert_in_range(hair_test_forgive(user->test), 0, 1);
+    }
+}
+
+static void a_desc_of_another_version_or_without_its_default_function_is_refused(void** state)
+{
+    check_subjects(state, check_made);
+}
+
+// A caller compiled against an older header has shorter structs: what it does not know has its default.
+static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair    = make(test, &groom);
+    hair_physics      physics = hair_physics_default();
+    physics.made.size         = offsetof(hair_physics, margin);
+    physics.damping           = 7;
+    physics.margin            = NAN; // beyond the end, and not to be read
+    hair_test_ok(test, hair_set_physics(hair, &physics));
+    assert_true(hair->sim.physics.damping == 7);
+    assert_true(hair->sim.physics.margin == hair_physics_default().margin);
+    drop(hair, groom);
+}
+
+// Not rigid, steps, solids ---------------------------------------------------------------------------------
+
+static void transforms_that_are_not_rigid_are_refused(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair = make(test, &groom);
+    hair_desc         desc = hair_desc_default();
+    for (int i = 0; i < 16; ++i) {
+        float wrong[16];
+        for (int kind = 0; kind < 3; ++kind) {
+            if (kind == 0 && i >= 12 && i < 15) continue; // A place may be anywhere, if it is finite.
+            memcpy(wrong, desc.transform, sizeof wrong);
+            wrong[i] = kind == 0 ? wrong[i] + 0.01f : kind == 1 ? NAN : INFINITY;
+            refused(test, hair_set_transform(hair, wrong), HAIR_ERROR_ARGUMENT, "not a rigid motion");
+            refused(test, hair_teleport(hair, wrong), HAIR_ERROR_ARGUMENT, "not a rigid motion");
+        }
+    }
+    desc.transform[0] = -1;
+    refused(test, hair_set_transform(hair, desc.transform), HAIR_ERROR_ARGUMENT, "no mirror");
+    drop(hair, groom);
+}
+
+static void steps_that_are_no_time_are_refused(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair = make(test, &groom);
+    refused(test, hair_step(hair, NAN), HAIR_ERROR_ARGUMENT, "dt is ");
+    refused(test, hair_step(hair, -1e-6f), HAIR_ERROR_ARGUMENT, "dt is -1e-06, not 0 or more");
+    refused(test, hair_step(hair, -INFINITY), HAIR_ERROR_ARGUMENT, "dt is -inf");
+    drop(hair, groom);
+}
+
+static void wrong_solids_are_named_and_change_nothing(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair     = make(test, &groom);
+    hair_solid        good     = {HAIR_SHAPE_CAPSULE, {0}, {0, 0, 0, 1}, {0.1f, 0.1f}};
+    hair_solid        many[65] = {good};
+    hair_test_ok(test, hair_set_solids(hair, &good, 1, sizeof good));
+    refused(test, hair_set_solids(hair, many, 65, sizeof good), HAIR_ERROR_ARGUMENT,
+            "solid count is 65, not in [0, 64]");
+    refused(test, hair_set_solids(hair, many, 2, 8), HAIR_ERROR_ARGUMENT, "solid stride is 8");
+    refused(test, hair_set_solids(hair, many, 2, 0), HAIR_ERROR_ARGUMENT, "solid stride is 0");
+    struct {
+        const char* words;
+        hair_solid  solid;
+    } wrong[]                  = {{"solids[1].shape is 9", good},        {"solids[1].position[2] is ", good},
+                                  {"solids[1].rotation has norm", good}, {"solids[1].size[0] is 0", good},
+                                  {"solids[1].size[0] is ", good},       {"solids[1].size[1] is -1", good}};
+    wrong[0].solid.shape       = (hair_shape)9;
+    wrong[1].solid.position[2] = NAN;
+    wrong[2].solid.rotation[3] = 0.5f;
+    wrong[3].solid.size[0]     = 0;
+    wrong[4].solid.size[0]     = NAN;
+    wrong[5].solid.size[1]     = -1;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        hair_solid two[2] = {good, wrong[i].solid};
+        two[0].size[0]    = 0.3f;
+        refused(test, hair_set_solids(hair, two, 2, sizeof good), HAIR_ERROR_ARGUMENT, wrong[i].words);
+        assert_int_equal(hair->sim.solids.count, 1);
+        assert_memory_equal(&hair->sim.solids.now[0], &good, sizeof good);
+    }
+    drop(hair, groom);
+}
+
+static void views_without_sense_are_refused(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair = make(test, &groom);
+    hair_view         view = hair_view_default();
+    memset(view.light_to, 0, sizeof view.light_to);
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "light_to has no direction");
+    view                  = hair_view_default();
+    view.shadow_texture   = 1;
+    view.shadow_matrix[3] = 0.5f;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "shadow_matrix is not orthographic");
+    drop(hair, groom);
+}
+
+// OpenGL that is not there ---------------------------------------------------------------------------------
+
+static void without_a_current_context_every_call_says_so(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair = make(test, &groom);
+    hair_instance*    other;
+    hair_desc         desc = hair_desc_default();
+    hair_view         view = hair_view_default();
+    hair_context_desc of   = hair_context_desc_default();
+    hair_context*     context;
+    float             positions[3];
+    uint32_t          count;
+    const char*       words = "no OpenGL context is current";
+    of.host                 = &test->host.host;
+    of.get_proc             = hair_egl_get_proc;
+    hair_egl_make_current(NULL);
+    refused(test, hair_context_create(&of, &context), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_context_reload(test->context), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_create(test->context, groom, &desc, &other), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_step(hair, 0.1f), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_reset(hair), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_teleport(hair, desc.transform), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL, words);
+    hair_egl_make_current(test->egl);
+    hair_test_ok(test, hair_step(hair, 0.1f));
+    drop(hair, groom);
+}
+
+static void* all_but_one(const char* name, void* user)
+{
+    return strcmp(name, user) == 0 ? NULL : hair_egl_get_proc(name, NULL);
+}
+
+static void each_missing_function_is_named(void** state)
+{
+    static const char* const names[] = {
+#define FUNCTION(type, name, parameters) "gl" #name,
+#include "lib/gl/functions.inl"
+#undef FUNCTION
+    };
+    struct hair_test* test = *state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        hair_context*     context = NULL;
+        hair_context_desc desc    = hair_context_desc_default();
+        desc.host                 = &test->host.host;
+        desc.get_proc             = all_but_one;
+        desc.get_proc_user        = (void*)(uintptr_t)names[i];
+        // Without the first two the version cannot be asked.
+        int         first = strcmp(names[i], "glGetIntegerv") == 0 || strcmp(names[i], "glGetString") == 0;
+        const char* words = first ? "get_proc does not find glGet" : names[i];
+        refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, words);
+        assert_null(context);
+    }
+}
+
+static void glsl_that_is_not_there_or_wrong_is_an_opengl_error(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &test->host.host;
+    desc.get_proc             = hair_egl_get_proc;
+    desc.glsl_dir             = "/nonexistent";
+    assert_int_equal(hair_context_create(&desc, &context), HAIR_ERROR_OPENGL);
+    assert_null(context);
+    assert_non_null(strstr(test->host.sentence, "is not there"));
+    hair_test_forgive(test);
+    desc.glsl_dir = "glsl";
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    hair_test_ok(test, hair_context_reload(context));
+    hair_context_destroy(context);
+}
+
+// Mesa chooses its driver once in a process, so this one is asked for in a child. softpipe is OpenGL 3.3.
+static int exit_code_of_an_old_driver(void)
+{
+    struct hair_test_host host;
+    hair_egl*             egl     = NULL;
+    hair_context*         context = NULL;
+    hair_test_host_init(&host);
+    if (hair_egl_create(&host.host, -1, &egl) != HAIR_ERROR_OPENGL || egl) return 1;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &host.host;
+    desc.get_proc          = hair_egl_get_proc;
+    if (hair_context_create(&desc, &context) != HAIR_ERROR_OPENGL || context) return 2;
+    return host.blocks ? 3 : 0;
+}
+
+static void a_driver_that_is_too_old_is_an_opengl_error(void** state)
+{
+    (void)state;
+    pid_t child = fork();
+    if (child == 0) {
+        setenv("GALLIUM_DRIVER", "softpipe", 1);
+        setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+        execl("/proc/self/exe", "errors_test", "old-driver", (char*)NULL);
+        _exit(127);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+// An older version than the driver's own, by a host that says so.
+static void APIENTRY old_version(GLenum name, GLint* out)
+{
+    glGetIntegerv(name, out);
+    if (name == GL_MINOR_VERSION) *out = 3;
+}
+
+static void* with_old_version(const char* name, void* user)
+{
+    (void)user;
+    if (strcmp(name, "glGetIntegerv")) return hair_egl_get_proc(name, NULL);
+    void (*function)(GLenum, GLint*) = old_version;
+    void* address;
+    memcpy(&address, &function, sizeof address);
+    return address;
+}
+
+static void an_old_context_is_told_its_version(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &test->host.host;
+    desc.get_proc             = with_old_version;
+    refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, "version 4.3, not 4.5 or newer");
+}
+
+// Memory that is refused -----------------------------------------------------------------------------------
+
+// Objects of OpenGL that are alive, by trying names.
+static uint32_t count_objects(void)
+{
+    uint32_t count = 0;
+    for (GLuint name = 1; name < 512; ++name)
+        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
+                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
+                 glIsTransformFeedback(name) + glIsQuery(name);
+    return count;
+}
+
+// Refuse the first allocation, then the second, … until there are no more: each time the call fails, leaks nothing, and
+// works when it is made again. After the first 32 only every `stride`-th: shaders are many and read alike.
+static void torture(struct hair_test* test, hair_result (*call)(struct user*), struct user* user,
+                    uint32_t stride)
+{
+    uint32_t objects = count_objects(), blocks = test->host.blocks;
+    for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
+        test->host.allocations = 0;
+        test->host.refuse      = n;
+        hair_result result     = call(user);
+        test->host.refuse      = 0;
+        assert_int_equal(test->host.blocks, blocks);
+        assert_int_equal(count_objects(), objects);
+        if (test->host.allocations < n) {
+            hair_test_ok(test, result);
+            print_message("    %u allocations\n", test->host.allocations);
+            assert_true(n > 1);
+            return;
+        }
+        if (result != HAIR_ERROR_MEMORY) fail_msg("allocation %u: %s", n, hair_result_string(result));
+        assert_true(hair_test_forgive(test) >= 1);
+        assert_non_null(strstr(test->host.sentence, "out of memory for "));
+        if (n % 32 == 1) hair_test_ok(test, call(user));
+        assert_int_equal(test->host.blocks, blocks);
+    }
+    fail_msg("there is no end of allocations");
+}
+
+static hair_result create_context(struct user* user)
+{
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &user->test->host.host;
+    desc.get_proc             = hair_egl_get_proc;
+    desc.glsl_dir             = "glsl";
+    hair_result result        = hair_context_create(&desc, &context);
+    assert_true((result == HAIR_OK) == (context != NULL));
+    hair_context_destroy(context);
+    return result;
+}
+
+static hair_result create_instance(struct user* user)
+{
+    hair_instance* hair   = NULL;
+    hair_desc      desc   = hair_desc_default();
+    hair_result    result = hair_create(user->test->context, user->groom, &desc, &hair);
+    assert_true((result == HAIR_OK) == (hair != NULL));
+    hair_destroy(hair);
+    return result;
+}
+
+static hair_result read_all(struct user* user)
+{
+    hair_result result = HAIR_OK;
+    for (int what = 0; what < 3 && !result; ++what) {
+        float    positions[30];
+        uint32_t count;
+        result = hair_read(user->hair, (hair_read_what)what, positions, 10, &count);
+    }
+    return result;
+}
+
+static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
+{
+    struct user user = {.test = *state};
+    user.hair        = make(user.test, &user.groom);
+    torture(user.test, create_instance, &user, 1);
+    torture(user.test, read_all, &user, 1);
+    drop(user.hair, user.groom);
+}
+
+static void a_context_without_memory_leaks_nothing_and_a_retry_works(void** state)
+{
+    struct user user = {.test = *state};
+    torture(user.test, create_context, &user, 7);
+}
+
+static void a_failed_call_leaves_the_instance_as_it_was(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair    = make(test, &groom);
+    hair_instance     before  = *hair;
+    hair_physics      physics = hair_physics_default();
+    hair_look         look    = hair_look_default();
+    physics.damping = -1, look.segments = 0;
+    hair_set_physics(hair, &physics);
+    hair_set_look(hair, &look);
+    hair_set_transform(hair, (float[16]){0});
+    hair_teleport(hair, (float[16]){0});
+    hair_step(hair, -1);
+    assert_int_equal(hair_test_forgive(test), 5);
+    assert_memory_equal(hair, &before, sizeof before);
+    drop(hair, groom);
+}
+
+int main(int count, char** arguments)
+{
+    if (count == 2 && !strcmp(arguments[1], "old-driver")) return exit_code_of_an_old_driver();
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(null_objects_are_argument_errors),
+        HAIR_TEST(null_arguments_are_named),
+        HAIR_TEST(every_number_outside_its_range_is_named),
+        HAIR_TEST(both_ends_of_every_range_are_inside),
+        HAIR_TEST(a_desc_of_another_version_or_without_its_default_function_is_refused),
+        HAIR_TEST(a_shorter_desc_of_an_older_caller_is_taken),
+        HAIR_TEST(transforms_that_are_not_rigid_are_refused),
+        HAIR_TEST(steps_that_are_no_time_are_refused),
+        HAIR_TEST(wrong_solids_are_named_and_change_nothing),
+        HAIR_TEST(views_without_sense_are_refused),
+        HAIR_TEST(without_a_current_context_every_call_says_so),
+        HAIR_TEST(each_missing_function_is_named),
+        HAIR_TEST(glsl_that_is_not_there_or_wrong_is_an_opengl_error),
+        HAIR_TEST(a_driver_that_is_too_old_is_an_opengl_error),
+        HAIR_TEST(an_old_context_is_told_its_version),
+        HAIR_TEST(refused_memory_leaks_nothing_and_a_retry_works),
+        HAIR_TEST(a_context_without_memory_leaks_nothing_and_a_retry_works),
+        HAIR_TEST(a_failed_call_leaves_the_instance_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
