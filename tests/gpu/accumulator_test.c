@@ -1,0 +1,232 @@
+// accumulator_test.c - motion does not depend on the frame rate.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/base/math.h"
+#include "tests/support/handmade.h"
+
+#define MOST 1024
+
+struct strands {
+    float    guides[3 * MOST], smooth[3 * 2 * MOST];
+    uint32_t guide_vertices, smooth_vertices;
+};
+
+static hair_instance* make(struct hair_test* test, hair_groom* groom)
+{
+    hair_instance* hair = NULL;
+    hair_desc      desc = hair_desc_default();
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+    return hair;
+}
+
+static void read(struct hair_test* test, hair_instance* hair, struct strands* out)
+{
+    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, out->guides, MOST, &out->guide_vertices));
+    hair_test_ok(test, hair_read(hair, HAIR_READ_SMOOTH, out->smooth, 2 * MOST, &out->smooth_vertices));
+    assert_in_range(out->guide_vertices, 1, MOST);
+    assert_in_range(out->smooth_vertices, 1, 2 * MOST);
+}
+
+// Half a second from rest, under gravity, in portions of `dt`, the last one as long as is left.
+static void run(struct hair_test* test, hair_groom* groom, float (*portion)(uint32_t i), double time,
+                struct strands* out)
+{
+    hair_instance* hair = make(test, groom);
+    double         left = time;
+    for (uint32_t i = 0; left > 1e-9; ++i) {
+        float dt = fminf(portion(i), (float)left);
+        hair_test_ok(test, hair_step(hair, dt));
+        left -= (double)dt;
+    }
+    read(test, hair, out);
+    hair_destroy(hair);
+}
+
+static float thirtieth(uint32_t i)
+{
+    return (void)i, 1.0f / 30;
+}
+static float sixtieth(uint32_t i)
+{
+    return (void)i, 1.0f / 60;
+}
+static float substep(uint32_t i)
+{
+    return (void)i, 1.0f / 120;
+}
+static float millisecond(uint32_t i)
+{
+    return (void)i, 0.001f;
+}
+static float tenth(uint32_t i)
+{
+    return (void)i, 0.1f;
+}
+static float irregular(uint32_t i)
+{
+    uint32_t seed = i;
+    return 0.0001f + 0.05f * hair_random(&seed);
+}
+
+// The same substeps are made of all of them. Where in the next substep time stands is a sum of rounded portions: the
+// drawn strands agree as the times do, to a millionth of a second at a few metres a second.
+static void strands_are_the_same_at_every_frame_rate(void** state)
+{
+    static float (*const portions[])(uint32_t) = {thirtieth, sixtieth, millisecond, tenth, irregular};
+    static struct strands expected, got;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    // Between two ends of substeps, so that no rounding of the sum decides how many there are.
+    static const double times[] = {60.5 / 120, 30.25 / 120, 7.75 / 120};
+    for (size_t t = 0; t < sizeof times / sizeof *times; ++t) {
+        run(test, groom, substep, times[t], &expected);
+        for (size_t i = 0; i < sizeof portions / sizeof *portions; ++i) {
+            run(test, groom, portions[i], times[t], &got);
+            assert_int_equal(got.guide_vertices, expected.guide_vertices);
+            assert_memory_equal(got.guides, expected.guides, 12 * got.guide_vertices);
+            for (uint32_t k = 0; k < 3 * got.smooth_vertices; ++k)
+                hair_test_near("smooth", k, got.smooth[k], expected.smooth[k], 1e-5);
+        }
+    }
+    hair_groom_destroy(groom);
+}
+
+// A portion of exactly some substeps is so many, though 1/30 s is no sum of floats of 1/120 s.
+static void whole_portions_are_whole_substeps(void** state)
+{
+    static struct strands fine, coarse;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    for (uint32_t portions = 1; portions <= 100; portions *= 10) {
+        hair_instance* by_four = make(test, groom);
+        hair_instance* by_one  = make(test, groom);
+        for (uint32_t i = 0; i < portions; ++i) hair_test_ok(test, hair_step(by_four, 1.0f / 30));
+        for (uint32_t i = 0; i < 4 * portions; ++i) hair_test_ok(test, hair_step(by_one, 1.0f / 120));
+        read(test, by_four, &coarse);
+        read(test, by_one, &fine);
+        assert_memory_equal(coarse.guides, fine.guides, 12 * fine.guide_vertices);
+        hair_destroy(by_four);
+        hair_destroy(by_one);
+    }
+    hair_groom_destroy(groom);
+}
+
+static void the_same_steps_give_the_same_bits(void** state)
+{
+    static struct strands first, second;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    run(test, groom, irregular, 0.7, &first);
+    run(test, groom, irregular, 0.7, &second);
+    assert_memory_equal(first.guides, second.guides, 12 * first.guide_vertices);
+    assert_memory_equal(first.smooth, second.smooth, 12 * first.smooth_vertices);
+    hair_groom_destroy(groom);
+}
+
+// With a head that moves evenly the substeps still lie where they lay: only what is between them is rounded.
+static void a_moving_head_is_followed_alike_at_every_frame_rate(void** state)
+{
+    static struct strands fine, coarse;
+    struct hair_test*     test    = *state;
+    hair_groom*           groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance*        hair[2] = {make(test, groom), make(test, groom)};
+    for (int rate = 0; rate < 2; ++rate) {
+        int each = rate ? 4 : 1; // substeps in a step
+        for (int i = 1; i <= 40 / each; ++i) {
+            float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.01f * (float)(i * each), 0, 0, 1};
+            hair_test_ok(test, hair_set_transform(hair[rate], transform));
+            hair_test_ok(test, hair_step(hair[rate], (float)each / 120));
+        }
+    }
+    read(test, hair[0], &fine);
+    read(test, hair[1], &coarse);
+    assert_true(fabsf(fine.guides[0] - 0.4f) < 0.2f);
+    for (uint32_t k = 0; k < 3 * fine.guide_vertices; ++k)
+        hair_test_near("guides", k, coarse.guides[k], fine.guides[k], 1e-5);
+    hair_destroy(hair[0]);
+    hair_destroy(hair[1]);
+    hair_groom_destroy(groom);
+}
+
+static void no_time_changes_nothing(void** state)
+{
+    static struct strands before, after;
+    static const float    nothing[] = {0, -0.0f, NAN, -1, -INFINITY};
+    struct hair_test*     test      = *state;
+    hair_groom*           groom     = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance*        hair      = make(test, groom);
+    hair_test_ok(test, hair_step(hair, 0.0123f));
+    read(test, hair, &before);
+    for (int i = 0; i < 5; ++i) {
+        hair_result result = hair_step(hair, nothing[i]);
+        assert_int_equal(result, i < 2 ? HAIR_OK : HAIR_ERROR_ARGUMENT);
+        read(test, hair, &after);
+        assert_memory_equal(&before, &after, sizeof before);
+    }
+    assert_int_equal(hair_test_forgive(test), 3);
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+static void beyond_the_longest_step_time_slows_and_the_log_says_so_once(void** state)
+{
+    static struct strands slowed, whole;
+    struct hair_test*     test        = *state;
+    hair_groom*           groom       = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance*        hair        = make(test, groom);
+    hair_instance*        other       = make(test, groom);
+    uint32_t              warnings    = test->host.warnings;
+    static const float    long_ones[] = {0.2f, 1e30f, INFINITY};
+    for (int i = 0; i < 3; ++i) {
+        hair_test_ok(test, hair_step(hair, long_ones[i]));
+        hair_test_ok(test, hair_step(other, 0.1f));
+        assert_int_equal(test->host.warnings, warnings + 1);
+    }
+    read(test, hair, &slowed);
+    read(test, other, &whole);
+    assert_memory_equal(slowed.guides, whole.guides, 12 * whole.guide_vertices);
+    hair_destroy(hair);
+    hair_destroy(other);
+    hair_groom_destroy(groom);
+}
+
+// More substeps than one dispatch takes.
+static void a_step_of_very_many_substeps_is_like_many_steps(void** state)
+{
+    static struct strands one, many;
+    struct hair_test*     test    = *state;
+    hair_groom*           groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc             desc    = hair_desc_default();
+    hair_instance*        hair[2] = {NULL, NULL};
+    desc.substep                  = 0.001f;
+    desc.max_dt                   = 1;
+    for (int i = 0; i < 2; ++i) hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[i]));
+    hair_test_ok(test, hair_step(hair[0], 0.2005f)); // 200 substeps, 64 to a dispatch
+    for (int i = 0; i < 200; ++i) hair_test_ok(test, hair_step(hair[1], i ? 0.001f : 0.0015f));
+    read(test, hair[0], &one);
+    read(test, hair[1], &many);
+    assert_memory_equal(one.guides, many.guides, 12 * one.guide_vertices);
+    hair_destroy(hair[0]);
+    hair_destroy(hair[1]);
+    hair_groom_destroy(groom);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(strands_are_the_same_at_every_frame_rate),
+        HAIR_TEST(whole_portions_are_whole_substeps),
+        HAIR_TEST(the_same_steps_give_the_same_bits),
+        HAIR_TEST(a_moving_head_is_followed_alike_at_every_frame_rate),
+        HAIR_TEST(no_time_changes_nothing),
+        HAIR_TEST(beyond_the_longest_step_time_slows_and_the_log_says_so_once),
+        HAIR_TEST(a_step_of_very_many_substeps_is_like_many_steps),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
