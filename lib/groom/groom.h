@@ -15,7 +15,7 @@ struct hair_groom {
     uint32_t              most_vertices; // of a guide
 };
 
-// `desc` has been checked and is whole. On failure *out is untouched.
+// `desc` is whole and has been checked, but for what its arrays hold. On failure *out is untouched.
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              hair_groom** out);
 void        hair_groom_free(hair_groom* groom);
