@@ -1,0 +1,489 @@
+// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others, destroyed.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/base/math.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define MOST 4096
+
+struct strands {
+    float    positions[3 * MOST];
+    uint32_t vertices;
+};
+
+static void identity(float out[16])
+{
+    for (int i = 0; i < 16; ++i) out[i] = i % 5 == 0;
+}
+
+// A turn about the y axis, and a place.
+static void pose(float angle, float x, float y, float z, float out[16])
+{
+    identity(out);
+    out[0] = out[10] = cosf(angle);
+    out[2] = -sinf(angle), out[8] = sinf(angle);
+    out[12] = x, out[13] = y, out[14] = z;
+}
+
+static hair_groom* make_groom(struct hair_test* test)
+{
+    return hair_test_groom(&test->host.host, hair_test_handmade_default());
+}
+
+static hair_instance* make(struct hair_test* test, const hair_groom* groom)
+{
+    hair_instance* hair = NULL;
+    hair_desc      desc = hair_desc_default();
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+    return hair;
+}
+
+static void read(struct hair_test* test, hair_instance* hair, hair_read_what what, struct strands* out)
+{
+    hair_test_ok(test, hair_read(hair, what, out->positions, MOST, &out->vertices));
+    assert_in_range(out->vertices, 1, MOST);
+}
+
+// A head that swings to and fro for `steps` steps of 1/60 s around x.
+static void swing(struct hair_test* test, hair_instance* hair, float x, int steps)
+{
+    float transform[16];
+    for (int i = 0; i < steps; ++i) {
+        pose(0.5f * sinf(0.3f * (float)i), x + 0.05f * sinf(0.4f * (float)i), 0, 0, transform);
+        hair_test_ok(test, hair_set_transform(hair, transform));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    }
+}
+
+static void a_new_instance_is_in_its_rest_pose(void** state)
+{
+    static struct strands strands;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = make_groom(test);
+    hair_instance*        hair  = make(test, groom);
+    read(test, hair, HAIR_READ_GUIDES, &strands);
+    assert_int_equal(strands.vertices, groom->info.guide_vertex_count);
+    for (uint32_t i = 0; i < strands.vertices; ++i) {
+        hair_test_near("x", i, strands.positions[3 * i], groom->rest[i].position.x, 1e-7);
+        hair_test_near("y", i, strands.positions[3 * i + 1], groom->rest[i].position.y, 1e-7);
+        hair_test_near("z", i, strands.positions[3 * i + 2], groom->rest[i].position.z, 1e-7);
+    }
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+static void a_reset_is_as_good_as_new(void** state)
+{
+    static struct strands       used, fresh;
+    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH};
+    struct hair_test*           test    = *state;
+    hair_groom*                 groom   = make_groom(test);
+    hair_instance*              hair    = make(test, groom);
+    hair_instance*              other   = make(test, groom);
+    float                       back[16];
+    swing(test, hair, 0, 10);
+    hair_test_ok(test, hair_step(hair, 0.003f));
+    identity(back);
+    hair_test_ok(test, hair_set_transform(hair, back));
+    hair_test_ok(test, hair_reset(hair));
+    for (int steps = 0; steps < 3; ++steps) {
+        for (int i = 0; i < 2; ++i) {
+            read(test, hair, whats[i], &used);
+            read(test, other, whats[i], &fresh);
+            assert_memory_equal(used.positions, fresh.positions, 12 * fresh.vertices);
+        }
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+        hair_test_ok(test, hair_step(other, 1.0f / 60));
+    }
+    hair_destroy(hair);
+    hair_destroy(other);
+    hair_groom_destroy(groom);
+}
+
+// What is seen of the head's own coordinates: p - place, turned back by the angle.
+static void to_head(const float transform[16], const float* p, float out[3])
+{
+    float d[3] = {p[0] - transform[12], p[1] - transform[13], p[2] - transform[14]};
+    for (int k = 0; k < 3; ++k)
+        out[k] = transform[4 * k] * d[0] + transform[4 * k + 1] * d[1] + transform[4 * k + 2] * d[2];
+}
+
+static void compare_in_heads(const struct strands* a, const float at_a[16], const struct strands* b,
+                             const float at_b[16], double tolerance)
+{
+    assert_int_equal(a->vertices, b->vertices);
+    for (uint32_t i = 0; i < a->vertices; ++i) {
+        float pa[3], pb[3];
+        to_head(at_a, a->positions + 3 * i, pa);
+        to_head(at_b, b->positions + 3 * i, pb);
+        for (int k = 0; k < 3; ++k) hair_test_near("vertex", i, pa[k], pb[k], tolerance);
+    }
+}
+
+static void a_teleport_takes_shape_and_motion_along(void** state)
+{
+    static struct strands       before, after;
+    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
+    struct hair_test*           test    = *state;
+    hair_groom*                 groom   = make_groom(test);
+    hair_instance*              hair    = make(test, groom);
+    hair_instance*              other   = make(test, groom);
+    hair_look                   look    = hair_look_default();
+    hair_physics                still   = hair_physics_default();
+    float                       here[16], there[16];
+    look.segments = 8;
+    // Gravity has a direction of its own in the world; without it the world looks alike from everywhere.
+    memset(still.gravity, 0, sizeof still.gravity);
+    for (int i = 0; i < 2; ++i) {
+        hair_test_ok(test, hair_set_look(i ? other : hair, &look));
+        hair_test_ok(test, hair_set_physics(i ? other : hair, &still));
+        swing(test, i ? other : hair, 0, 12);
+        hair_test_ok(test, hair_step(i ? other : hair, 0.003f)); // between two ends of substeps
+    }
+    pose(0.5f * sinf(3.3f), 0.05f * sinf(4.4f), 0, 0, here); // where swing has left the head
+    pose(2.5f, 3, -1, 2, there);
+    hair_test_ok(test, hair_teleport(hair, there));
+    for (int steps = 0; steps < 5; ++steps) {
+        for (int i = 0; i < 3; ++i) {
+            read(test, other, whats[i], &before);
+            read(test, hair, whats[i], &after);
+            compare_in_heads(&before, here, &after, there, 1e-5);
+        }
+        // Nothing swings that would not have swung.
+        hair_test_ok(test, hair_step(other, 1.0f / 60));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    }
+    hair_destroy(hair);
+    hair_destroy(other);
+    hair_groom_destroy(groom);
+}
+
+static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** state)
+{
+    static struct strands strands;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = make_groom(test);
+    hair_instance*        hair  = make(test, groom);
+    float                 there[16];
+    pose(0, 0.5f, 0, 0, there);
+    hair_test_ok(test, hair_set_transform(hair, there));
+    hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    read(test, hair, HAIR_READ_GUIDES, &strands);
+    uint32_t tip = groom->guides[0].count - 1;
+    hair_test_near("root", 0, strands.positions[0], groom->rest[0].position.x + 0.5, 1e-6);
+    assert_true(strands.positions[3 * tip] < groom->rest[tip].position.x + 0.45f); // It lags behind.
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+static void strands_rest_on_a_solid_that_moves_into_them(void** state)
+{
+    static struct strands strands;
+    struct hair_test*     test    = *state;
+    hair_groom*           groom   = make_groom(test);
+    hair_instance*        hair    = make(test, groom);
+    hair_physics          physics = hair_physics_default();
+    hair_test_ok(test, hair_set_physics(hair, &physics));
+    for (int i = 0; i <= 60; ++i) {
+        hair_solid solids[2] = {
+            {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.09f, 0}},
+            {HAIR_SHAPE_CAPSULE, {0.3f - 0.0025f * (float)i, 0.1f, 0}, {0, 0, 0, 1}, {0.04f, 0.1f}}};
+        hair_test_ok(test, hair_set_solids(hair, solids, 2, sizeof *solids));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    }
+    read(test, hair, HAIR_READ_GUIDES, &strands);
+    double touching = 0;
+    for (uint32_t g = 0; g < groom->info.guide_count; ++g)
+        for (uint32_t i = 2; i < groom->guides[g].count; ++i) {
+            const float* p         = strands.positions + 3 * (groom->guides[g].first + i);
+            float        y         = fminf(fmaxf(p[1], 0), 0.2f); // nearest height of the capsule's axis
+            double       from_axis = hypot(hypot(p[0] - 0.15, p[1] - y), p[2]);
+            hair_test_near("inside the sphere", i, fmin(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), 0.091),
+                           0.091, 1e-5);
+            hair_test_near("inside the capsule", i, fmin(from_axis, 0.041), 0.041, 1e-5);
+            touching += from_axis < 0.0411;
+        }
+    assert_true(touching > 0);
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+// The greatest share by which a segment of a guide is longer or shorter than at rest. In the state itself: out there
+// floats of the world are millimetres.
+static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
+{
+    static struct hair_state state[MOST];
+    double                   worst = 0;
+    glGetNamedBufferSubData(hair->sim.state, 0, groom->info.guide_vertex_count * sizeof *state, state);
+    for (uint32_t g = 0; g < groom->info.guide_count; ++g)
+        for (uint32_t i = groom->guides[g].first; i + 1 < groom->guides[g].first + groom->guides[g].count;
+             ++i) {
+            hair_vec4 a = state[i].position, b = state[i + 1].position;
+            double    length = hair_distance(hair_v3(a.x, a.y, a.z), hair_v3(b.x, b.y, b.z));
+            worst            = fmax(worst, fabs(length / groom->rest[i].position.w - 1));
+        }
+    return worst;
+}
+
+static void far_from_the_origin_nothing_stretches_more(void** state)
+{
+    struct hair_test* test  = *state;
+    hair_groom*       groom = make_groom(test);
+    double            stretch[2];
+    for (int far = 0; far < 2; ++far) {
+        hair_instance* hair = make(test, groom);
+        float          there[16];
+        pose(0, far ? 1e5f : 0, 0, 0, there);
+        hair_test_ok(test, hair_teleport(hair, there));
+        swing(test, hair, far ? 1e5f : 0, 60);
+        stretch[far] = greatest_stretch(hair, groom);
+        hair_destroy(hair);
+    }
+    print_message("    stretch %.4f at the origin, %.4f at 1e5 m\n", stretch[0], stretch[1]);
+    // Floats at 1e5 m are 8 mm apart: the head itself jerks by that much.
+    assert_true(stretch[1] <= stretch[0] + 0.02);
+    hair_groom_destroy(groom);
+}
+
+// A head that stands still there gives the same bits as at the origin: positions are from the head.
+static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
+{
+    static struct hair_state near[MOST], far[MOST];
+    struct hair_test*        test  = *state;
+    hair_groom*              groom = make_groom(test);
+    size_t                   size  = groom->info.guide_vertex_count * sizeof *near;
+    for (int out = 0; out < 2; ++out) {
+        hair_instance* hair  = NULL;
+        hair_desc      desc  = hair_desc_default();
+        hair_solid     solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0}};
+        desc.transform[12]   = out ? 1e5f : 0;
+        hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        for (int i = 0; i < 30; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 60));
+        glGetNamedBufferSubData(hair->sim.state, 0, (GLsizeiptr)size, out ? far : near);
+        hair_destroy(hair);
+    }
+    assert_memory_equal(near, far, size);
+    hair_groom_destroy(groom);
+}
+
+static void draw(struct hair_test* test, hair_instance* hair, const struct hair_test_frame* frame,
+                 float* pixels)
+{
+    static const float black[4] = {0}, far_away = 1;
+    hair_view          view = hair_view_default();
+    view.primitive          = HAIR_LINES; // Ribbons are much narrower than these pixels.
+    // 0.8 m wide around the head, seen along -z.
+    view.projection[0] = view.projection[5] = 2.5f;
+    view.projection[10]                     = -0.5f;
+    view.projection[13]                     = -0.3f;
+    glClearNamedFramebufferfv(frame->framebuffer, GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(frame->framebuffer, GL_DEPTH, 0, &far_away);
+    hair_test_ok(test, hair_draw(hair, &view));
+    hair_test_frame_read(frame, pixels);
+}
+
+#define SIDE 64
+
+static void instances_beside_each_other_are_as_if_alone(void** state)
+{
+    static struct strands  alone[2], beside[2];
+    static float           seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
+    struct hair_test*      test  = *state;
+    hair_groom*            groom = make_groom(test);
+    hair_solid             solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_instance*         hair[2];
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    for (int i = 0; i < 2; ++i) {
+        hair[i] = make(test, groom);
+        if (i) hair_test_ok(test, hair_set_solids(hair[i], &solid, 1, sizeof solid));
+        for (int n = 0; n < 20; ++n) hair_test_ok(test, hair_step(hair[i], i ? 1.0f / 60 : 1.0f / 40));
+        read(test, hair[i], HAIR_READ_SMOOTH, &alone[i]);
+        draw(test, hair[i], &frame, seen_alone[i]);
+        hair_destroy(hair[i]);
+    }
+    for (int i = 0; i < 2; ++i) hair[i] = make(test, groom);
+    hair_test_ok(test, hair_set_solids(hair[1], &solid, 1, sizeof solid));
+    for (int n = 0; n < 20; ++n)
+        for (int i = 0; i < 2; ++i) {
+            hair_test_ok(test, hair_step(hair[i], i ? 1.0f / 60 : 1.0f / 40));
+            draw(test, hair[1 - i], &frame, seen_beside[1 - i]);
+        }
+    for (int i = 0; i < 2; ++i) {
+        read(test, hair[i], HAIR_READ_SMOOTH, &beside[i]);
+        draw(test, hair[i], &frame, seen_beside[i]);
+        assert_memory_equal(alone[i].positions, beside[i].positions, 12 * alone[i].vertices);
+        assert_memory_equal(seen_alone[i], seen_beside[i], sizeof seen_alone[i]);
+        hair_destroy(hair[i]);
+    }
+    assert_memory_not_equal(alone[0].positions, alone[1].positions, 12 * alone[0].vertices);
+    int covered = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) covered += seen_alone[0][4 * i + 3] > 0;
+    assert_true(covered > 50);
+    hair_test_frame_free(&frame);
+    hair_groom_destroy(groom);
+}
+
+static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
+{
+    static struct strands kept, gone;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = make_groom(test);
+    hair_instance*        hair  = make(test, groom);
+    hair_instance*        other = make(test, groom);
+    swing(test, hair, 0, 5);
+    hair_groom_destroy(groom);
+    swing(test, other, 0, 5);
+    read(test, hair, HAIR_READ_FOLLOWERS, &kept);
+    read(test, other, HAIR_READ_FOLLOWERS, &gone);
+    assert_memory_equal(kept.positions, gone.positions, 12 * kept.vertices);
+    hair_destroy(hair);
+    hair_destroy(other);
+}
+
+// Objects of OpenGL that are alive, by trying names.
+static uint32_t count_objects(void)
+{
+    uint32_t count = 0;
+    for (GLuint name = 1; name < 1024; ++name)
+        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
+                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
+                 glIsTransformFeedback(name) + glIsQuery(name);
+    return count;
+}
+
+static void two_hundred_lives_leave_nothing(void** state)
+{
+    struct hair_test*      test  = *state;
+    hair_groom*            groom = make_groom(test);
+    static struct strands  strands;
+    struct hair_test_frame frame;
+    hair_look              look = hair_look_default();
+    look.segments               = 4;
+    hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
+    uint32_t objects = count_objects(), blocks = test->host.blocks;
+    for (int life = 0; life < 200; ++life) {
+        hair_instance* hair = make(test, groom);
+        hair_view      view = hair_view_default();
+        hair_test_ok(test, hair_set_look(hair, &look));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+        hair_test_ok(test, hair_draw(hair, &view));
+        if (life % 10 == 0) read(test, hair, HAIR_READ_FOLLOWERS, &strands);
+        hair_destroy(hair);
+    }
+    assert_int_equal(count_objects(), objects);
+    assert_int_equal(test->host.blocks, blocks);
+    hair_test_frame_free(&frame);
+    hair_groom_destroy(groom);
+}
+
+static void a_context_leaves_nothing_either(void** state)
+{
+    struct hair_test* test    = *state;
+    uint32_t          objects = count_objects(), blocks = test->host.blocks;
+    for (int life = 0; life < 5; ++life) {
+        hair_context*     context = NULL;
+        hair_context_desc desc    = hair_context_desc_default();
+        desc.host                 = &test->host.host;
+        desc.get_proc             = hair_egl_get_proc;
+        desc.timings              = 1;
+        hair_test_ok(test, hair_context_create(&desc, &context));
+        hair_groom*    groom = make_groom(test);
+        hair_instance* hair  = NULL;
+        hair_desc      of    = hair_desc_default();
+        hair_test_ok(test, hair_create(context, groom, &of, &hair));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+        hair_test_ok(test, hair_context_reload(context));
+        hair_destroy(hair);
+        hair_context_destroy(context);
+        hair_groom_destroy(groom);
+    }
+    assert_int_equal(count_objects(), objects);
+    assert_int_equal(test->host.blocks, blocks);
+}
+
+static void timings_count_the_runs_of_every_pass(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &test->host.host;
+    desc.get_proc             = hair_egl_get_proc;
+    desc.timings              = 1;
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    hair_groom*    groom = make_groom(test);
+    hair_instance* hair  = NULL;
+    hair_desc      of    = hair_desc_default();
+    hair_test_ok(test, hair_create(context, groom, &of, &hair));
+    for (int i = 0; i < 9; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 120));
+    glFinish();
+    hair_timing timings[HAIR_GL_PASS_COUNT];
+    assert_int_equal(hair_timings(context, timings, HAIR_GL_PASS_COUNT), HAIR_GL_PASS_COUNT);
+    assert_string_equal(timings[HAIR_GL_REDBLACK].pass, "sim/redblack");
+    assert_int_equal(timings[HAIR_GL_REDBLACK].runs, 9);
+    assert_int_equal(timings[HAIR_GL_SMOOTH].runs, 10); // once for the rest pose
+    assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
+    for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
+    hair_destroy(hair);
+    hair_context_destroy(context);
+    hair_groom_destroy(groom);
+}
+
+// Whatever the application does, every vertex is a number.
+static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
+{
+    static struct strands strands;
+    struct hair_test*     test   = *state;
+    hair_groom*           groom  = make_groom(test);
+    hair_instance*        hair   = make(test, groom);
+    uint32_t              random = 7;
+    for (int i = 0; i < 100; ++i) {
+        hair_physics physics = hair_physics_default();
+        float        there[16], far = powf(10, 8 * hair_random(&random) - 2);
+        pose(6.28f * hair_random(&random), far, -far, 0, there);
+        for (int k = 0; k < 3; ++k) physics.gravity[k] = 2000 * hair_random(&random) - 1000;
+        physics.damping = 1000 * hair_random(&random), physics.pull_root = 30 * hair_random(&random);
+        physics.angular = 30 * hair_random(&random), physics.bend = hair_random(&random);
+        physics.iterations = 1 + (uint32_t)(40 * hair_random(&random));
+        hair_solid solid   = {
+              HAIR_SHAPE_CAPSULE, {far, -far, 0}, {0, 0, 0, 1}, {1e-3f + 10 * hair_random(&random), far}};
+        hair_test_ok(test, hair_set_physics(hair, &physics));
+        hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)i % 2, sizeof solid));
+        hair_test_ok(test, i % 7 ? hair_set_transform(hair, there) : hair_teleport(hair, there));
+        hair_test_ok(test, hair_step(hair, 0.1f * hair_random(&random)));
+        for (int what = 0; what < 2; ++what) {
+            read(test, hair, (hair_read_what)what, &strands);
+            for (uint32_t k = 0; k < 3 * strands.vertices; ++k) assert_true(isfinite(strands.positions[k]));
+        }
+    }
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_new_instance_is_in_its_rest_pose),
+        HAIR_TEST(a_reset_is_as_good_as_new),
+        HAIR_TEST(a_teleport_takes_shape_and_motion_along),
+        HAIR_TEST(a_head_that_is_set_far_away_and_stepped_is_not_teleported),
+        HAIR_TEST(strands_rest_on_a_solid_that_moves_into_them),
+        HAIR_TEST(far_from_the_origin_nothing_stretches_more),
+        HAIR_TEST(far_from_the_origin_a_still_head_gives_the_same_bits),
+        HAIR_TEST(instances_beside_each_other_are_as_if_alone),
+        HAIR_TEST(the_groom_may_be_destroyed_while_instances_use_it),
+        HAIR_TEST(two_hundred_lives_leave_nothing),
+        HAIR_TEST(a_context_leaves_nothing_either),
+        HAIR_TEST(timings_count_the_runs_of_every_pass),
+        HAIR_TEST(no_abuse_makes_a_strand_that_is_not_finite),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
