@@ -1,0 +1,166 @@
+// desc_test.c - descs grow at their end without breaking callers, and every number in them is checked.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/base/desc.h"
+
+struct sample {
+    hair_made made;
+    float     share;
+    uint32_t  count;
+    float     newer; // not in the struct of an older caller
+};
+
+static const struct hair_field rows[] = {
+    {"sample.share", offsetof(struct sample, share), HAIR_FIELD_FLOAT, 0.3, 0.1, 0.9},
+    {"sample.count", offsetof(struct sample, count), HAIR_FIELD_UINT, 5, 2, 4000000000.0},
+    {"sample.newer", offsetof(struct sample, newer), HAIR_FIELD_FLOAT, -1, -2, 0},
+};
+static const struct hair_fields fields = {rows, 3, sizeof(struct sample)};
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static struct sample defaults(void)
+{
+    struct sample sample;
+    memset(&sample, 0xff, sizeof sample);
+    hair_fields_init(&sample, (hair_made){sizeof sample, HAIR_VERSION}, fields);
+    return sample;
+}
+
+static hair_result take(const struct sample* from, struct sample* own)
+{
+    return hair_fields_take(&test.host, "sample", from, own, fields);
+}
+
+static void defaults_are_those_of_the_table(void** state)
+{
+    (void)state;
+    struct sample sample = defaults();
+    assert_true(sample.share == 0.3f);
+    assert_int_equal(sample.count, 5);
+    assert_true(sample.newer == -1);
+    assert_int_equal(sample.made.size, sizeof sample);
+    assert_int_equal(sample.made.version, HAIR_VERSION);
+}
+
+static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** state)
+{
+    (void)state;
+    struct sample sample;
+    memset(&sample, 0x55, sizeof sample);
+    struct sample untouched = sample;
+    hair_fields_init(&sample, (hair_made){offsetof(struct sample, newer), HAIR_VERSION}, fields);
+    assert_int_equal(sample.count, 5);
+    assert_memory_equal(&sample.newer, &untouched.newer, sizeof sample.newer);
+}
+
+static void what_an_older_caller_does_not_know_has_its_default(void** state)
+{
+    (void)state;
+    struct sample old = defaults(), own;
+    old.made.size     = offsetof(struct sample, newer);
+    old.newer         = NAN;
+    old.count         = 77;
+    assert_int_equal(take(&old, &own), HAIR_OK);
+    assert_int_equal(own.count, 77);
+    assert_true(own.newer == -1);
+}
+
+static void what_only_a_newer_caller_knows_is_not_read(void** state)
+{
+    (void)state;
+    struct {
+        struct sample known;
+        float         future[50];
+    } larger;
+    struct sample own[2];
+    memset(&larger, 0xff, sizeof larger);
+    larger.known           = defaults();
+    larger.known.made.size = sizeof larger;
+    memset(own, 0x55, sizeof own);
+    struct sample beyond = own[1];
+    assert_int_equal(take(&larger.known, own), HAIR_OK);
+    assert_memory_equal(&own[1], &beyond, sizeof beyond);
+}
+
+static void both_ends_of_a_range_are_inside(void** state)
+{
+    (void)state;
+    struct sample sample = defaults(), own;
+    sample.share         = 0.1f; // below 0.1 as a double
+    assert_int_equal(take(&sample, &own), HAIR_OK);
+    sample.share = 0.9f;
+    sample.count = 4000000000u;
+    assert_int_equal(take(&sample, &own), HAIR_OK);
+    assert_int_equal(test.errors, 0);
+}
+
+static void a_number_outside_is_named_with_its_range(void** state)
+{
+    (void)state;
+    struct sample sample = defaults(), own;
+    sample.share         = 1.5f;
+    assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
+    assert_string_equal(test.sentence, "sample.share is 1.5, not in [0.1, 0.9]");
+    sample       = defaults();
+    sample.count = 1;
+    assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
+    assert_string_equal(test.sentence, "sample.count is 1, not in [2, 4e+09]");
+    sample       = defaults();
+    sample.share = NAN;
+    assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
+    sample.share = INFINITY;
+    assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(take(NULL, &own), HAIR_ERROR_ARGUMENT);
+    assert_string_equal(test.sentence, "sample is NULL");
+}
+
+static void what_no_default_function_filled_in_is_refused(void** state)
+{
+    (void)state;
+    struct sample zero = {{0, 0}, 0.5f, 5, 0}, own;
+    assert_int_equal(take(&zero, &own), HAIR_ERROR_VERSION);
+    assert_string_equal(test.sentence, "sample.made is (0, 0), not from sample_default()");
+    struct sample other = defaults();
+    other.made.version  = HAIR_VERSION + 10000;
+    assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
+    assert_non_null(strstr(test.sentence, "of another major version"));
+    other           = defaults();
+    other.made.size = 5000;
+    assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
+}
+
+static void another_minor_version_is_taken(void** state)
+{
+    (void)state;
+    struct sample other = defaults(), own;
+    other.made.version  = HAIR_VERSION_MAJOR * 10000 + 9999;
+    assert_int_equal(take(&other, &own), HAIR_OK);
+}
+
+#define TEST(function) cmocka_unit_test_setup(function, start)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(defaults_are_those_of_the_table),
+        TEST(the_defaults_of_an_older_caller_end_where_its_struct_does),
+        TEST(what_an_older_caller_does_not_know_has_its_default),
+        TEST(what_only_a_newer_caller_knows_is_not_read),
+        TEST(both_ends_of_a_range_are_inside),
+        TEST(a_number_outside_is_named_with_its_range),
+        TEST(what_no_default_function_filled_in_is_refused),
+        TEST(another_minor_version_is_taken),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,145 @@
+// host_test.c - memory and log go through the host and nowhere else.
+#include "tests/support/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/base/host.h"
+
+static struct hair_test_host test;
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    return 0;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return (int)test.blocks;
+}
+
+static void memory_is_zero_and_aligned(void** state)
+{
+    (void)state;
+    for (size_t size = 1; size < 100; size += 7) {
+        unsigned char* memory = hair_alloc(&test.host, 3, size);
+        assert_int_equal((uintptr_t)memory % 16, 0);
+        for (size_t i = 0; i < 3 * size; ++i) assert_int_equal(memory[i], 0);
+        hair_free(&test.host, memory);
+    }
+}
+
+// The test host counts what comes back in bytes.
+static void what_is_freed_is_as_large_as_what_was_allocated(void** state)
+{
+    (void)state;
+    void* a = hair_alloc(&test.host, 10, 10);
+    void* b = hair_alloc(&test.host, 1, 1);
+    assert_int_equal(test.blocks, 2);
+    assert_true(test.live >= 101);
+    hair_free(&test.host, a);
+    hair_free(&test.host, b);
+    assert_int_equal(test.live, 0);
+}
+
+static void nothing_of_something_is_memory_too(void** state)
+{
+    (void)state;
+    void* memory = hair_alloc(&test.host, 0, 100);
+    assert_non_null(memory);
+    hair_free(&test.host, memory);
+    hair_free(&test.host, NULL);
+}
+
+static void a_product_that_overflows_is_refused_without_asking(void** state)
+{
+    (void)state;
+    assert_null(hair_alloc(&test.host, SIZE_MAX, 2));
+    assert_null(hair_alloc(&test.host, SIZE_MAX / 2, 4));
+    assert_null(hair_alloc(&test.host, (size_t)1 << 62, 2));
+    assert_null(hair_alloc(&test.host, 1, PTRDIFF_MAX));
+    assert_int_equal(test.allocations, 0);
+}
+
+static void memory_that_the_host_refuses_is_null(void** state)
+{
+    (void)state;
+    test.refuse = 1;
+    assert_null(hair_alloc(&test.host, 1, 1));
+}
+
+static void without_a_host_there_is_the_c_library(void** state)
+{
+    (void)state;
+    hair_host own    = hair_host_take(NULL);
+    void*     memory = hair_alloc(&own, 1, 5);
+    assert_non_null(memory);
+    hair_free(&own, memory);
+    assert_int_equal(hair_fail(&own, HAIR_ERROR_FILE, "nobody hears this"), HAIR_ERROR_FILE);
+}
+
+static void half_an_allocator_is_none(void** state)
+{
+    (void)state;
+    hair_host half = test.host;
+    half.free      = NULL;
+    hair_host own  = hair_host_take(&half);
+    hair_free(&own, hair_alloc(&own, 1, 5));
+    assert_int_equal(test.allocations, 0);
+    assert_ptr_equal(own.log, test.host.log);
+}
+
+static void a_failure_is_one_sentence_and_its_code(void** state)
+{
+    (void)state;
+    assert_int_equal(hair_fail(&test.host, HAIR_ERROR_ARGUMENT, "%s is %d", "it", 7), HAIR_ERROR_ARGUMENT);
+    assert_string_equal(test.sentence, "it is 7");
+    assert_int_equal(hair_fail_memory(&test.host, "a groom"), HAIR_ERROR_MEMORY);
+    assert_string_equal(test.sentence, "out of memory for a groom");
+    assert_int_equal(test.errors, 2);
+    hair_log(&test.host, HAIR_LOG_WARNING, "mind");
+    assert_int_equal(test.warnings, 1);
+    assert_int_equal(test.errors, 2);
+}
+
+static void a_long_sentence_is_cut(void** state)
+{
+    (void)state;
+    char much[2000];
+    memset(much, 'x', sizeof much);
+    much[sizeof much - 1] = 0;
+    hair_fail(&test.host, HAIR_ERROR_FILE, "%s", much);
+    assert_int_equal(strlen(test.sentence), 511);
+}
+
+static void every_result_has_words(void** state)
+{
+    (void)state;
+    for (int i = 0; i <= HAIR_ERROR_VERSION; ++i)
+        for (int k = 0; k < i; ++k)
+            assert_string_not_equal(hair_result_string((hair_result)i), hair_result_string((hair_result)k));
+    assert_string_equal(hair_result_string((hair_result)99), "an unknown result");
+    assert_int_equal(hair_version(), HAIR_VERSION);
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(memory_is_zero_and_aligned),
+        TEST(what_is_freed_is_as_large_as_what_was_allocated),
+        TEST(nothing_of_something_is_memory_too),
+        TEST(a_product_that_overflows_is_refused_without_asking),
+        TEST(memory_that_the_host_refuses_is_null),
+        TEST(without_a_host_there_is_the_c_library),
+        TEST(half_an_allocator_is_none),
+        TEST(a_failure_is_one_sentence_and_its_code),
+        TEST(a_long_sentence_is_cut),
+        TEST(every_result_has_words),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
