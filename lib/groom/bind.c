@@ -1,7 +1,7 @@
 // bind.c - followers of full strands: each bound to the guide that runs nearest to it all along.
 //
-// A follower is its guide and a cubic Bezier curve in the guide's frame, fitted here by least squares to where the
-// strand is at rest. The root is exact.
+// A follower is its guide and a cubic Bezier curve in the guide's frame, fitted here by least squares to
+// where the strand is at rest. The root is exact.
 #include "lib/groom/draft.h"
 #include "lib/groom/smoothed.h"
 
@@ -71,8 +71,8 @@ hair_result hair_strand_sprouts(struct hair_draft* draft)
     return result;
 }
 
-// Control points 1 to 3 of a cubic Bezier curve are `weight` times its values at t = 1/SAMPLES, 2/SAMPLES, … 1,
-// less what control point 0 gives there: the solution of the normal equations, the same for every strand.
+// Control points 1 to 3 of a cubic Bezier curve are `weight` times its values at even t up to 1, less what
+// control point 0 gives there: the solution of the normal equations, the same for every strand.
 struct fit {
     float root[SAMPLES]; // Bernstein polynomial of control point 0
     float weight[3][SAMPLES];

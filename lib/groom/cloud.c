@@ -6,7 +6,7 @@
 #include <float.h>
 #include <stdbool.h>
 
-#define LEAF 8 // Points that are scanned rather than split; from 4 to 16 the time of a search is flat.
+#define LEAF 8 // Points that are scanned rather than split: 4 takes as long, 16 a tenth longer.
 
 static float coordinate(struct hair_cloud cloud, uint32_t point, uint32_t axis)
 {

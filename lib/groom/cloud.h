@@ -1,4 +1,4 @@
-// cloud.h - points of any dimension, sorted into halves and searched: the k-d tree (Bentley 1975) and its one step.
+// cloud.h - points of any dimension, cut into halves and searched: the k-d tree (Bentley 1975) and its step.
 #ifndef HAIR_GROOM_CLOUD_H
 #define HAIR_GROOM_CLOUD_H
 
@@ -42,8 +42,8 @@ struct hair_near {
     float    squared; // distance
 };
 
-// The `wanted` points nearest to `point`, nearest first. `near` holds `found` of them already, which the search
-// may only better (0: none). Returns how many there are.
+// The `wanted` points nearest to `point`, nearest first. `near` holds `found` of them already, which the
+// search may only better (0: none). Returns how many there are.
 uint32_t hair_tree_nearest(const struct hair_tree* tree, const float* point, struct hair_near* near,
                            uint32_t found, uint32_t wanted);
 

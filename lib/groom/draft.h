@@ -26,8 +26,8 @@ struct hair_draft {
     uint32_t* chosen; // strand of each guide
     uint32_t* owner;  // guide of each strand, a near one. Only where all strands are given
 
-    // A sprout is a follower before it has its place among the others. It grows on a plot, a scalp triangle or a
-    // guide; the sprouts of a plot are neighbours.
+    // A sprout is a follower before it has its place among the others. It grows on a plot, a scalp triangle
+    // or a guide; the sprouts of a plot are neighbours.
     uint32_t     plot_count;
     uint32_t*    plot_sprouts; // how many, of each plot
     uint32_t*    plot_first;   // the first of them
@@ -43,7 +43,7 @@ hair_result hair_draft_strands(struct hair_draft* draft);
 hair_result hair_draft_scalp(struct hair_draft* draft);
 hair_result hair_draft_guides(struct hair_draft* draft);
 hair_result hair_draft_rest(struct hair_draft* draft);
-// Then of the four sources of followers the one that the desc asks for: full strands (bind.c), the guides
+// Then of the three sources of followers the one that the desc asks for: full strands (bind.c), the guides
 // themselves and what surrounds them (grow.c), the scalp (scalp.c). First all sprouts are counted, by plot;
 // patches give them their places; then followers are made of them.
 hair_result hair_strand_sprouts(struct hair_draft* draft);
@@ -65,8 +65,8 @@ hair_vec3 hair_scalp_corner(const struct hair_draft* draft, uint32_t triangle, u
 // The start of a sprout's random choices.
 uint32_t hair_sprout_random(const struct hair_draft* draft, uint32_t sprout);
 
-// A follower that is its guide, but for what is random; and one grown from `offset` off the guide's root, in the
-// root frame, that clumps towards it.
+// A follower that is its guide, but for what is random; and one grown from `offset` off the guide's root, in
+// the root frame, that clumps towards it.
 struct hair_follower hair_own_follower(uint32_t guide, uint32_t* random);
 struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint32_t* random);
 

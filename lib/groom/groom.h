@@ -8,10 +8,10 @@
 struct hair_groom {
     hair_host             host;
     hair_groom_info       info;
-    struct hair_guide*    guides;    // info.guide_count
-    struct hair_rest*     rest;      // info.guide_vertex_count
-    struct hair_follower* followers; // info.follower_count
-    struct hair_patch*    patches;   // info.patch_count
+    struct hair_guide*    guides;        // info.guide_count
+    struct hair_rest*     rest;          // info.guide_vertex_count
+    struct hair_follower* followers;     // info.follower_count
+    struct hair_patch*    patches;       // info.patch_count
     uint32_t              most_vertices; // of a guide
 };
 

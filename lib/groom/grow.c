@@ -51,8 +51,8 @@ hair_result hair_guide_sprouts(struct hair_draft* draft)
     return HAIR_OK;
 }
 
-// The i-th of `count` offsets in a disc at right angles to the guide: Vogel's spiral, the first in the middle, with
-// the radii of a normal distribution cut off at two standard deviations, the disc's edge.
+// The i-th of `count` offsets in a disc at right angles to the guide: Vogel's spiral, the first in the
+// middle, with the radii of a normal distribution cut off at two standard deviations, the disc's edge.
 static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
 {
     float edge  = 1 - expf(-2);

@@ -1,9 +1,10 @@
 // guides.c - which strands are simulated.
 //
-// Of full strands the guides are chosen so that they represent the haircut. The marks of a strand make it a point
-// of 12 dimensions; the distance of two points is how far two strands lie apart along their length. The set is cut
-// in two at the mean of the axis along which it varies most, and each half again, down to one guide per cell: the
-// strand nearest to the mean of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
+// Of full strands the guides are chosen so that they represent the haircut. The marks of a strand make it a
+// point of 12 dimensions; the distance of two points is how far two strands lie apart along their length. The
+// set is cut in two at the mean of the axis along which it varies most, and each half again, down to one
+// guide per cell: the strand nearest to the mean of its cell (Heckbert 1982, "Color image quantization for
+// frame buffer display").
 #include "lib/groom/draft.h"
 
 #include <float.h>
@@ -43,9 +44,10 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
     return cell;
 }
 
-// How many guides a cell deserves, up to a factor. The error of the best n representatives of a density f in d
-// dimensions is least when they lie as f^(d/(d+2)) (Zador 1982); for a cell of `count` strands about r apart that
-// is count^(d/(d+2)) (r^d)^(2/(d+2)), and with d = 4, two for the root and two for the shape, (count r^2)^(2/3).
+// How many guides a cell deserves, up to a factor. The error of the best n representatives of a density f in
+// d dimensions is least when they lie as f^(d/(d+2)) (Zador 1982); for a cell of `count` strands about r
+// apart that is count^(d/(d+2)) (r^d)^(2/(d+2)), and with d = 4, two for the root and two for the shape,
+// (count r^2)^(2/3).
 static double weigh(const struct cell* cell)
 {
     double sum = 0;

@@ -1,7 +1,8 @@
 // patches.c - followers in the order they are drawn: patches of neighbours, each well filled.
 //
-// Plots are cut in two along the axis where they reach farthest, in proportion to the patches that either side will
-// fill, and each half again until it fits into one: the packing of an R-tree (Leutenegger et al. 1997, "STR").
+// Plots are cut in two along the axis where they reach farthest, in proportion to the patches that either
+// side will fill, and each half again until it fits into one: the packing of an R-tree (Leutenegger et al.
+// 1997, "STR").
 #include "lib/groom/draft.h"
 
 #define ALIKE (1.0f / 16) // Densities that differ by no more may share a patch.

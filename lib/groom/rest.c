@@ -1,4 +1,4 @@
-// rest.c - the rest shape of guides: vertices, lengths, and each segment's direction in the frame of the one before.
+// rest.c - the rest shape of guides: vertices, lengths, each segment's direction in the frame of the one before.
 //
 //   F_0 = root frame, y along the first segment       direction_0 = (0, 1, 0)
 //   F_i = T_i F_(i-1), where T_i is the least rotation from segment i-1 to segment i
@@ -26,9 +26,9 @@ static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
     return vertices < draft->desc->guide_vertices ? vertices : draft->desc->guide_vertices;
 }
 
-// A strand with `count` vertices. Those that it has are kept where they are enough: its shape and length stay. Where
-// they are too many they are replaced by others at equal distances: then each arc of length s and radius r
-// is cut short to its chord, by (s/r)^2 / 24 of its length.
+// A strand with `count` vertices. Those that it has are kept where they are enough: its shape and length
+// stay. Where they are too many they are replaced by others at equal distances: then each arc of length s and
+// radius r is cut short to its chord, by (s/r)^2 / 24 of its length.
 static void sample(const float* positions, uint32_t vertices, float* out, uint32_t count)
 {
     uint32_t have = vertices;
@@ -56,8 +56,8 @@ static hair_vec3 mean_direction(const struct hair_draft* draft)
     return hair_normalize(sum, Y_AXIS);
 }
 
-// The frame whose y axis is `to`, least turned from that of the mean direction. Twice: near opposite directions the
-// first turn is only about right.
+// The frame whose y axis is `to`, least turned from that of the mean direction. Twice: near opposite
+// directions the first turn is only about right.
 static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
 {
     hair_quat frame = hair_quat_between(Y_AXIS, mean);

@@ -15,8 +15,8 @@ static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
     return 0.5 * (double)hair_length(hair_cross(b, c));
 }
 
-// Triangle after triangle takes whole sprouts off the running sum of areas: none is more than one off its share, and
-// small triangles are not starved together.
+// Triangle after triangle takes whole sprouts off the running sum of areas: none is more than one off its
+// share, and small triangles are not starved together.
 hair_result hair_scalp_sprouts(struct hair_draft* draft)
 {
     uint32_t    triangles = draft->desc->scalp_triangle_count;
@@ -53,7 +53,8 @@ struct trio {
     float    weight[3];
 };
 
-// The guide of the same number first: where vertices of the scalp coincide, as along a parting, it is the one meant.
+// The guide of the same number first: where vertices of the scalp coincide, as along a parting, it is the one
+// meant.
 static uint32_t find_guide_at(const struct scalp* scalp, uint32_t vertex)
 {
     const struct hair_groom* groom = scalp->draft->groom;
@@ -144,8 +145,8 @@ static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
     return hair_sub(hair_v3(tip.x, tip.y, tip.z), hair_guide_root(groom, guide));
 }
 
-// Whether two guides lie on different sides of a parting: what is between them would hang in the middle of nowhere
-// or pass through the head.
+// Whether two guides lie on different sides of a parting: what is between them would hang in the middle of
+// nowhere or pass through the head.
 static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
 {
     hair_vec3 a = root_to_tip(groom, i), b = root_to_tip(groom, j);

@@ -1,7 +1,7 @@
 // smoothed.c - a guide at rest, sampled at equal distances along the spline through its vertices.
 //
-// The spline is cubic Hermite, with the tangents of the parabola through three neighbours, so that segments of
-// unequal length make no overshoot.
+// The spline is cubic Hermite, with the tangents of the parabola through three neighbours, so that segments
+// of unequal length make no overshoot.
 #include "lib/groom/smoothed.h"
 
 // A guide by its vertices: position, distance from the root, and per segment direction and frame.

@@ -1,4 +1,4 @@
-// smoothed.h - a guide at rest as it is drawn: the twin of glsl/interpolate/smooth.comp and glsl/follower.glsl.
+// smoothed.h - a guide at rest as it is drawn: the twin of smooth.comp and follower.glsl.
 #ifndef HAIR_GROOM_SMOOTHED_H
 #define HAIR_GROOM_SMOOTHED_H
 

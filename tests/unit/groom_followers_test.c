@@ -152,8 +152,8 @@ static void wavy_strands_are_followed_closely(void** state)
     struct hair_test_strands strands = hair_test_strands_make(2000, 32);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 32, wavy, NULL);
     struct fit fit = fit_strands("wavy", &strands, 200);
-    // Strands lie about 4 mm, 2.5 % of their length, from their guide, whose frame swings by 0.6 rad with its waves: that
-    // share of the distance no offset can follow.
+    // Strands lie about 4 mm, 2.5 % of their length, from their guide, whose frame swings by 0.6 rad with its
+    // waves: that share of the distance no offset can follow.
     assert_true(fit.rms < 0.6 * 0.025);
     assert_true(fit.rms < 0.4 * fit.own);
     assert_true(fit.root < 1e-6);

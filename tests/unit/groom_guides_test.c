@@ -126,8 +126,8 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     hair_test_strands_free(&strands);
 }
 
-// Of points chosen at random from a plane the nearest is half their spacing (density^-1/2) away on average, of a
-// square lattice 0.38 of it.
+// Of points chosen at random from a plane the nearest is half their spacing (density^-1/2) away on average,
+// of a square lattice 0.38 of it.
 static void guides_lie_more_evenly_than_by_chance(void** state)
 {
     (void)state;
@@ -230,8 +230,8 @@ static double length_of(const float* p, uint32_t vertices)
     return sum;
 }
 
-// Arcs of 4 pi / 31 of turn per segment, at a slope: the chord is (turn per segment)^2 / 24 shorter, by the share of
-// the motion that is circular.
+// Arcs of 4 pi / 31 of turn per segment, at a slope: the chord is (turn per segment)^2 / 24 shorter, by the
+// share of the motion that is circular.
 static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples(void** state)
 {
     (void)state;
@@ -274,8 +274,8 @@ static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** st
     hair_test_strands_free(&strands);
 }
 
-// Over the upper half of the hedgehog: where neighbours' directions differ by an angle, their frames may differ by
-// little more.
+// Over the upper half of the hedgehog: where neighbours' directions differ by an angle, their frames may
+// differ by little more.
 static void root_frames_vary_as_smoothly_as_the_roots(void** state)
 {
     (void)state;
