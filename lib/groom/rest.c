@@ -1,4 +1,4 @@
-// rest.c - the rest shape of guides: vertices, lengths, each segment's direction in the frame of the one before.
+// rest.c - the rest shape of guides: vertices, lengths, directions in the frame of the segment before.
 //
 //   F_0 = root frame, y along the first segment       direction_0 = (0, 1, 0)
 //   F_i = T_i F_(i-1), where T_i is the least rotation from segment i-1 to segment i
