@@ -133,8 +133,8 @@ typedef struct hair_groom_desc {
     const float*       scalp_positions; ///< xyz per vertex of the scalp, in the space of `positions`. NULL: none.
     const uint32_t*    scalp_triangles; ///< Three indices each, counter-clockwise from outside.
     const float*       scalp_density;   ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
-    uint32_t           scalp_vertex_count;
-    uint32_t           scalp_triangle_count;
+    uint32_t           scalp_vertex_count;   ///< [0, 4194304].
+    uint32_t           scalp_triangle_count; ///< [0, 4194304].
     uint32_t           seed;            ///< Of every random choice. Default 1.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
@@ -292,7 +292,7 @@ typedef struct hair_view {
     hair_primitive primitive;         ///< Default HAIR_RIBBONS.
     float          view[16];          ///< World to view. Default identity.
     float          projection[16];    ///< View to clip. Reversed and infinite depth are fine. Default identity.
-    float          light_to[3];       ///< From the hair towards the light. World; need not be unit. Default (0.4, 0.8, 0.45).
+    float          light_to[3];       ///< From the hair towards the light. World; need not be unit. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
     float          light[3];          ///< Its irradiance. [0, 1e6]. Default 3.
     float          ambient[3];        ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
     uint32_t       shadow_texture;    ///< OpenGL name of a 2D depth texture drawn from the light. 0: no shadow.
