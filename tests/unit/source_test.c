@@ -1,0 +1,231 @@
+// source_test.c - shader text with its includes in place, and line numbers that lead back to the files.
+#define _POSIX_C_SOURCE 200809L
+#include "tests/support/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "lib/gl/gl.h"
+
+static struct hair_test_host test;
+static char                  folder[64];
+
+static int start(void** state)
+{
+    (void)state;
+    hair_test_host_init(&test);
+    snprintf(folder, sizeof folder, "/tmp/hair-source-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    static const char names[][8] = {"a.comp", "b.glsl", "c.glsl"};
+    char              path[128];
+    for (int i = 0; i < 3; ++i) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        unlink(path);
+    }
+    for (int i = 0; i < 20; ++i) {
+        snprintf(path, sizeof path, "%s/%d.glsl", folder, i);
+        unlink(path);
+    }
+    rmdir(folder);
+    return (int)test.blocks;
+}
+
+static void put(const char* name, const char* text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE* file = fopen(path, "wb");
+    fputs(text, file);
+    fclose(file);
+}
+
+static hair_result resolve(const char* name, struct hair_gl_source* out)
+{
+    return hair_gl_read_source(&test.host, folder, name, "PREFIX\n", out);
+}
+
+static void expect(const char* name, const char* text)
+{
+    struct hair_gl_source source;
+    assert_int_equal(resolve(name, &source), HAIR_OK);
+    assert_string_equal(source.text, text);
+    hair_free(&test.host, source.text);
+}
+
+static void a_file_without_includes_is_itself(void** state)
+{
+    (void)state;
+    put("a.comp", "one\ntwo");
+    expect("a.comp", "one\ntwo\n");
+}
+
+static void the_prefix_follows_the_version(void** state)
+{
+    (void)state;
+    put("a.comp", "// head\n#version 450 core\nvoid main() {}\n");
+    expect("a.comp", "// head\n#version 450 core\nPREFIX\n#line 3 0\nvoid main() {}\n");
+}
+
+static void includes_are_put_in_place_once(void** state)
+{
+    (void)state;
+    put("a.comp", "a1\n#include \"b.glsl\"\n  #include \"c.glsl\"\na4\n");
+    put("b.glsl", "b1\n#include \"c.glsl\"\nb3\n");
+    put("c.glsl", "c1\n#include \"a.comp\"\n");
+    expect("a.comp",
+           "a1\n#line 1 1\nb1\n#line 1 2\nc1\n#line 3 2\n#line 3 1\nb3\n#line 3 0\n#line 4 0\na4\n");
+}
+
+static void a_file_that_is_not_there_is_named(void** state)
+{
+    (void)state;
+    struct hair_gl_source source = {0};
+    put("a.comp", "#include \"nowhere.glsl\"\n");
+    assert_int_equal(resolve("a.comp", &source), HAIR_ERROR_OPENGL);
+    assert_string_equal(test.sentence, "shader text glsl/nowhere.glsl is not there");
+    assert_int_equal(hair_gl_read_source(&test.host, NULL, "nowhere.comp", "", &source), HAIR_ERROR_OPENGL);
+    assert_string_equal(test.sentence, "shader text glsl/nowhere.comp is not there");
+    assert_int_equal(test.errors, 2);
+}
+
+static void too_many_files_and_too_long_names_are_refused(void** state)
+{
+    (void)state;
+    struct hair_gl_source source;
+    for (int i = 0; i < 20; ++i) {
+        char name[16], text[32];
+        snprintf(name, sizeof name, "%d.glsl", i);
+        snprintf(text, sizeof text, "#include \"%d.glsl\"\n", i + 1);
+        put(name, text);
+    }
+    assert_int_equal(resolve("0.glsl", &source), HAIR_ERROR_OPENGL);
+    put("a.comp", "#include \"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\"\n");
+    assert_int_equal(resolve("a.comp", &source), HAIR_ERROR_OPENGL);
+    assert_int_equal(test.errors, 2);
+}
+
+static void lines_that_only_look_like_includes_stay(void** state)
+{
+    (void)state;
+    put("a.comp", "#include\n#include nothing\n#include \"half\n// #include \"b.glsl\"\n#includes\n");
+    expect("a.comp", "#include\n#include nothing\n#include \"half\n// #include \"b.glsl\"\n#includes\n");
+}
+
+static void refused_memory_leaks_nothing(void** state)
+{
+    (void)state;
+    struct hair_gl_source source;
+    for (uint32_t n = 1;; ++n) {
+        test.allocations   = 0;
+        test.refuse        = n;
+        hair_result result = hair_gl_read_source(&test.host, "glsl", "draw/strand.tese", "", &source);
+        if (!result) break;
+        assert_int_equal(result, HAIR_ERROR_MEMORY);
+        assert_int_equal(test.blocks, 0);
+        assert_string_equal(test.sentence, "out of memory for shader text");
+    }
+    assert_true(test.allocations > 3);
+    hair_free(&test.host, source.text);
+}
+
+// The passes ---------------------------------------------------------------------------------------------
+
+static const char* const stages[] = {
+#define PASS(name, label, stages) stages,
+#include "lib/gl/passes.inl"
+#undef PASS
+};
+
+// Line `number` (from 1) of glsl/`name`.
+static void read_line(const char* name, int number, char* out, int size)
+{
+    char path[128];
+    snprintf(path, sizeof path, "glsl/%s", name);
+    FILE* file = fopen(path, "rb");
+    assert_non_null(file);
+    *out = 0;
+    for (int i = 0; i < number; ++i)
+        if (!fgets(out, size, file)) fail_msg("%s has no line %d", path, number);
+    out[strcspn(out, "\n")] = 0;
+    fclose(file);
+}
+
+// Every line is the one that the #line directives say it is.
+static void check_lines(const struct hair_gl_source* source)
+{
+    int      line = 1;
+    unsigned file = 0;
+    for (char* at = source->text; *at;) {
+        char* end = strchr(at, '\n');
+        char  expected[512];
+        *end       = 0;
+        int prefix = strncmp(at, "#define HAIR_TEST_PREFIX", 24) == 0;
+        if (!prefix && sscanf(at, "#line %d %u", &line, &file) != 2) {
+            assert_in_range(file, 0, source->files - 1);
+            read_line(source->file[file], line, expected, sizeof expected);
+            assert_string_equal(at, expected);
+            ++line;
+        }
+        at = end + 1;
+    }
+}
+
+static void every_line_of_every_shader_leads_back_to_its_file(void** state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+        char list[256];
+        snprintf(list, sizeof list, "%s", stages[i]);
+        for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
+            struct hair_gl_source source;
+            assert_int_equal(
+                hair_gl_read_source(&test.host, "glsl", name, "#define HAIR_TEST_PREFIX\n", &source),
+                HAIR_OK);
+            check_lines(&source);
+            hair_free(&test.host, source.text);
+        }
+    }
+}
+
+static void the_text_built_in_is_that_of_the_files(void** state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+        char list[256];
+        snprintf(list, sizeof list, "%s", stages[i]);
+        for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
+            struct hair_gl_source built_in, file;
+            assert_int_equal(hair_gl_read_source(&test.host, NULL, name, "", &built_in), HAIR_OK);
+            assert_int_equal(hair_gl_read_source(&test.host, "glsl", name, "", &file), HAIR_OK);
+            assert_string_equal(built_in.text, file.text);
+            hair_free(&test.host, built_in.text);
+            hair_free(&test.host, file.text);
+        }
+    }
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, start, finish)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_file_without_includes_is_itself),
+        TEST(the_prefix_follows_the_version),
+        TEST(includes_are_put_in_place_once),
+        TEST(a_file_that_is_not_there_is_named),
+        TEST(too_many_files_and_too_long_names_are_refused),
+        TEST(lines_that_only_look_like_includes_stay),
+        TEST(refused_memory_leaks_nothing),
+        TEST(every_line_of_every_shader_leads_back_to_its_file),
+        TEST(the_text_built_in_is_that_of_the_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
