@@ -11,3 +11,11 @@ layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params 
 
 // Number of this work group: dispatches have two dimensions, since one is promised only 65,535 groups.
 uint hair_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+// The work group meets here, and sees what each of its threads wrote to shared memory: barrier() alone orders only
+// the threads, and one driver does move shared writes across it.
+void synchronise()
+{
+    memoryBarrierShared();
+    barrier();
+}

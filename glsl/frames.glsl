@@ -11,17 +11,17 @@ shared vec3 segment_direction[HAIR_MAX_GUIDE_VERTICES];
 // scan_frame[i] is the frame of segment i and segment_direction[i] its direction. Called by the whole work group.
 void carry_frames(uint i, uint segments, vec3 direction, vec4 root)
 {
-    barrier();
+    synchronise();
     segment_direction[i] = direction;
-    barrier();
+    synchronise();
     vec4 turn = i == 0u ? quat_multiply(quat_between(rotate(root, vec3(0.0, 1.0, 0.0)), direction), root)
                         : quat_between(segment_direction[i - 1u], direction);
     scan_frame[i] = turn;
     for (uint reach = 1u; reach < segments; reach *= 2u) {
-        barrier();
+        synchronise();
         vec4 before = i >= reach ? scan_frame[i - reach] : vec4(0.0, 0.0, 0.0, 1.0);
-        barrier();
+        synchronise();
         if (i >= reach) scan_frame[i] = normalize(quat_multiply(scan_frame[i], before));
     }
-    barrier();
+    synchronise();
 }

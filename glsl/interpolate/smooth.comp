@@ -17,15 +17,15 @@ shared float from_root[HAIR_MAX_GUIDE_VERTICES];
 void sum_lengths(uint i, uint count)
 {
     float l = i > 0u && i < count ? distance(vertex[i], vertex[i - 1u]) : 0.0;
-    barrier();
+    synchronise();
     from_root[i] = l;
     for (uint reach = 1u; reach < count; reach *= 2u) {
-        barrier();
+        synchronise();
         float before = i >= reach ? from_root[i - reach] : 0.0;
-        barrier();
+        synchronise();
         from_root[i] += before;
     }
-    barrier();
+    synchronise();
 }
 
 // Derivative by length at vertex j.
@@ -64,7 +64,7 @@ void main()
     vec3 in_head = mix(rotate(quat_conjugate(params.rotation_before), before),
                        rotate(quat_conjugate(params.rotation_after), after), params.alpha);
     vertex[i]    = rotate(params.rotation_now, in_head);
-    barrier();
+    synchronise();
     vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
     carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
                  quat_multiply(params.rotation_now, guide[g].root_frame));

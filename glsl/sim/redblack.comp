@@ -41,7 +41,7 @@ void main()
     float     share        = float(i) / float(count - 1u);
     float     frequency    = mix(params.pull_root, params.pull_tip, share);
     if (i == 0u) broken = 0u;
-    barrier();
+    synchronise();
 
     for (uint s = 0u; s < params.substeps; ++s) {
         vec4 rotation = params.substep[s].rotation;
@@ -52,11 +52,11 @@ void main()
         vec3 p = x - head + params.keep * displacement + params.gravity.xyz * (dt * dt);
         p      = pull(p, target, frequency * frequency, dt);
         if (pinned) p = target;
-        barrier();
+        synchronise();
         vertex[i] = here ? p : vec3(0.0);
 
         if (params.angular > 0.0) {
-            barrier();
+            synchronise();
             vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
             carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
                          quat_multiply(rotation, guide[g].root_frame));
@@ -64,27 +64,27 @@ void main()
             if (here && !pinned)
                 aimed = vertex[i - 1u] +
                         rest[own - 1u].position.w * rotate(scan_frame[i - 2u], rest[own - 1u].direction.xyz);
-            barrier();
+            synchronise();
             if (here && !pinned) vertex[i] = pull(p, aimed, params.angular, dt);
         }
-        barrier();
+        synchronise();
 
         for (uint n = 0u; n < params.iterations; ++n) {
             relax_distance(i, count, 0u, first);
-            barrier();
+            synchronise();
             relax_distance(i, count, 1u, first);
-            barrier();
+            synchronise();
             if (params.bend > 0.0) {
                 relax_bend(i, count, 0u, first, params.bend);
-                barrier();
+                synchronise();
                 relax_bend(i, count, 1u, first, params.bend);
-                barrier();
+                synchronise();
             }
             if (params.solids > 0u) {
                 if (here && !pinned)
                     for (uint k = 0u; k < params.solids; ++k)
                         vertex[i] = push_out(vertex[i], params.solid[k], params.substep[s].displacement.w, params.margin);
-                barrier();
+                synchronise();
             }
         }
 
@@ -92,12 +92,12 @@ void main()
         displacement = x - before + head;
         // Written so that NaN counts as broken: the strand goes back to its rest pose.
         if (here && !(dot(x, x) < 1e8 && dot(displacement, displacement) < 1e8)) broken = 1u;
-        barrier();
+        synchronise();
         if (broken != 0u) {
             x            = target;
             displacement = vec3(0.0);
         }
-        barrier();
+        synchronise();
         if (i == 0u) broken = 0u;
     }
 
