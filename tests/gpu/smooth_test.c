@@ -61,6 +61,7 @@ static void finish(struct fixture* f)
 static void run(struct fixture* f)
 {
     struct hair_gl* gl = &f->test->context->gl;
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes, barrier or not.
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *f->state,
                          f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
