@@ -101,7 +101,7 @@ static void too_many_files_and_too_long_names_are_refused(void** state)
     (void)state;
     struct hair_gl_source source;
     for (int i = 0; i < 20; ++i) {
-        char name[16], text[32];
+        char name[32], text[64];
         snprintf(name, sizeof name, "%d.glsl", i);
         snprintf(text, sizeof text, "#include \"%d.glsl\"\n", i + 1);
         put(name, text);
