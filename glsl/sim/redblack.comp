@@ -23,6 +23,12 @@ vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
     return position + (target - position) * (k / (1.0 + k));
 }
 
+// By the bits: comparisons with NaN may be compiled away.
+bool is_finite(vec3 v)
+{
+    return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
+}
+
 void main()
 {
     uint g = hair_group();
@@ -90,8 +96,9 @@ void main()
 
         x            = vertex[i];
         displacement = x - before + head;
-        // Written so that NaN counts as broken: the strand goes back to its rest pose.
-        if (here && !(dot(x, x) < 1e8 && dot(displacement, displacement) < 1e8)) broken = 1u;
+        // A strand that is not finite, or far beyond any hair, goes back to its rest pose.
+        if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 || dot(displacement, displacement) > 1e8))
+            broken = 1u;
         synchronise();
         if (broken != 0u) {
             x            = target;

@@ -15,8 +15,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     if (!result)
         result = hair_gl_buffer(gl, "hair patches", draw->patches * sizeof *groom->patches, groom->patches,
                                 &draw->patch);
-    if (!result)
-        result = hair_gl_buffer(gl, "hair draw", sizeof(struct hair_draw_params), NULL, &draw->params);
+    if (!result) result = hair_gl_uniform(gl, "hair draw", sizeof(struct hair_draw_params), &draw->params);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, draw->follower,
                                         &draw->follower_texture);
@@ -84,7 +83,7 @@ void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, con
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
-    gl->NamedBufferSubData(draw->params, 0, sizeof params, &params);
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
 
     bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
     gl->BindVertexArray(gl->vertex_array);
@@ -111,7 +110,7 @@ hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* s
     if (!result) {
         struct hair_draw_params params;
         hair_draw_write_params(draw, NULL, NULL, &params);
-        gl->NamedBufferSubData(draw->params, 0, sizeof params, &params);
+        hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
         bind(draw, smooth, 0);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, &expanded);
         hair_gl_run(gl, HAIR_GL_EXPAND, (uint32_t)((count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));

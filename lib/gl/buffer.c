@@ -35,6 +35,29 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
     return hair_gl_buffer(gl, label, size, data, out);
 }
 
+hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out)
+{
+    GLuint  buffer = 0;
+    GLint64 got    = 0;
+    gl->CreateBuffers(1, &buffer);
+    if (buffer) {
+        gl->NamedBufferData(buffer, (GLsizeiptr)size, NULL, GL_STREAM_DRAW);
+        gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
+    }
+    if (got != (GLint64)size) {
+        if (buffer) gl->DeleteBuffers(1, &buffer);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
+    }
+    gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
+    *out = buffer;
+    return HAIR_OK;
+}
+
+void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data)
+{
+    gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
+}
+
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {

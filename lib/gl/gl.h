@@ -90,6 +90,12 @@ hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, c
 // The same, for a shader to read or write as storage: fails when the driver's largest block is smaller.
 hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
                             GLuint* out);
+
+// A uniform buffer, written whole before every dispatch or draw that reads it. Each writing gives it new memory, so
+// that what is under way keeps what it was given: one driver was seen to write ahead of a dispatch before it.
+hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out);
+void        hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
+
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
 void        hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);

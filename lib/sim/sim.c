@@ -18,7 +18,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
-    if (!result) result = hair_gl_buffer(gl, "hair step", sizeof(struct hair_step_params), NULL, &sim->step);
+    if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
     return result;
 }
 
@@ -80,7 +80,7 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
 
 static void upload(struct hair_sim* sim, const struct hair_step_params* params)
 {
-    sim->gl->NamedBufferSubData(sim->step, 0, sizeof *params, params);
+    hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
 }
 
 // The next `count` substeps, of which the first ends `first` seconds into a step of `dt`.

@@ -283,6 +283,12 @@ static void a_step_is_what_the_application_asked_for(void** state)
     struct fixture f       = start(state);
     hair_physics   physics = hair_physics_default();
     physics.damping        = 3;
+    physics.pull_root      = 4;
+    physics.pull_tip       = 0.5f;
+    physics.angular        = 2;
+    physics.bend           = 0.1f;
+    physics.iterations     = 20;
+    physics.margin         = 0.001f;
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     hair_solid solid = {
         HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)}, {0.05f, 0.1f}};
