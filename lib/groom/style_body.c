@@ -19,7 +19,7 @@ static const struct ellipsoid room   = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.
 
 // On the left side; the bust is symmetrical, so they are met by |x|.
 static const struct ellipsoid breast   = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
-static const struct ellipsoid blade    = {{0.055f, 1.350f, -0.062f}, {0.087f, 0.097f, 0.048f}};
+static const struct ellipsoid blade    = {{0.055f, 1.345f, -0.062f}, {0.087f, 0.087f, 0.039f}};
 static const struct capsule   neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.048f};
 static const struct capsule   shoulder = {{0.030f, 1.434f, -0.032f}, {0.158f, 1.370f, -0.025f}, 0.044f};
 static const struct capsule   arm      = {{0.162f, 1.362f, -0.025f}, {0.182f, 1.200f, -0.020f}, 0.043f};
@@ -80,7 +80,7 @@ float hair_body_distance(hair_vec3 p)
     d       = blend(d, capsule_distance(&arm, m), 0.05f);
     d       = blend(d, capsule_distance(&shoulder, m), 0.06f);
     d       = blend(d, ellipsoid_distance(&breast, m), 0.07f);
-    d       = blend(d, ellipsoid_distance(&blade, m), 0.06f);
+    d       = blend(d, ellipsoid_distance(&blade, m), 0.04f);
     d       = blend(d, capsule_distance(&neck, m), 0.05f);
     if (p.y < 1.42f) return d; // Far below the head.
     d = blend(d, face_distance(&m), 0.016f);

@@ -108,9 +108,9 @@ static float bones(point p, float d)
     d = join(d, ellipsoid(p, (point){0, 1.518f, 0.0735f}, (point){0.019f, 0.0145f, 0.0165f}), 0.016f);
     d = join(d, ellipsoid(p, (point){0.041f, 1.588f, 0.053f}, (point){0.020f, 0.017f, 0.022f}), 0.034f);
     return join(d,
-                limb(fold(p, 0.010f), (point){0.006f, 1.637f, 0.0850f}, (point){0.046f, 1.639f, 0.066f},
-                     0.0075f, 0.007f),
-                0.024f);
+                limb(fold(p, 0.010f), (point){0.006f, 1.637f, 0.0850f}, (point){0.044f, 1.638f, 0.0575f},
+                     0.0075f, 0.006f),
+                0.016f);
 }
 
 // Closed, for calm: the upper lid lies a little over the lower one along the lashes.
@@ -187,7 +187,7 @@ static float trunk(point p)
     d = join(d, limb(q, (point){0.030f, 1.434f, -0.032f}, (point){0.158f, 1.370f, -0.025f}, 0.040f, 0.044f),
              0.06f);
     d = join(d, ellipsoid(q, (point){0.062f, 1.330f, 0.045f}, (point){0.080f, 0.075f, 0.035f}), 0.07f);
-    d = join(d, ellipsoid(q, (point){0.055f, 1.350f, -0.062f}, (point){0.085f, 0.095f, 0.045f}), 0.06f);
+    d = join(d, ellipsoid(q, (point){0.055f, 1.345f, -0.062f}, (point){0.085f, 0.085f, 0.036f}), 0.04f);
     return join(d, limb(q, (point){0.024f, 1.407f, 0.020f}, (point){0.140f, 1.410f, -0.008f}, 0.006f, 0.006f),
                 0.03f);
 }
