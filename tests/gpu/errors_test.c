@@ -628,7 +628,7 @@ static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
 static void a_context_without_memory_leaks_nothing_and_a_retry_works(void** state)
 {
     struct user user = {.test = *state};
-    torture(user.test, create_context, &user, 7);
+    torture(user.test, create_context, &user, 19);
 }
 
 static void a_failed_call_leaves_the_instance_as_it_was(void** state)
