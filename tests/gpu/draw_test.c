@@ -1,0 +1,167 @@
+// draw_test.c - what hair_draw leaves in the framebuffer: colour and depth agree, ribbons have their true width.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIDE 128
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+static struct fixture start(void** state, float radius)
+{
+    struct fixture f    = {.test = *state};
+    hair_desc      desc = hair_desc_default();
+    hair_look      look = hair_look_default();
+    look.radius         = radius;
+    look.tip_radius     = 1;
+    desc.look           = &look;
+    f.groom             = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+// A metre around the head, seen along -z.
+static hair_view view_of(hair_pass pass, hair_primitive primitive)
+{
+    hair_view view     = hair_view_default();
+    view.pass          = pass;
+    view.primitive     = primitive;
+    view.projection[0] = view.projection[5] = 2;
+    view.projection[10]                     = -0.5f;
+    view.projection[13]                     = -0.2f;
+    return view;
+}
+
+// Pixels and depths of one draw.
+static void draw(struct fixture* f, const hair_view* view, GLsizei side, GLsizei samples, float* pixels,
+                 float* depths)
+{
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, side, side, GL_RGBA32F, samples);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&frame, pixels);
+    if (depths) hair_test_frame_read_depth(&frame, depths);
+    hair_test_frame_free(&frame);
+}
+
+static void colour_and_depth_passes_leave_the_same_depth(void** state)
+{
+    static float   pixels[4 * SIDE * SIDE], none[4 * SIDE * SIDE], depths[2][SIDE * SIDE];
+    struct fixture f = start(state, 0.002f);
+    for (int primitive = 0; primitive < 2; ++primitive) {
+        hair_view color = view_of(HAIR_PASS_COLOR, (hair_primitive)primitive);
+        hair_view depth = view_of(HAIR_PASS_DEPTH, (hair_primitive)primitive);
+        draw(&f, &color, SIDE, 0, pixels, depths[0]);
+        draw(&f, &depth, SIDE, 0, none, depths[1]);
+        int covered = 0;
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            int hit = depths[0][i] < 1;
+            covered += hit;
+            assert_true(depths[0][i] == depths[1][i]);
+            assert_true((pixels[4 * i + 3] > 0) == hit);
+            for (int c = 0; c < 3; ++c) assert_true(isfinite(pixels[4 * i + c]) && pixels[4 * i + c] >= 0);
+        }
+        assert_true(covered > 500);
+    }
+    finish(&f);
+}
+
+static double coverage(const float* pixels, GLsizei side)
+{
+    double sum = 0;
+    for (GLsizei i = 0; i < side * side; ++i) sum += (double)pixels[4 * i + 3];
+    return sum / side / side;
+}
+
+// Four samples a pixel see as much as sixteen pixels in its place: ribbons of about a pixel are of true width in both.
+static void samples_and_smaller_pixels_see_the_same_width(void** state)
+{
+    static float   pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
+    struct fixture f    = start(state, 0.002f);
+    hair_view      view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+    draw(&f, &view, SIDE, 4, pixels, NULL);
+    draw(&f, &view, 4 * SIDE, 0, fine, NULL);
+    double coarse = coverage(pixels, SIDE), true_one = coverage(fine, 4 * SIDE);
+    print_message("    covered: %.5f with 4 samples, %.5f in small pixels\n", coarse, true_one);
+    assert_true(true_one > 0.01);
+    hair_test_near("coverage", 0, coarse, true_one, 0.03 * true_one);
+    finish(&f);
+}
+
+static void a_wider_strand_covers_more(void** state)
+{
+    static float pixels[4 * SIDE * SIDE];
+    double       covered[2];
+    for (int wide = 0; wide < 2; ++wide) {
+        struct fixture f    = start(state, wide ? 0.004f : 0.0005f);
+        hair_view      view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+        draw(&f, &view, SIDE, 4, pixels, NULL);
+        covered[wide] = coverage(pixels, SIDE);
+        finish(&f);
+    }
+    assert_true(covered[1] > 2 * covered[0]);
+}
+
+// Grey at rest; red where a guide is stretched: here all of them by a tenth.
+static void guides_are_drawn_in_the_colour_of_their_stretch(void** state)
+{
+    static float   pixels[4 * SIDE * SIDE];
+    struct fixture f    = start(state, 0.001f);
+    hair_view      view = view_of(HAIR_PASS_GUIDES, HAIR_RIBBONS);
+    for (int stretched = 0; stretched < 2; ++stretched) {
+        if (stretched) {
+            struct hair_gl*    gl       = &f.test->context->gl;
+            size_t             count    = f.groom->info.guide_vertex_count;
+            struct hair_state* vertices = calloc(count, sizeof *vertices);
+            for (size_t i = 0; i < count; ++i) {
+                hair_vec4 p          = f.groom->rest[i].position;
+                vertices[i].position = (hair_vec4){1.1f * p.x, 1.1f * p.y, 1.1f * p.z, 0};
+            }
+            glFinish();
+            glNamedBufferSubData(f.hair->sim.state, 0, (GLsizeiptr)(count * sizeof *vertices), vertices);
+            hair_gl_enter(gl);
+            hair_smooth_run(&f.hair->smooth, &f.hair->sim);
+            hair_gl_leave(gl);
+            free(vertices);
+        }
+        draw(&f, &view, SIDE, 0, pixels, NULL);
+        int drawn = 0;
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            const float* p = pixels + 4 * i;
+            if (p[3] == 0) continue;
+            ++drawn;
+            hair_test_near("red", (size_t)i, p[0], stretched ? 1 : 0.5, 0.01);
+            hair_test_near("blue", (size_t)i, p[2], stretched ? 0.05 : 0.5, 0.01);
+        }
+        assert_true(drawn > 50);
+    }
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(colour_and_depth_passes_leave_the_same_depth),
+        HAIR_TEST(samples_and_smaller_pixels_see_the_same_width),
+        HAIR_TEST(a_wider_strand_covers_more),
+        HAIR_TEST(guides_are_drawn_in_the_colour_of_their_stretch),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
