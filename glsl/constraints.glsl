@@ -3,7 +3,7 @@
 //
 // Vertices 0 and 1 are pinned by the scalp and never moved.
 
-shared vec3 vertex[HAIR_MAX_GUIDE_VERTICES];
+shared vec3 vertex[HAIR_GUIDE_THREADS];
 
 // Move the ends of the link (a, b) towards the distance `rest_length`, by the share `stiffness` of the error,
 // half each, or all of it by the free end (Tariq 2010, figure 10).
@@ -32,17 +32,53 @@ void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
     if (a + 2u < count) relax_link(a, a + 2u, rest[first + a].direction.w, stiffness);
 }
 
-// Out of a solid by the shortest way; `share` is how much of the step is done.
-vec3 push_out(vec3 position, hair_capsule solid, float share, float margin)
+#define COLLISION_REACH 0.05 // m: farther than this no vertex is moved by the iterations of a substep
+
+struct capsule { // a solid at one moment
+    vec3  start, axis;
+    float radius;
+};
+
+capsule solid_at(hair_capsule solid, float share, float margin)
 {
-    vec4  a      = mix(solid.start[0], solid.end[0], share);
-    vec4  b      = mix(solid.start[1], solid.end[1], share);
-    vec3  axis   = b.xyz - a.xyz;
-    float along  = clamp(dot(position - a.xyz, axis) / max(dot(axis, axis), 1e-12), 0.0, 1.0);
-    vec3  nearest = a.xyz + along * axis;
-    vec3  out_to = position - nearest;
-    float radius = a.w + margin;
+    vec4 a = mix(solid.start[0], solid.end[0], share);
+    vec4 b = mix(solid.start[1], solid.end[1], share);
+    return capsule(a.xyz, b.xyz - a.xyz, a.w + margin);
+}
+
+vec3 from_axis(vec3 position, capsule solid)
+{
+    vec3  arm   = position - solid.start;
+    float along = clamp(dot(arm, solid.axis) / max(dot(solid.axis, solid.axis), 1e-12), 0.0, 1.0);
+    return arm - along * solid.axis;
+}
+
+// One bit for each solid that the vertex can meet in this substep: the others need no look at every iteration.
+uvec2 find_solids(vec3 position, float share)
+{
+    uvec2 found = uvec2(0u);
+    for (uint k = 0u; k < params.solids; ++k) {
+        capsule solid = solid_at(params.solid[k], share, params.margin + COLLISION_REACH);
+        if (length(from_axis(position, solid)) < solid.radius) found[k / 32u] |= 1u << (k % 32u);
+    }
+    return found;
+}
+
+// Out of a solid by the shortest way.
+vec3 push_out(vec3 position, capsule solid)
+{
+    vec3  out_to = from_axis(position, solid);
     float l      = length(out_to);
-    if (!(l < radius)) return position; // NaN stays NaN, for the solver to find.
-    return nearest + (l > 1e-9 ? out_to * (radius / l) : vec3(0.0, radius, 0.0));
+    if (l >= solid.radius) return position;
+    return position + (l > 1e-9 ? out_to * (solid.radius / l - 1.0) : vec3(0.0, solid.radius, 0.0));
+}
+
+vec3 collide(vec3 position, uvec2 solids, float share)
+{
+    for (int word = 0; word < 2; ++word)
+        for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {
+            uint k   = 32u * uint(word) + uint(findLSB(bits));
+            position = push_out(position, solid_at(params.solid[k], share, params.margin));
+        }
+    return position;
 }

@@ -4,8 +4,8 @@
 // are associative, so the chain is an inclusive scan: log2 n steps (Hillis and Steele 1986) instead of n.
 #include "rotation.glsl"
 
-shared vec4 scan_frame[HAIR_MAX_GUIDE_VERTICES];
-shared vec3 segment_direction[HAIR_MAX_GUIDE_VERTICES];
+shared vec4 scan_frame[HAIR_GUIDE_THREADS];
+shared vec3 segment_direction[HAIR_GUIDE_THREADS];
 
 // One thread per segment i; `direction` is its unit direction, `root` the frame that the scalp gives. Afterwards
 // scan_frame[i] is the frame of segment i and segment_direction[i] its direction. Called by the whole work group.

@@ -31,13 +31,14 @@ typedef uint32_t hair_uint;
 #endif
 
 // Storage buffers of compute passes: OpenGL 4.5 promises a compute shader no more than eight.
-#define HAIR_BIND_GUIDE 0     // hair_guide[]    per guide, never written
-#define HAIR_BIND_REST 1      // hair_rest[]     per guide vertex, never written
-#define HAIR_BIND_STATE 2     // hair_state[]    per guide vertex
-#define HAIR_BIND_POSITION 3  // hair_vec4[]     per smooth vertex: position from the head's origin, length from the root
-#define HAIR_BIND_TANGENT 4   // hair_vec4[]     per smooth vertex: unit tangent, stretch of the segment
-#define HAIR_BIND_FRAME 5     // hair_vec4[]     per smooth vertex: unit quaternion, y along the strand
-#define HAIR_BIND_EXPANDED 6  // hair_vec4[]     per follower vertex: position from the head's origin, radius
+#define HAIR_BIND_GUIDE 0 // hair_guide[]    per guide, never written
+#define HAIR_BIND_REST 1  // hair_rest[]     per guide vertex, never written
+#define HAIR_BIND_STATE 2 // hair_state[]    per guide vertex
+#define HAIR_BIND_POSITION                                                                                   \
+    3 // hair_vec4[]     per smooth vertex: position from the head's origin, length from the root
+#define HAIR_BIND_TANGENT 4  // hair_vec4[]     per smooth vertex: unit tangent, stretch of the segment
+#define HAIR_BIND_FRAME 5    // hair_vec4[]     per smooth vertex: unit quaternion, y along the strand
+#define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 // Uniform buffers.
 #define HAIR_BIND_STEP 0 // hair_step_params
@@ -47,16 +48,21 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_POSITION 0
 #define HAIR_UNIT_TANGENT 1
 #define HAIR_UNIT_FRAME 2
-#define HAIR_UNIT_FOLLOWER 3 // hair_follower[] as unsigned texels: a float texture may flush small integers to 0
-#define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
-#define HAIR_UNIT_SHADOW 5   // the host's shadow map
+#define HAIR_UNIT_FOLLOWER                                                                                   \
+    3                     // hair_follower[] as unsigned texels: a float texture may flush small integers to 0
+#define HAIR_UNIT_PATCH 4 // hair_patch[], likewise
+#define HAIR_UNIT_SHADOW 5 // the host's shadow map
 
-#define HAIR_GROUP_SIZE 64          // threads of a work group
-#define HAIR_MAX_GUIDE_VERTICES 64  // one thread per vertex of a guide
+#define HAIR_GROUP_SIZE 64         // threads of a work group
+#define HAIR_MAX_GUIDE_VERTICES 64 // one thread per vertex of a guide
+#ifndef HAIR_GUIDE_THREADS
+#define HAIR_GUIDE_THREADS                                                                                   \
+    HAIR_MAX_GUIDE_VERTICES // of the work group of a guide; a pass for shorter ones has fewer
+#endif
 #define HAIR_MAX_SMOOTH_VERTICES 127 // two samples per segment of the longest guide
-#define HAIR_MAX_ISOLINES 64        // per patch, and
+#define HAIR_MAX_ISOLINES 64         // per patch, and
 #define HAIR_MAX_ISOLINE_SEGMENTS 64 // per isoline: what OpenGL promises
-#define HAIR_STEP_SUBSTEPS 64       // of one dispatch
+#define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
 
@@ -65,16 +71,17 @@ struct hair_guide {
     hair_vec4 root_frame; // unit quaternion of the first segment: y along it
     hair_uint first;      // of its vertices
     hair_uint count;
-    float     length;     // m
+    float     length; // m
     hair_uint unused;
 };
 HAIR_SIZE(hair_guide, 32)
 
 // A guide vertex at rest, in groom space.
 struct hair_rest {
-    hair_vec4 position;  // xyz: m; w: distance to the next vertex, m (0 for the tip)
-    hair_vec4 direction; // xyz: unit direction to the next vertex, in the frame carried here along the strand from the
-                         // segment before (at the root: in the root frame); w: distance to the vertex after the next, m
+    hair_vec4 position; // xyz: m; w: distance to the next vertex, m (0 for the tip)
+    hair_vec4
+        direction; // xyz: unit direction to the next vertex, in the frame carried here along the strand from the
+        // segment before (at the root: in the root frame); w: distance to the vertex after the next, m
 };
 HAIR_SIZE(hair_rest, 32)
 
@@ -95,30 +102,31 @@ HAIR_SIZE(hair_capsule, 64)
 
 // One substep: where the head is at its end.
 struct hair_substep {
-    hair_vec4 rotation;     // unit quaternion
-    hair_vec4 displacement; // xyz: of the head's origin over this substep, m; w: share of the step done at its end
+    hair_vec4 rotation; // unit quaternion
+    hair_vec4
+        displacement; // xyz: of the head's origin over this substep, m; w: share of the step done at its end
 };
 HAIR_SIZE(hair_substep, 32)
 
 // What the substeps of one step share. Frequencies are angular and squared: accelerations per metre, 1/s^2.
 struct hair_step_params {
-    hair_vec4    gravity;     // xyz: m/s^2; w: length of a substep, s
-    float        keep;        // share of the velocity left after a substep: exp(-damping dt)
-    float        pull_root;   // angular frequency, 1/s
-    float        pull_tip;
-    float        angular;     // squared, 1/s^2
-    float        bend;        // share per iteration
-    float        margin;      // m
-    hair_uint    iterations;
-    hair_uint    substeps;
-    hair_uint    guides;
-    hair_uint    solids;
-    hair_uint    smooth_vertices; // per guide
-    float        alpha;           // of the last substep, where now is: 0 its start, 1 its end
-    hair_vec4    rotation_before; // head at the start of the last substep
-    hair_vec4    rotation_after;  // head at its end
-    hair_vec4    rotation_now;
-    hair_vec4    last_displacement; // xyz: of the head's origin over the last substep, m
+    hair_vec4 gravity;   // xyz: m/s^2; w: length of a substep, s
+    float     keep;      // share of the velocity left after a substep: exp(-damping dt)
+    float     pull_root; // angular frequency, 1/s
+    float     pull_tip;
+    float     angular; // squared, 1/s^2
+    float     bend;    // share per iteration
+    float     margin;  // m
+    hair_uint iterations;
+    hair_uint substeps;
+    hair_uint guides;
+    hair_uint solids;
+    hair_uint smooth_vertices; // per guide
+    float     alpha;           // of the last substep, where now is: 0 its start, 1 its end
+    hair_vec4 rotation_before; // head at the start of the last substep
+    hair_vec4 rotation_after;  // head at its end
+    hair_vec4 rotation_now;
+    hair_vec4 last_displacement; // xyz: of the head's origin over the last substep, m
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
 };
@@ -133,8 +141,8 @@ struct hair_follower {
     hair_uint seed;
     float     weight1, weight2; // barycentric, of guide 1 and 2
     float     length_ratio;     // its length as a share of the guide's; beyond 1 it goes on straight
-    float     multi;            // 0: single-strand only; 1: multi-strand at the root, tending to single as it clumps
-    hair_vec4 offset[4];        // xyz: control points in guide 0's frame, m; [0].w: radius, as a share of the look's
+    float     multi;     // 0: single-strand only; 1: multi-strand at the root, tending to single as it clumps
+    hair_vec4 offset[4]; // xyz: control points in guide 0's frame, m; [0].w: radius, as a share of the look's
 };
 HAIR_SIZE(hair_follower, 96)
 
@@ -149,18 +157,18 @@ HAIR_SIZE(hair_patch, 16)
 
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
-    hair_mat4 view;          // to view space
+    hair_mat4 view; // to view space
     hair_mat4 view_to_clip;
-    hair_mat4 shadow;        // to the shadow map: xy texture coordinates, z depth, both in [0, 1]
-    hair_vec4 eye;           // xyz: eye, or direction to it when w is 0 (orthographic)
-    hair_vec4 light_to;      // xyz: unit
-    hair_vec4 light;         // rgb: irradiance; w: absorption per unit of shadow depth, 0: no shadow
-    hair_vec4 ambient;       // rgb: irradiance
-    hair_vec4 root_color;    // rgb; w: spread
-    hair_vec4 tip_color;     // rgb
-    hair_vec4 specular;      // strengths of both highlights, their exponents
-    float     radius;        // m
-    float     tip_radius;    // share
+    hair_mat4 shadow;     // to the shadow map: xy texture coordinates, z depth, both in [0, 1]
+    hair_vec4 eye;        // xyz: eye, or direction to it when w is 0 (orthographic)
+    hair_vec4 light_to;   // xyz: unit
+    hair_vec4 light;      // rgb: irradiance; w: absorption per unit of shadow depth, 0: no shadow
+    hair_vec4 ambient;    // rgb: irradiance
+    hair_vec4 root_color; // rgb; w: spread
+    hair_vec4 tip_color;  // rgb
+    hair_vec4 specular;   // strengths of both highlights, their exponents
+    float     radius;     // m
+    float     tip_radius; // share
     float     clump;
     float     frizz;
     float     density;

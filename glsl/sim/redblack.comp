@@ -11,7 +11,7 @@
 // Not handled: convergence (use another solver for that); friction; twist.
 #version 450 core
 #include "buffers.glsl"
-layout(local_size_x = HAIR_GROUP_SIZE) in;
+layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "frames.glsl"
 #include "constraints.glsl"
 
@@ -75,6 +75,8 @@ void main()
         }
         synchronise();
 
+        float time   = params.substep[s].displacement.w;
+        uvec2 solids = here && !pinned ? find_solids(vertex[i], time) : uvec2(0u);
         for (uint n = 0u; n < params.iterations; ++n) {
             relax_distance(i, count, 0u, first);
             synchronise();
@@ -87,9 +89,7 @@ void main()
                 synchronise();
             }
             if (params.solids > 0u) {
-                if (here && !pinned)
-                    for (uint k = 0u; k < params.solids; ++k)
-                        vertex[i] = push_out(vertex[i], params.solid[k], params.substep[s].displacement.w, params.margin);
+                if (here && !pinned) vertex[i] = collide(vertex[i], solids, time);
                 synchronise();
             }
         }

@@ -209,7 +209,7 @@ typedef struct hair_look {
     float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.06, 0.027, 0.012).
     float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.12, 0.058, 0.028).
     float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
-    float     specular[2];   ///< Strength of the first (white) and second (coloured) highlight. [0, 4]. Default (0.1, 0.5).
+    float     specular[2];   ///< Strength of the first (white) and second (coloured) highlight. [0, 4]. Default (0.05, 0.5).
     float     gloss[2];      ///< Their exponents. [1, 1000]. Default (60, 15).
     float     radius;        ///< Of a drawn strand, which may stand for several real ones. m. [1e-6, 0.01]. Default 1.5e-4.
     float     tip_radius;    ///< At the tip, as a share of that. [0, 1]. Default 0.5.

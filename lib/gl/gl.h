@@ -58,7 +58,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 // Compile every pass; those that fail keep the program they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 
-// One program of stages such as "draw/patch.vert draw/patch.tesc"; `captured`: outputs for transform feedback, or NULL.
+// One program of stages such as "NAME=1 draw/patch.vert draw/patch.tesc", definitions first; `captured`: outputs for transform feedback, or NULL.
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
                          GLuint* out);
 hair_result hair_gl_selftest(struct hair_gl* gl);

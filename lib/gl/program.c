@@ -51,10 +51,8 @@ static void report(struct hair_gl* gl, const struct hair_gl_source* source, cons
     }
 }
 
-static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char* name)
+static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char* name, const char* prefix)
 {
-    char prefix[64];
-    snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
     struct hair_gl_source source;
     hair_result           result = hair_gl_read_source(&gl->host, gl->glsl_dir, name, prefix, &source);
     if (result) return result;
@@ -84,12 +82,20 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
 {
     GLuint program = gl->CreateProgram();
     if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
-    hair_result result = HAIR_OK;
+    hair_result result      = HAIR_OK;
+    char        prefix[128] = "";
+    size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
     for (const char* at = stages; *at && !result;) {
-        char   name[64];
+        char   word[64];
         size_t length = strcspn(at, " ");
-        snprintf(name, sizeof name, "%.*s", (int)length, at);
-        result = compile_stage(gl, program, name);
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        char* value = strchr(word, '=');
+        if (value) {
+            *value = ' ';
+            used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define %s\n", word);
+        } else {
+            result = compile_stage(gl, program, word, prefix);
+        }
         at += length + strspn(at + length, " ");
     }
     if (!result) {

@@ -10,6 +10,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->gl              = gl;
     sim->guides          = groom->info.guide_count;
     sim->guide_vertices  = groom->info.guide_vertex_count;
+    sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     size_t      state    = sim->guide_vertices * sizeof(struct hair_state);
     hair_result result =
@@ -115,7 +116,7 @@ void hair_sim_step(struct hair_sim* sim, double dt)
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
-        hair_gl_run(sim->gl, HAIR_GL_REDBLACK, sim->guides);
+        hair_gl_run(sim->gl, sim->most_vertices > 32 ? HAIR_GL_REDBLACK : HAIR_GL_REDBLACK_32, sim->guides);
         done += count;
     }
     if (total == 0) {

@@ -14,11 +14,12 @@ struct hair_sim {
     double             substep;                  // s
     GLuint             guide, rest, state, step; // buffers, as in shared.h
     uint32_t           guides, guide_vertices, smooth_vertices;
-    double             left;        // s: since the end of the last substep, less than a substep
-    struct hair_pose   last_before; // the head at the start of the last substep,
-    struct hair_pose   last_after;  // at its end,
-    struct hair_pose   at_step;     // at the last step, and
-    struct hair_pose   head;        // where it is to be at the next
+    uint32_t           most_vertices; // of a guide
+    double             left;          // s: since the end of the last substep, less than a substep
+    struct hair_pose   last_before;   // the head at the start of the last substep,
+    struct hair_pose   last_after;    // at its end,
+    struct hair_pose   at_step;       // at the last step, and
+    struct hair_pose   head;          // where it is to be at the next
     struct hair_solids solids;
 };
 

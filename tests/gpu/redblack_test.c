@@ -40,12 +40,12 @@ static void scatter(struct fixture* f, float away, float moved)
 }
 
 // All of the solver off: nothing moves but pinned vertices.
-static struct fixture start(void** state)
+static struct fixture start_with(void** state, uint32_t most)
 {
     struct fixture            f      = {.test = *state, .random = 12345};
     hair_desc                 desc   = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.guides = 61, wanted.fewest = 4, wanted.most = 64; // one of each
+    wanted.guides = most - 3, wanted.fewest = 4, wanted.most = most; // one of each
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     f.params.gravity.w = 1.0f / 120;
@@ -56,6 +56,11 @@ static struct fixture start(void** state)
             (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1) / HAIR_STEP_SUBSTEPS}};
     scatter(&f, 0.002f, 0.001f);
     return f;
+}
+
+static struct fixture start(void** state)
+{
+    return start_with(state, HAIR_MAX_GUIDE_VERTICES);
 }
 
 static void finish(struct fixture* f)
@@ -114,7 +119,7 @@ static double tolerance(const struct hair_step_params* params)
     return 2 * 6 * sqrt(params->substeps * (substep + params->iterations * iteration)) / 16777216;
 }
 
-static void run(struct fixture* f)
+static void run_pass(struct fixture* f, hair_gl_pass pass)
 {
     struct hair_gl* gl   = &f->test->context->gl;
     size_t          size = f->groom->info.guide_vertex_count * sizeof *f->state;
@@ -123,9 +128,14 @@ static void run(struct fixture* f)
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
     hair_gl_enter(gl);
     hair_sim_bind(&f->hair->sim);
-    hair_gl_run(gl, HAIR_GL_REDBLACK, f->params.guides);
+    hair_gl_run(gl, pass, f->params.guides);
     hair_gl_leave(gl);
     glGetNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
+}
+
+static void run(struct fixture* f)
+{
+    run_pass(f, HAIR_GL_REDBLACK);
 }
 
 static double largest(const hair_vec4* a, const double* b)
@@ -363,6 +373,21 @@ static void a_step_is_what_the_application_asked_for(void** state)
     finish(&f);
 }
 
+static void guides_of_32_vertices_move_the_same_in_the_smaller_work_group(void** state)
+{
+    static struct hair_state larger[STATES];
+    struct fixture           f = start_with(state, 32);
+    switch_all_on(&f);
+    f.params.substeps = 5;
+    run(&f);
+    memcpy(larger, f.state, sizeof larger);
+    f.random = 12345;
+    scatter(&f, 0.002f, 0.001f);
+    run_pass(&f, HAIR_GL_REDBLACK_32);
+    assert_memory_equal(larger, f.state, f.groom->info.guide_vertex_count * sizeof *larger);
+    finish(&f);
+}
+
 // Of a strand that is not finite every vertex goes back to the rest pose, in one substep; the others do not notice.
 static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 {
@@ -413,6 +438,7 @@ int main(void)
         HAIR_TEST(one_to_five_substeps_are_as_the_reference_has_them),
         HAIR_TEST(each_stage_does_its_part_among_the_others),
         HAIR_TEST(a_step_is_what_the_application_asked_for),
+        HAIR_TEST(guides_of_32_vertices_move_the_same_in_the_smaller_work_group),
         HAIR_TEST(what_is_not_finite_goes_back_to_rest_alone),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
