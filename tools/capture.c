@@ -161,6 +161,16 @@ static float time_of(const struct capture* capture, double frame)
     return (float)(frame / (double)capture->options.scene.fps);
 }
 
+// The head at one place, while the hair finds its own.
+static hair_result settle(struct capture* capture)
+{
+    const struct hair_scene* scene  = &capture->options.scene;
+    hair_result              result = HAIR_OK;
+    for (float time = 0; time < scene->settle && !result && !interrupted; time += LONGEST_STEP)
+        result = hair_step(capture->hair, fminf(LONGEST_STEP, scene->settle - time));
+    return result;
+}
+
 // From the frame before to this one.
 static hair_result step(struct capture* capture, uint32_t frame)
 {
@@ -215,6 +225,8 @@ static int run_frames(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
     capture->started                           = hair_now();
+    int settled                                = hair_exit_for(settle(capture));
+    if (settled) return settled;
     for (uint32_t frame = 0; frame < options->end; ++frame) {
         double before = hair_now();
         int    code   = frame ? hair_exit_for(step(capture, frame)) : HAIR_EXIT_OK;

@@ -7,7 +7,7 @@
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
-    {"demo", "{'style': 'long', 'motion': 'demo', 'frames': 120, 'picture': 45, " CAMERA "}"},
+    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45, " CAMERA "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"

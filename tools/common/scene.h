@@ -30,6 +30,7 @@ struct hair_scene {
     struct hair_motion   motion;
     uint32_t             solid_count;
     hair_solid           solids[HAIR_SCENE_SOLIDS]; // in groom space: they move with the head
+    float                settle;                    // s of hanging still before frame 0
     float                fps;
     uint32_t             frames;  // of the whole scene
     uint32_t             picture; // the frame to take when one is asked for
