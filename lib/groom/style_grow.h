@@ -3,17 +3,8 @@
 #define HAIR_GROOM_STYLE_GROW_H
 
 #include <hair/hair_asset.h>
-#include "lib/base/math.h"
+#include "lib/groom/style_course.h"
 #include "lib/groom/style_scalp.h"
-
-#define HAIR_COURSE_POINTS 2048 // Most points of a course.
-
-// A guide as it grows: more points than it will have, root first.
-struct hair_course {
-    hair_vec3 point[HAIR_COURSE_POINTS];
-    uint32_t  count;
-    float     length; // m
-};
 
 struct hair_parting hair_style_parting(hair_style style);
 
@@ -23,5 +14,8 @@ uint32_t hair_style_vertices(hair_style style);
 // `scale`: of the style's own length.
 void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
                      struct hair_course* course);
+
+// One of them, in its own file.
+void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course);
 
 #endif
