@@ -54,17 +54,29 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
         assert_true(fabsf(dot(n, n) - 1) < 0.2f); // Between two vertices it is not made unit again.
         for (int k = 0; k < 3; ++k) assert_true(mesh.colors[3 * i + k] > 0 && mesh.colors[3 * i + k] < 1);
     }
+    // The garment is there, and nowhere but below the collar.
+    uint32_t worn = 0;
+    for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
+        int   is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2]; // Blue, as skin never is.
+        float below    = head_below_collar(load_point(mesh.positions + 3 * i));
+        assert_true(is_cloth ? below > -1e-3f : below < 1e-3f);
+        worn += (uint32_t)is_cloth;
+    }
+    assert_true(worn > 3000);
     // The volume under a closed surface that faces outwards is positive: about that of a bust of 25 kg.
-    double volume = 0;
+    double   volume = 0;
+    uint32_t cloth  = 0;
     for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
         const uint32_t* corner = mesh.triangles + 3 * i;
         for (int k = 0; k < 3; ++k) assert_true(corner[k] < mesh.vertex_count);
+        cloth += mesh.colors[3 * corner[0]] < mesh.colors[3 * corner[0] + 2];
         const float *a = mesh.positions + 3 * corner[0], *b = mesh.positions + 3 * corner[1];
         const float* c = mesh.positions + 3 * corner[2];
         volume += a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) +
                   a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
                   a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
     }
+    assert_true(cloth > 6000);
     assert_true(volume / 6 > 0.01 && volume / 6 < 0.03);
     head_mesh_free(&mesh);
 }

@@ -157,6 +157,20 @@ static void guides_leave_the_face_free(void** state)
     }
 }
 
+// A tail stands off; and so does an afro, as far as it is long.
+static void guides_hang_close_to_the_bust(void** state)
+{
+    (void)state;
+    const hair_style styles[] = {HAIR_STYLE_LONG, HAIR_STYLE_BOB, HAIR_STYLE_CURLY};
+    const float      limits[] = {0.070f, 0.070f, 0.090f};
+    for (uint32_t s = 0; s < 3; ++s) {
+        struct cut cut = cut_style(styles[s]);
+        for (uint32_t i = 0; i < cut.info.vertex_count; ++i)
+            assert_true(hair_body_distance(hair_load3(cut.info.positions + 3 * i)) < limits[s]);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
 // Neighbours are guides of one triangle. They may part on the shoulders and round the crown only: one in ten.
 static void neighbouring_guides_go_similar_ways(void** state)
 {
@@ -353,7 +367,8 @@ static void the_scalp_is_one_sheet_of_fat_triangles(void** state)
     const uint32_t counts[] = {16, 17, 23, 40, 100, 166, 333, 700};
     for (uint32_t i = 0; i < 8; ++i)
         for (uint32_t seed = 0; seed < 3; ++seed)
-            for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
+            for (uint32_t style = 0; style <= HAIR_STYLE_CURLY;
+                 ++style) { // An afro has the ponytail's scalp.
                 struct cut cut = cut_with((hair_style)style, counts[i], 0.1f, seed);
                 assert_int_equal(cut.info.scalp_vertex_count, counts[i]);
                 assert_is_one_sheet(&cut);
@@ -463,6 +478,7 @@ int main(void)
         TEST(guides_grow_from_the_vertices_of_the_scalp),
         TEST(guides_stay_out_of_the_bust),
         TEST(guides_leave_the_face_free),
+        TEST(guides_hang_close_to_the_bust),
         TEST(neighbouring_guides_go_similar_ways),
         TEST(length_scales_the_guides),
         TEST(extreme_lengths_are_finite),
