@@ -5,4 +5,5 @@ layout(location = 2) in vec3 strand_color;
 
 layout(location = 0) out vec4 color;
 
-void main() { color = vec4(strand_color, 1.0); }
+// Where a segment covers a pixel but not its middle, its colours are extrapolated, and might become negative.
+void main() { color = vec4(max(strand_color, 0.0), 1.0); }
