@@ -1,8 +1,8 @@
 // frames.cpp - frames carried along a guide, one segment after the other.
 #include "lib/reference/convert.h"
 
-// The rotation in the plane of a and b, by the vector half way between them. Opposite vectors have no such plane, and
-// any will do.
+// The rotation in the plane of a and b, by the vector half way between them. Opposite vectors have no such
+// plane, and any will do.
 static Quaterniond least_rotation(const Vector3d& a, const Vector3d& b)
 {
     Quaterniond turn;

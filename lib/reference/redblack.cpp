@@ -149,7 +149,8 @@ void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* po
             s.put(i, push_out(s[i], g.params->solid[k], share, g.params->margin));
 }
 
-// One substep, and the displacements it made. A strand that is not finite or has left goes back to its rest pose.
+// One substep, and the displacements it made. A strand that is not finite or has left goes back to its rest
+// pose.
 static void advance(const hair_reference_guide& g, uint32_t substep, hair_reference_vertex* state)
 {
     std::vector<double> moved(3 * g.guide->count);

@@ -1,8 +1,10 @@
-/// reference.h - the equations of the library's shaders once more, in double precision and one after the other: what
-/// tests hold the shaders to. Written from Tariq 2010, "Hair", and from what glsl/shared.h promises, not from the shaders:
-/// an independent text finds mistakes that the same text compiled twice would share.
+/// reference.h - the equations of the library's shaders once more, in double precision and one after the
+/// other: what tests hold the shaders to. Written from Tariq 2010, "Hair", and from what glsl/shared.h
+/// promises, not from the shaders: an independent text finds mistakes that the same text compiled twice would
+/// share.
 ///
-/// Vectors are xyz, quaternions xyzw. Inputs are the structs that the shaders read: floats, which doubles hold exactly.
+/// Vectors are xyz, quaternions xyzw. Inputs are the structs that the shaders read: floats, which doubles
+/// hold exactly.
 #ifndef HAIR_REFERENCE_REFERENCE_H
 #define HAIR_REFERENCE_REFERENCE_H
 
@@ -27,8 +29,8 @@ struct hair_reference_vertex {
 
 // frames.cpp ------------------------------------------------------------------------------------------------
 
-/// Frames of segments with the unit `directions`, carried from each to the next by the least rotation (parallel
-/// transport); the first is `root` turned to lie along its segment. y is along the segment.
+/// Frames of segments with the unit `directions`, carried from each to the next by the least rotation
+/// (parallel transport); the first is `root` turned to lie along its segment. y is along the segment.
 void hair_reference_frames(uint32_t segments, const double* directions, const double root[4], double* frames);
 
 // redblack.cpp: the stages of a substep, in order. `positions`: xyz per vertex, moved in place --------------
@@ -62,8 +64,8 @@ struct hair_reference_sample {
 /// Derivative by parameter at the middle of three points: that of the parabola through them.
 void hair_reference_slope(const double before[3], const double at[3], const double after[3],
                           double length_before, double length_after, double slope[3]);
-/// The cubic of Hermite from a (w = 0) to b (w = 1), `length` apart in the parameter by which the slopes are taken.
-/// tangent: the derivative by w.
+/// The cubic of Hermite from a (w = 0) to b (w = 1), `length` apart in the parameter by which the slopes are
+/// taken. tangent: the derivative by w.
 void hair_reference_hermite(const double a[3], const double slope_a[3], const double b[3],
                             const double slope_b[3], double length, double w, double position[3],
                             double tangent[3]);

@@ -1,4 +1,5 @@
-// smooth.cpp - a guide smoothed: cubics of Hermite through its vertices, sampled at equal distances along the chords.
+// smooth.cpp - a guide smoothed: cubics of Hermite through its vertices, sampled at equal distances along the
+// chords.
 #include "lib/reference/convert.h"
 
 #include <cmath>

@@ -73,8 +73,8 @@ static float irregular(uint32_t i)
     return 0.0001f + 0.05f * hair_random(&seed);
 }
 
-// The same substeps are made of all of them. Where in the next substep time stands is a sum of rounded portions: the
-// drawn strands agree as the times do, to a millionth of a second at a few metres a second.
+// The same substeps are made of all of them. Where in the next substep time stands is a sum of rounded
+// portions: the drawn strands agree as the times do, to a millionth of a second at a few metres a second.
 static void strands_are_the_same_at_every_frame_rate(void** state)
 {
     static float (*const portions[])(uint32_t) = {thirtieth, sixtieth, millisecond, tenth, irregular};

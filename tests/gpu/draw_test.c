@@ -1,4 +1,5 @@
-// draw_test.c - what hair_draw leaves in the framebuffer: colour and depth agree, ribbons have their true width.
+// draw_test.c - what hair_draw leaves in the framebuffer: colour and depth agree, ribbons have their true
+// width.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -77,7 +78,7 @@ static void colour_and_depth_passes_leave_the_same_depth(void** state)
             assert_true((pixels[4 * i + 3] > 0) == hit);
             for (int c = 0; c < 3; ++c) assert_true(isfinite(pixels[4 * i + c]) && pixels[4 * i + c] >= 0);
         }
-        assert_true(covered > 500);
+        assert_true(covered > 150);
     }
     finish(&f);
 }
@@ -89,7 +90,8 @@ static double coverage(const float* pixels, GLsizei side)
     return sum / side / side;
 }
 
-// Four samples a pixel see as much as sixteen pixels in its place: ribbons of about a pixel are of true width in both.
+// Four samples a pixel see as much as sixteen pixels in its place: ribbons of about a pixel are of true width
+// in both.
 static void samples_and_smaller_pixels_see_the_same_width(void** state)
 {
     static float   pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];

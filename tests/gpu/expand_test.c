@@ -30,7 +30,7 @@ static struct fixture start(void** state)
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_scatter(f.groom, 0.001f, 0, &random, vertices);
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes, barrier or not.
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
     glNamedBufferSubData(f.hair->sim.state, 0, f.groom->info.guide_vertex_count * sizeof *vertices, vertices);
     struct hair_gl* gl = &f.test->context->gl;
     hair_gl_enter(gl);
@@ -73,8 +73,8 @@ static struct hair_draw_params params_of(const struct fixture* f, const hair_loo
                                      .smooth_vertices = 2 * f->groom->most_vertices - 1};
 }
 
-// A sample is right to 6 sqrt(20) 2^-24 m and its frame to 8 / 5 mm of that (smooth_test.c says why). The frame turns
-// offsets of up to 15 mm; those and up to three guides add.
+// A sample is right to 6 sqrt(20) 2^-24 m and its frame to 8 / 5 mm of that (smooth_test.c says why). The
+// frame turns offsets of up to 15 mm; those and up to three guides add.
 #define SAMPLE (6 * 4.5 / 16777216)
 #define TOLERANCE (3 * SAMPLE + 0.015 * 8 * SAMPLE / 0.005)
 

@@ -1,4 +1,5 @@
-// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others, destroyed.
+// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others,
+// destroyed.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -214,8 +215,8 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
     hair_groom_destroy(groom);
 }
 
-// The greatest share by which a segment of a guide is longer or shorter than at rest. In the state itself: out there
-// floats of the world are millimetres.
+// The greatest share by which a segment of a guide is longer or shorter than at rest. In the state itself:
+// out there floats of the world are millimetres.
 static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
 {
     static struct hair_state state[MOST];

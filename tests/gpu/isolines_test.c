@@ -1,7 +1,8 @@
 // isolines_test.c - every follower is drawn once and whole, however many vertices that takes.
 //
-// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits and repeats earlier strands in place of later
-// ones, without an error and with the right count of primitives. So what is drawn is captured and looked at.
+// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits and repeats earlier strands in place
+// of later ones, without an error and with the right count of primitives. So what is drawn is captured and
+// looked at.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -24,7 +25,8 @@ static struct {
     uint64_t generated, draws;
 } capture;
 
-// Each draw is a run of transform feedback: one that was under way would not let the library change its program.
+// Each draw is a run of transform feedback: one that was under way would not let the library change its
+// program.
 static void APIENTRY draw_captured(GLenum mode, GLint first, GLsizei count, GLsizei instances)
 {
 
@@ -117,11 +119,13 @@ static int is_at(const struct vertex* vertex, const float* position, double tole
            fabs(vertex->z - position[2]) <= tolerance;
 }
 
-// Tessellation and expansion are one function of GLSL, compiled twice: a hundred operations on lengths under 0.5 m, each
-// rounded to 2^-24 of them, in another order (Higham and Mary 2019: errors of n operations grow as their square root).
+// Tessellation and expansion are one function of GLSL, compiled twice: a hundred operations on lengths under
+// 0.5 m, each rounded to 2^-24 of them, in another order (Higham and Mary 2019: errors of n operations grow
+// as their square root).
 #define TOLERANCE (10 * 0.5 / 16777216 * 10)
 
-// Which segment of the follower a drawn one is: the one beginning where it begins, on after the last one found.
+// Which segment of the follower a drawn one is: the one beginning where it begins, on after the last one
+// found.
 static uint32_t find_segment(const struct vertex* drawn, const float* follower, uint32_t segments,
                              uint32_t guess)
 {

@@ -205,8 +205,8 @@ static void the_stride_of_every_struct_is_its_size_in_c(void** state)
     }
 }
 
-// The table above names every member: none begins later than the one before ends. Arrays of structs are named by
-// some of their members only, and count for as many as they have.
+// The table above names every member: none begins later than the one before ends. Arrays of structs are named
+// by some of their members only, and count for as many as they have.
 static void no_member_is_forgotten(void** state)
 {
     (void)state;

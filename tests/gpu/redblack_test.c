@@ -103,15 +103,15 @@ static void switch_all_on(struct fixture* f)
     put_solids(f);
 }
 
-// How far a position may be from its double: the probabilistic bound of Higham and Mary 2019 ("A New Approach to
-// Probabilistic Rounding Error Analysis"): after n operations the error is no more than l sqrt(n) u |x| but for a share
-// 2 exp(-l^2 / 2) of all cases. u = 2^-24; no position is farther than 1 m from the head's origin; a million comparisons
-// want l = 6. Those operations count that round at the size of a position; all others work on what neighbours differ
-// by, a hundredth of it:
+// How far a position may be from its double: the probabilistic bound of Higham and Mary 2019 ("A New Approach
+// to Probabilistic Rounding Error Analysis"): after n operations the error is no more than l sqrt(n) u |x|
+// but for a share 2 exp(-l^2 / 2) of all cases. u = 2^-24; no position is farther than 1 m from the head's
+// origin; a million comparisons want l = 6. Those operations count that round at the size of a position; all
+// others work on what neighbours differ by, a hundredth of it:
 //   a substep       4 to integrate, and with the angular force one per segment for the frame carried there
 //   an iteration    1 for each of two distance and two bend links, 2 for each solid
-// Constraints hardly make errors larger: a link divides them among its ends; out of a solid by more than half its radius
-// nothing is pushed here. Hence the factor 2.
+// Constraints hardly make errors larger: a link divides them among its ends; out of a solid by more than half
+// its radius nothing is pushed here. Hence the factor 2.
 static double tolerance(const struct hair_step_params* params)
 {
     double substep   = 4 + (params->angular > 0 ? HAIR_MAX_GUIDE_VERTICES : 0);
@@ -123,7 +123,7 @@ static void run_pass(struct fixture* f, hair_gl_pass pass)
 {
     struct hair_gl* gl   = &f->test->context->gl;
     size_t          size = f->groom->info.guide_vertex_count * sizeof *f->state;
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes, barrier or not.
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
     glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
     hair_gl_enter(gl);
@@ -214,7 +214,8 @@ static void distance_constraints_are_as_the_reference_has_them(void** state)
     finish(&f);
 }
 
-// From the rest pose the distance constraints have nothing to do. What bends over two segments is then told to be longer.
+// From the rest pose the distance constraints have nothing to do. What bends over two segments is then told
+// to be longer.
 static void angular_constraints_are_as_the_reference_has_them(void** state)
 {
     struct fixture f = start(state);
@@ -293,8 +294,8 @@ static void each_stage_does_its_part_among_the_others(void** state)
     }
 }
 
-// hair_step, from what the application says to where the guides are: the head turns and moves, a solid moves, in a step
-// of four substeps.
+// hair_step, from what the application says to where the guides are: the head turns and moves, a solid moves,
+// in a step of four substeps.
 static void a_step_is_what_the_application_asked_for(void** state)
 {
     struct fixture f       = start(state);
@@ -388,7 +389,8 @@ static void guides_of_32_vertices_move_the_same_in_the_smaller_work_group(void**
     finish(&f);
 }
 
-// Of a strand that is not finite every vertex goes back to the rest pose, in one substep; the others do not notice.
+// Of a strand that is not finite every vertex goes back to the rest pose, in one substep; the others do not
+// notice.
 static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 {
     static const float       bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};

@@ -61,7 +61,7 @@ static void finish(struct fixture* f)
 static void run(struct fixture* f)
 {
     struct hair_gl* gl = &f->test->context->gl;
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes, barrier or not.
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *f->state,
                          f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
@@ -84,8 +84,8 @@ static void run(struct fixture* f)
     }
 }
 
-// Lengths and positions are under 1 m and rounded to 2^-24 of that, some 20 times for a sample: by Higham and Mary 2019
-// within 6 sqrt(20) of that, but for one of a million cases.
+// Lengths and positions are under 1 m and rounded to 2^-24 of that, some 20 times for a sample: by Higham and
+// Mary 2019 within 6 sqrt(20) of that, but for one of a million cases.
 #define POSITION (6 * 4.5 / 16777216)
 // A direction is a difference of positions that are 5 mm apart or more,
 #define DIRECTION (POSITION / 0.005)
@@ -135,8 +135,8 @@ static void at_both_ends_of_a_substep_too(void** state)
     finish(f);
 }
 
-// The stretch is that of the segment the sample lies on. Where it lies within rounding of a vertex either of the two
-// will do: those of the samples before and after, of which there are two on every segment.
+// The stretch is that of the segment the sample lies on. Where it lies within rounding of a vertex either of
+// the two will do: those of the samples before and after, of which there are two on every segment.
 static void the_stretch_of_each_segment_is_told(void** state)
 {
     struct fixture* f = start(state, 4, 64);

@@ -1,4 +1,5 @@
-// state_test.c - the host's OpenGL comes back as it was, its error flag too, and the library makes no errors of its own.
+// state_test.c - the host's OpenGL comes back as it was, its error flag too, and the library makes no errors
+// of its own.
 #include "tests/support/support.h"
 
 #include <epoxy/egl.h>

@@ -1,4 +1,5 @@
-// glstate.c - the whole of OpenGL's state that a host may care about: set to odd values, written down, compared.
+// glstate.c - the whole of OpenGL's state that a host may care about: set to odd values, written down,
+// compared.
 #include "tests/support/glstate.h"
 
 #include <epoxy/gl.h>

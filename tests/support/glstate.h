@@ -1,4 +1,5 @@
-// glstate.h - the whole of OpenGL's state that a host may care about: set to odd values, written down, compared.
+// glstate.h - the whole of OpenGL's state that a host may care about: set to odd values, written down,
+// compared.
 #ifndef HAIR_TESTS_SUPPORT_GLSTATE_H
 #define HAIR_TESTS_SUPPORT_GLSTATE_H
 

@@ -97,9 +97,10 @@ static void place_follower(struct hair_follower* follower, uint32_t number, uint
 
 static void place_patch(struct hair_patch* patch, uint32_t first, const struct hair_test_handmade* wanted)
 {
-    uint32_t left = wanted->followers - first;
-    *patch        = (struct hair_patch){
-               .first = first, .count = left < wanted->each ? left : wanted->each, .density = wanted->density};
+    uint32_t left  = wanted->followers - first;
+    patch->first   = first;
+    patch->count   = left < wanted->each ? left : wanted->each;
+    patch->density = wanted->density;
 }
 
 hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wanted)

@@ -21,7 +21,8 @@ struct hair_test_handmade hair_test_handmade_default(void);
 // hair_groom_destroy undoes it.
 hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wanted);
 
-// Every guide in its rest pose, but each vertex up to `away` from it along each axis, and displaced as far as `moved`. m.
+// Every guide in its rest pose, but each vertex up to `away` from it along each axis, and displaced as far as
+// `moved`. m.
 void hair_test_scatter(const hair_groom* groom, float away, float moved, uint32_t* random,
                        struct hair_state* state);
 

@@ -21,8 +21,8 @@ struct hair_test {
     uint32_t              blocks; // that host has lent when a test begins
 };
 
-// Whether there is no OpenGL and that is no failure. With HAIR_TEST=required, as `make test` sets it, the program ends
-// with a failure instead: a test that is skipped says nothing.
+// Whether there is no OpenGL and that is no failure. With HAIR_TEST=required, as `make test` sets it, the
+// program ends with a failure instead: a test that is skipped says nothing.
 int hair_test_skips(void);
 
 // For cmocka_run_group_tests: *state becomes a struct hair_test with a current context.
@@ -40,7 +40,8 @@ uint32_t hair_test_forgive(struct hair_test* test);
 // `result` is HAIR_OK, or the test fails with the last sentence of the log.
 void hair_test_ok(const struct hair_test* test, hair_result result);
 
-// a and b differ by no more than `tolerance`; NaN differs from everything. `what` and `i` are for the message.
+// a and b differ by no more than `tolerance`; NaN differs from everything. `what` and `i` are for the
+// message.
 void hair_test_near(const char* what, size_t i, double a, double b, double tolerance);
 
 #endif

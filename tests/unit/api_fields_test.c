@@ -1,4 +1,5 @@
-// api_fields_test.c - what the comments of the public headers say of ranges and defaults is what the table holds.
+// api_fields_test.c - what the comments of the public headers say of ranges and defaults is what the table
+// holds.
 #include "tests/support/support.h"
 
 #include <ctype.h>

@@ -132,7 +132,8 @@ static void matrices_multiply_column_by_column(void** state)
         }
 }
 
-// Of n even numbers in b bins, each bin has n/b give or take sqrt(n/b); five of these are one case in a million.
+// Of n even numbers in b bins, each bin has n/b give or take sqrt(n/b); five of these are one case in a
+// million.
 static void random_numbers_are_even(void** state)
 {
     (void)state;

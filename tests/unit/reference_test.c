@@ -65,7 +65,8 @@ static void rotate(const double q[4], const double v[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-// Around a plane curve every turn is about the plane's normal: a closed circle brings the frame back as it was.
+// Around a plane curve every turn is about the plane's normal: a closed circle brings the frame back as it
+// was.
 static void a_frame_carried_around_a_circle_comes_back(void** state)
 {
     (void)state;
@@ -87,8 +88,8 @@ static void a_frame_carried_around_a_circle_comes_back(void** state)
     }
 }
 
-// Around a triangle on the sphere of directions with three right angles, parallel transport turns a frame by the
-// triangle's area, pi/2 (Gauss and Bonnet).
+// Around a triangle on the sphere of directions with three right angles, parallel transport turns a frame by
+// the triangle's area, pi/2 (Gauss and Bonnet).
 static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state)
 {
     (void)state;
@@ -98,8 +99,8 @@ static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state
     near3("x", x, 0, 0, -1, 1e-14);
 }
 
-// Without damping or constraints Verlet is exact for constant acceleration: after n substeps from rest a vertex has
-// fallen g dt^2 n (n + 1) / 2.
+// Without damping or constraints Verlet is exact for constant acceleration: after n substeps from rest a
+// vertex has fallen g dt^2 n (n + 1) / 2.
 static void an_unhindered_vertex_falls_as_verlet_says(void** state)
 {
     (void)state;
@@ -119,7 +120,8 @@ static void an_unhindered_vertex_falls_as_verlet_says(void** state)
     }
 }
 
-// A velocity that decays by the factor k a substep carries 1 + k + k^2 + … = (1 - k^n) / (1 - k) displacements far.
+// A velocity that decays by the factor k a substep carries 1 + k + k^2 + … = (1 - k^n) / (1 - k)
+// displacements far.
 static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
 {
     (void)state;
@@ -255,7 +257,8 @@ static void the_angular_force_leaves_the_rest_pose_alone(void** state)
         near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
 }
 
-// A parabola p(s) = c0 + c1 s + c2 s^2 at uneven s: its slopes come out exactly, and then the cubic is the parabola.
+// A parabola p(s) = c0 + c1 s + c2 s^2 at uneven s: its slopes come out exactly, and then the cubic is the
+// parabola.
 static void hermite_reproduces_parabolas_exactly(void** state)
 {
     (void)state;
@@ -278,10 +281,10 @@ static void hermite_reproduces_parabolas_exactly(void** state)
     }
 }
 
-// Vertices around a circle of radius 1, at angles a: chords of length 2 sin(a/2), slopes of length cos(a/2) along the
-// tangents. Half way between two vertices the chord is cos(a/2) from the centre; the cubic of Hermite adds an eighth of
-// the chord's length times the difference of the slopes, which is 2 sin(a/2) cos(a/2) = sin(a), outwards. Together
-// 1 - 3/128 a^4.
+// Vertices around a circle of radius 1, at angles a: chords of length 2 sin(a/2), slopes of length cos(a/2)
+// along the tangents. Half way between two vertices the chord is cos(a/2) from the centre; the cubic of
+// Hermite adds an eighth of the chord's length times the difference of the slopes, which is 2 sin(a/2)
+// cos(a/2) = sin(a), outwards. Together 1 - 3/128 a^4.
 static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 {
     (void)state;
