@@ -39,7 +39,10 @@ build_and_run() {
 # The .pc files find their tree by where they lie themselves.
 static=$(pkg-config --static --cflags --libs hair_egl)
 shared=$(pkg-config --cflags --libs hair_egl)
-case $shared in *"-L$prefix/usr/lib"* | *"-L$prefix/usr/lib/pkgconfig/../../lib"*) ;; *) fail "pkg-config says \"$shared\"" ;; esac
+case $shared in
+*"-L$prefix/usr/lib"*) ;;
+*) fail "pkg-config says \"$shared\"" ;;
+esac
 pkg-config --exists "hair >= 0.1" || fail "hair.pc has no version"
 [ "$(pkg-config --modversion hair)" = "$(pkg-config --modversion hair_egl)" ] || fail "two versions are installed"
 

@@ -1,4 +1,4 @@
-// capture_test.c - hair-capture as its users call it: pictures, videos, hashes, exit codes, nothing half written.
+// capture_test.c - hair-capture as its users call it: pictures, videos, hashes, exit codes, whole files.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
 

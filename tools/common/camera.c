@@ -130,7 +130,7 @@ void hair_light_texture(const struct hair_matrices* light, float out[16])
         for (int i = 0; i < 3; ++i) out[4 * column + i] = 0.5f * (out[4 * column + i] + out[4 * column + 3]);
 }
 
-// In clip space, from -1 to 1: x' = (x - c) / s, with c the rectangle's centre and s its share of the picture.
+// In clip space, from -1 to 1: x' = (x - c) / s, with c the rectangle's centre, s its share of it.
 void hair_camera_crop(const float projection[16], const float at[2], const float size[2], float out[16])
 {
     memcpy(out, projection, 16 * sizeof *out);

@@ -31,7 +31,8 @@ void hair_light_clip(const struct hair_matrices* light, float out[16]);
 void hair_light_texture(const struct hair_matrices* light, float out[16]);
 void hair_light_direction(const struct hair_scene* scene, float out[3]); // unit, towards it
 
-// The part of a projection that makes the rectangle at `at`, of `size`, shares of the picture from its upper left.
+// The part of a projection that makes a rectangle of the picture: `at`, its upper left corner, and `size` are
+// shares of the picture, from its own.
 void hair_camera_crop(const float projection[16], const float at[2], const float size[2], float out[16]);
 
 #endif

@@ -26,8 +26,8 @@ bool hair_y4m_begin(FILE* file, uint32_t width, uint32_t height, double fps)
                    lround(1000 * fps)) > 0;
 }
 
-// BT.709, 8 bits, limited range, in 16.16 fixed point: brightness 16 to 235, colour 16 to 240 (ITU-R BT.709-6,
-// items 3.2 to 3.5). Each row of weights sums to 219/255, or to 0.
+// BT.709, 8 bits, limited range, in 16.16 fixed point: brightness 16 to 235, colour 16 to 240 (ITU-R
+// BT.709-6, items 3.2 to 3.5). Each row of weights sums to 219/255, or to 0.
 static unsigned char brightness(const int rgb[3])
 {
     return (unsigned char)((11966 * rgb[0] + 40254 * rgb[1] + 4064 * rgb[2] + (16 << 16) + (1 << 15)) >> 16);
