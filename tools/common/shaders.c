@@ -8,7 +8,8 @@
 #define AT(x) "layout(location = " TEXT(x) ") uniform "
 #define HEAD "#version 450 core\n"
 
-// clang-format off: GLSL keeps its own lines.
+// GLSL keeps its own lines.
+// clang-format off
 const char hair_whole_vert[] = HEAD
     AT(HAIR_AT_TILE) "vec4 tile;\n" // Of the picture: xy from its upper left, zw its size, as shares.
     "layout(location = 0) out vec2 place;\n"
