@@ -9,10 +9,29 @@
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45, " CAMERA "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
+    {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
+                 " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}}"},
+    {"afro", "{'style': 'afro', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
+             " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.56, 0.0], 'fov': 27}}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
             " 'settings': {'clump': 0.3, 'radius': 1e-4, 'segments': 8, 'guides': 1000, 'iterations': 8, "
             "'pull_root': 8, 'pull_tip': 6}}"},
+    {NULL, NULL},
+};
+
+// What holds each haircut against gravity. Every style says every key, so that one can follow another. A curl wants
+// more vertices than a wave: some eight a turn.
+#define SMOOTH "'guide_vertices': 32, 'segments': 32"
+#define CURLED "'guide_vertices': 64, 'segments': 64"
+
+const struct hair_builtin hair_builtin_styles[] = {
+    {"long", "{'pull_root': 6, 'pull_tip': 1, 'angular': 8, " SMOOTH "}"},
+    {"bob", "{'pull_root': 8, 'pull_tip': 3, 'angular': 8, " SMOOTH "}"},
+    {"short", "{'pull_root': 10, 'pull_tip': 6, 'angular': 8, " SMOOTH "}"},
+    {"ponytail", "{'pull_root': 12, 'pull_tip': 1.5, 'angular': 8, " SMOOTH "}"},
+    {"curly", "{'pull_root': 8, 'pull_tip': 3, 'angular': 4, " CURLED "}"},
+    {"afro", "{'pull_root': 12, 'pull_tip': 8, 'angular': 8, " CURLED "}"},
     {NULL, NULL},
 };
 

@@ -9,6 +9,7 @@ struct hair_builtin {
 
 // Each ends with a row of NULL. Quotes stand as '.
 extern const struct hair_builtin hair_builtin_scenes[];
+extern const struct hair_builtin hair_builtin_styles[]; // settings
 extern const struct hair_builtin hair_builtin_motions[];
 
 #endif

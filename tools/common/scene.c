@@ -72,6 +72,8 @@ static hair_style style_named(const char* name) // HAIR_STYLE_COUNT: none
     return (hair_style)i;
 }
 
+static bool read_style_settings(const char* tool, const char* name, struct hair_scene* scene);
+
 bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene* scene)
 {
     hair_style style = style_named(name);
@@ -82,7 +84,7 @@ bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene*
     scene->subject              = HAIR_SUBJECT_STYLE;
     scene->settings.style.style = style;
     if (!scene->head_is_said) scene->head = true;
-    return true;
+    return read_style_settings(tool, name, scene);
 }
 
 // Subject ---------------------------------------------------------------------------------------------------
@@ -279,6 +281,16 @@ static json_t* load_builtin(const char* tool, const char* name, const char* text
     for (size_t i = 0; i < size; ++i)
         if (quoted[i] == '\'') quoted[i] = '"';
     return load(tool, name, quoted, size);
+}
+
+static bool read_style_settings(const char* tool, const char* name, struct hair_scene* scene)
+{
+    json_t* settings = load_builtin(tool, name, text_of(hair_builtin_styles, name));
+    if (!settings) return false;
+    struct hair_json json = {tool, name, ""};
+    bool             ok   = read_settings(&json, "settings", settings, scene);
+    json_decref(settings);
+    return ok;
 }
 
 bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene* scene)
