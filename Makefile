@@ -52,8 +52,8 @@ tools: $(TOOLS) ## hair-capture, hair-groom
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) tools
-	$(B)/hair-capture --scene demo --frames 45:46 --size 1280x720 -o build/demo.png
-	$(B)/hair-capture --scene demo --frames 0:120 --fps 30 --size 1280x720 -o build/demo.mp4
+	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 2 -o build/demo.png
+	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 -o build/demo.mp4
 
 test: setup ## Everything a change must pass
 	@$(MAKE) -j$(JOBS) all $(TESTS)
@@ -101,7 +101,7 @@ $(B)/tests/%.c.o: tests/%.c
 $(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CPP) $(EIGEN) -c $< -o $@
+	$(Q)$(CPP) -O2 $(EIGEN) -c $< -o $@
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)

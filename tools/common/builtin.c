@@ -7,7 +7,7 @@
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
-    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45, " CAMERA "}"},
+    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
     {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
                  " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}}"},
@@ -22,7 +22,7 @@ const struct hair_builtin hair_builtin_scenes[] = {
 
 // What holds each haircut against gravity. Every style says every key, so that one can follow another. A curl wants
 // more vertices than a wave: some eight a turn.
-#define SMOOTH "'guide_vertices': 32, 'segments': 32"
+#define SMOOTH "'guide_vertices': 32, 'segments': 24"
 #define CURLED "'guide_vertices': 64, 'segments': 64"
 
 const struct hair_builtin hair_builtin_styles[] = {
