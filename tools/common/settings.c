@@ -91,13 +91,15 @@ static const struct row rows[] = {
 
 struct hair_settings hair_settings_default(void)
 {
-    return (struct hair_settings){.import  = hair_import_default(),
-                                  .style   = hair_style_desc_default(),
-                                  .groom   = hair_groom_desc_default(),
-                                  .physics = hair_physics_default(),
-                                  .look    = hair_look_default(),
-                                  .desc    = hair_desc_default(),
-                                  .view    = hair_view_default()};
+    struct hair_settings settings = {.import  = hair_import_default(),
+                                     .style   = hair_style_desc_default(),
+                                     .groom   = hair_groom_desc_default(),
+                                     .physics = hair_physics_default(),
+                                     .look    = hair_look_default(),
+                                     .desc    = hair_desc_default(),
+                                     .view    = hair_view_default()};
+    settings.import.scale         = HAIR_SCALE_GUESSED;
+    return settings;
 }
 
 static const struct row* find(const char* key)
@@ -182,6 +184,8 @@ void hair_settings_print(FILE* file)
             snprintf(text, sizeof text, "%s", row->choice[count]);
         else if (row->kind == COUNT)
             snprintf(text, sizeof text, "%u", count);
+        else if (number == HAIR_SCALE_GUESSED)
+            snprintf(text, sizeof text, "guessed");
         else
             snprintf(text, sizeof text, "%g", (double)number);
         fprintf(file, "  %-16s %-12s %s\n", row->key, text, row->about);

@@ -3,11 +3,14 @@
 #ifndef HAIR_TOOLS_COMMON_SETTINGS_H
 #define HAIR_TOOLS_COMMON_SETTINGS_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 
 #include <hair/hair.h>
 #include <hair/hair_asset.h>
+
+#define HAIR_SCALE_GUESSED INFINITY // import.scale when none was said
 
 struct hair_settings {
     hair_import     import;

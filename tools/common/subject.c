@@ -29,16 +29,47 @@ static int build(const hair_host* host, const struct hair_scene* scene, hair_ass
     return hair_exit_for(result);
 }
 
+#define LONGEST_STRAND 3.0f // m: a file with longer ones is in smaller units
+
+// Files do not say their unit: metres, unless strands would be longer than any hair; then centimetres or millimetres.
+static float guess_scale(const char* tool, const char* path, const hair_asset* asset)
+{
+    hair_asset_info info = hair_asset_info_default();
+    hair_asset_describe(asset, &info);
+    float longest = info.length[2];
+    if (longest <= LONGEST_STRAND) return 1;
+    float scale = longest * 0.01f <= LONGEST_STRAND ? 0.01f : 0.001f;
+    hair_complain(tool, "%s: the longest strand has %g units, taken to be %g m each; --scale says otherwise",
+                  path, (double)longest, (double)scale);
+    return scale;
+}
+
+static hair_result read_asset(const hair_host* host, hair_import import, const struct hair_bytes* bytes,
+                              hair_asset** out)
+{
+    hair_asset_desc desc = hair_asset_desc_default();
+    desc.host            = host;
+    desc.import          = &import;
+    return hair_asset_read(&desc, bytes->data, bytes->size, out);
+}
+
 static int load_file(const char* tool, const hair_host* host, const struct hair_scene* scene,
                      hair_groom** out)
 {
     struct hair_bytes bytes;
     if (!hair_file_read(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
-    hair_asset_desc desc = hair_asset_desc_default();
-    desc.host            = host;
-    desc.import          = &scene->settings.import;
-    hair_asset* asset;
-    hair_result result = hair_asset_read(&desc, bytes.data, bytes.size, &asset);
+    hair_import import  = scene->settings.import;
+    bool        guesses = import.scale == HAIR_SCALE_GUESSED;
+    if (guesses) import.scale = 1;
+    hair_asset* asset  = NULL;
+    hair_result result = read_asset(host, import, &bytes, &asset);
+    if (!result && guesses) {
+        import.scale = guess_scale(tool, scene->groom, asset);
+        if (import.scale != 1) { // Again, since what is too short to keep depends on it.
+            hair_asset_destroy(asset);
+            result = read_asset(host, import, &bytes, &asset);
+        }
+    }
     free(bytes.data);
     return result ? hair_exit_for(result) : build(host, scene, asset, out);
 }
