@@ -29,6 +29,11 @@ int hair_test_shell_finish(void)
     return hair_test_shell("rm -r \"$D\"");
 }
 
+const char* hair_test_folder(void)
+{
+    return folder;
+}
+
 int hair_test_shell(const char* command)
 {
     static char line[8192];

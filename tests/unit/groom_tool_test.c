@@ -1,6 +1,6 @@
 // groom_tool_test.c - hair-groom as its users call it: files, pipes, exit codes, nothing left half written.
-#define _XOPEN_SOURCE 700
 #include "tests/support/files.h"
+#include "tests/support/shell.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,41 +8,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <cmocka.h>
 
 #define TOOL HAIR_BUILD_DIR "/hair-groom"
 
-static char folder[] = "/tmp/hair-groom-test-XXXXXX";
-static char said[8192]; // By the last run, both streams.
-
-// Run a shell command in which $T is the tool and $D the folder. Returns its exit code.
-static int run(const char* command)
-{
-    char line[2048];
-    snprintf(line, sizeof line, "{ T=%s; D=%s; %s\n} 2>&1", TOOL, folder, command);
-    FILE* pipe = popen(line, "r");
-    assert_non_null(pipe);
-    size_t size = fread(said, 1, sizeof said - 1, pipe);
-    said[size]  = 0;
-    int status  = pclose(pipe);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
-
-static void expect(int code, const char* command, const char* words)
-{
-    int got = run(command);
-    if (got != code || !strstr(said, words))
-        fail_msg("%s: exit %d, not %d; said \"%s\", without \"%s\"", command, got, code, said, words);
-}
+#define expect hair_test_shell_expect
+#define said hair_test_said
 
 static void save(const char* name, struct hair_test_file file)
 {
     char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
     FILE* out = fopen(path, "wb");
     assert_non_null(out);
     assert_int_equal(fwrite(file.bytes, 1, file.size, out), file.size);
@@ -53,18 +29,18 @@ static void save(const char* name, struct hair_test_file file)
 static int make_folder(void** state)
 {
     (void)state;
-    if (!mkdtemp(folder)) return -1;
+    if (hair_test_shell_start(TOOL)) return -1;
     save("a.hair", hair_test_hair(31));
     save("a4.tfx", hair_test_tfx4());
     save("a3.tfx", hair_test_tfx3());
     save("a2.tfx", hair_test_tfx2());
-    return access(TOOL, X_OK);
+    return 0;
 }
 
 static int remove_folder(void** state)
 {
     (void)state;
-    return run("rm -r $D");
+    return hair_test_shell_finish();
 }
 
 static void info_tells_what_is_in_a_haircut(void** state)
