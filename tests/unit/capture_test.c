@@ -323,6 +323,18 @@ static void haircuts_from_files_are_framed_and_found_beside_their_scene(void** s
            "");
 }
 
+static void the_unit_of_a_file_is_guessed_from_its_longest_strand(void** state)
+{
+    (void)state;
+    expect(0,
+           "TOOL=$(dirname $T)/hair-groom; $TOOL generate bob $D/m.tfx --vertices 16 --guides 64 && "
+           "$TOOL convert $D/m.tfx $D/cm.tfx --scale 100",
+           "");
+    expect(0, "$T --groom $D/cm.tfx --size 64x36 --frames 0:2 --hash", "taken to be 0.01 m each");
+    expect(0, "$T --groom $D/cm.tfx --scale 0.01 --size 64x36 --frames 0:2 --hash >$D/1 2>&1", "");
+    expect(0, "$T --groom $D/cm.tfx --size 64x36 --frames 0:2 --hash >$D/2 2>/dev/null && cmp $D/1 $D/2", "");
+}
+
 static void fur_stands_on_a_ball(void** state)
 {
     (void)state;
@@ -367,6 +379,7 @@ int main(void)
         cmocka_unit_test(stats_tell_what_was_drawn),
         cmocka_unit_test(scene_files_say_what_options_say),
         cmocka_unit_test(haircuts_from_files_are_framed_and_found_beside_their_scene),
+        cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),
     };
     return cmocka_run_group_tests(tests, start, finish);
