@@ -96,13 +96,14 @@ void main()
 
         x            = vertex[i];
         displacement = x - before + head;
-        // A strand that is not finite, or far beyond any hair, goes back to its rest pose.
+        // A strand that is not finite, or far beyond any hair, goes back to its rest pose, and along with the head
+        // unless that was what went too far.
         if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 || dot(displacement, displacement) > 1e8))
             broken = 1u;
         synchronise();
         if (broken != 0u) {
             x            = target;
-            displacement = vec3(0.0);
+            displacement = dot(head, head) < 1e8 ? head : vec3(0.0);
         }
         synchronise();
         if (i == 0u) broken = 0u;

@@ -150,7 +150,7 @@ void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* po
 }
 
 // One substep, and the displacements it made. A strand that is not finite or has left goes back to its rest
-// pose.
+// pose, and along with the head unless that was what went too far.
 static void advance(const hair_reference_guide& g, uint32_t substep, hair_reference_vertex* state)
 {
     std::vector<double> moved(3 * g.guide->count);
@@ -173,7 +173,7 @@ static void advance(const hair_reference_guide& g, uint32_t substep, hair_refere
     }
     for (uint32_t i = 0; i < g.guide->count; ++i) {
         store(sound ? s[i] : rest_pose(g, substep, i), state[i].position);
-        if (!sound) store(Vector3d(0, 0, 0), state[i].displacement);
+        if (!sound) store(is_sound(head) ? head : Vector3d(0, 0, 0), state[i].displacement);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define TWO_PI 6.28318530718f
+#define FARTHEST 1e4f // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
 {
@@ -72,11 +73,13 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
 // What smooth.comp needs to place the strands between the ends of the last substep, under the head's pose now.
 static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
 {
-    params->alpha             = (float)(sim->left / sim->substep);
+    hair_vec3 moved           = hair_pose_offset(&sim->last_after, &sim->last_before);
+    int       far             = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
+    params->alpha             = far ? 1 : (float)(sim->left / sim->substep);
     params->rotation_before   = vec4_of_quat(sim->last_before.rotation);
     params->rotation_after    = vec4_of_quat(sim->last_after.rotation);
     params->rotation_now      = vec4_of_quat(sim->head.rotation);
-    params->last_displacement = vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), 0);
+    params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
 }
 
 static void upload(struct hair_sim* sim, const struct hair_step_params* params)
@@ -89,9 +92,9 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
                            double first, double dt)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        double share                = (first + i * sim->substep) / dt;
+        double share                = fmin((first + i * sim->substep) / dt, 1);
         sim->last_before            = sim->last_after;
-        sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share < 1 ? share : 1);
+        sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share);
         params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
         params->substep[i].displacement =
             vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);

@@ -468,6 +468,55 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
     hair_groom_destroy(groom);
 }
 
+// However far the head goes in one step, and wherever in a substep the step ends.
+static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** state)
+{
+    static struct strands strands;
+    struct hair_test*     test  = *state;
+    hair_groom*           groom = make_groom(test);
+    hair_instance*        hair  = make(test, groom);
+    const float           far[] = {1e6f, 0, 3e38f, -3e38f, 0};
+    for (size_t i = 0; i < sizeof far / sizeof *far; ++i) {
+        float there[16];
+        pose(0, 0, far[i], 0, there);
+        hair_test_ok(test, hair_set_transform(hair, there));
+        hair_test_ok(test, hair_step(hair, 0.013f));
+        read(test, hair, HAIR_READ_SMOOTH, &strands);
+        for (uint32_t k = 0; k < strands.vertices; ++k) {
+            hair_test_near("x", k, strands.positions[3 * k], 0, 1);
+            hair_test_near("y", k, strands.positions[3 * k + 1], far[i], 1);
+        }
+    }
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+// A step that is a small part of a substep, and ends one: solids are where they were set, not beyond.
+static void a_step_shorter_than_rounding_moves_no_solid_too_far(void** state)
+{
+    static struct strands before, after;
+    struct hair_test*     test    = *state;
+    hair_groom*           groom   = make_groom(test);
+    hair_instance*        hair    = make(test, groom);
+    hair_physics          physics = hair_physics_default();
+    memset(physics.gravity, 0, sizeof physics.gravity);
+    hair_test_ok(test, hair_set_physics(hair, &physics));
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}};
+    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    hair_test_ok(test, hair_step(hair, (float)((1 - 3e-6) / 120)));
+    read(test, hair, HAIR_READ_GUIDES, &before);
+    for (int i = 0; i < 110; ++i) {
+        solid.position[1] -= 0.0145f; // In the end at 1.4: it touches no hair.
+        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        hair_test_ok(test, hair_step(hair, 2e-8f / 120));
+        read(test, hair, HAIR_READ_GUIDES, &after);
+        for (uint32_t k = 0; k < 3 * after.vertices; ++k)
+            hair_test_near("position", k, after.positions[k], before.positions[k], 1e-3);
+    }
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -484,6 +533,8 @@ int main(void)
         HAIR_TEST(two_hundred_lives_leave_nothing),
         HAIR_TEST(a_context_leaves_nothing_either),
         HAIR_TEST(timings_count_the_runs_of_every_pass),
+        HAIR_TEST(a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along),
+        HAIR_TEST(a_step_shorter_than_rounding_moves_no_solid_too_far),
         HAIR_TEST(no_abuse_makes_a_strand_that_is_not_finite),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
