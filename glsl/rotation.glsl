@@ -2,7 +2,6 @@
 #ifndef HAIR_ROTATION_GLSL
 #define HAIR_ROTATION_GLSL
 
-
 vec4 quat_conjugate(vec4 q) { return vec4(-q.xyz, q.w); }
 
 vec4 quat_multiply(vec4 a, vec4 b)

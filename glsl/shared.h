@@ -108,7 +108,7 @@ struct hair_substep {
 };
 HAIR_SIZE(hair_substep, 32)
 
-// What the substeps of one step share. Frequencies are angular and squared: accelerations per metre, 1/s^2.
+// What the substeps of one step share. Frequencies are angular.
 struct hair_step_params {
     hair_vec4 gravity;   // xyz: m/s^2; w: length of a substep, s
     float     keep;      // share of the velocity left after a substep: exp(-damping dt)
