@@ -185,6 +185,7 @@ static void every_line_of_every_shader_leads_back_to_its_file(void** state)
         char list[256];
         snprintf(list, sizeof list, "%s", stages[i]);
         for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
+            if (strchr(name, '=')) continue; // a definition
             struct hair_gl_source source;
             assert_int_equal(
                 hair_gl_read_source(&test.host, "glsl", name, "#define HAIR_TEST_PREFIX\n", &source),
@@ -202,6 +203,7 @@ static void the_text_built_in_is_that_of_the_files(void** state)
         char list[256];
         snprintf(list, sizeof list, "%s", stages[i]);
         for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
+            if (strchr(name, '=')) continue; // a definition
             struct hair_gl_source built_in, file;
             assert_int_equal(hair_gl_read_source(&test.host, NULL, name, "", &built_in), HAIR_OK);
             assert_int_equal(hair_gl_read_source(&test.host, "glsl", name, "", &file), HAIR_OK);
