@@ -27,6 +27,19 @@ static hair_result check_framebuffer(const hair_instance* hair)
                      status == GL_FRAMEBUFFER_UNDEFINED ? ", there is none" : "");
 }
 
+// Binding what is no texture would raise the host's error flag; one of another target would stay bound.
+static hair_result check_shadow(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl     = &hair->context->gl;
+    GLint                 target = 0;
+    if (!view->shadow_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
+    if (gl->IsTexture(view->shadow_texture))
+        gl->GetTextureParameteriv(view->shadow_texture, GL_TEXTURE_TARGET, &target);
+    if (target == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shadow_texture is %u, not a 2D texture",
+                     hair->label, view->shadow_texture);
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -35,6 +48,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_result   result = HAIR_TAKE(&context->host, hair_view, view, &own);
     if (!result) result = check_view(hair, &own);
     if (!result) result = hair_check_current(context);
+    if (!result) result = check_shadow(hair, &own);
     if (!result) result = check_framebuffer(hair);
     if (result) return result;
     hair_gl_enter(&context->gl);

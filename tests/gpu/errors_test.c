@@ -400,6 +400,14 @@ static void views_without_sense_are_refused(void** state)
     view.shadow_texture   = 1;
     view.shadow_matrix[3] = 0.5f;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "shadow_matrix is not orthographic");
+
+    GLuint cube;
+    glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube);
+    view                = hair_view_default();
+    view.shadow_texture = cube;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
+    glDeleteTextures(1, &cube);
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
     drop(hair, groom);
 }
 
