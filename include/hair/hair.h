@@ -248,7 +248,7 @@ typedef enum hair_shape {
 
 typedef struct hair_solid {
     hair_shape shape;
-    float      position[3]; ///< World. m.
+    float      position[3]; ///< World. m. [-1e9, 1e9].
     float      rotation[4]; ///< World. Unit quaternion, xyzw.
     float      size[2];     ///< As the shape says. m. [0, 1e6], radius > 0.
 } hair_solid;

@@ -104,9 +104,7 @@ hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* s
     GLuint          expanded = 0;
     hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
-    hair_result result = count > UINT32_MAX ? hair_fail(&gl->host, HAIR_ERROR_MEMORY,
-                                                        "%zu follower vertices are too many to read", count)
-                                            : hair_gl_storage(gl, "hair expanded", size, NULL, &expanded);
+    hair_result result = hair_gl_storage(gl, "hair expanded", size, NULL, &expanded);
     if (!result) {
         struct hair_draw_params params;
         hair_draw_write_params(draw, NULL, NULL, &params);

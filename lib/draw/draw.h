@@ -20,7 +20,8 @@ void        hair_draw_destroy(struct hair_draw* draw);
 void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, const struct hair_pose* head,
                    const hair_view* view);
 
-// Vertices of all followers, look.segments + 1 each: xyz from the head's origin, radius. The caller frees *out.
+// Vertices of all followers, look.segments + 1 each: xyz from the head's origin, radius. The caller frees *out, and has
+// checked that there are no more than UINT32_MAX.
 hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out);
 
 #endif
