@@ -85,7 +85,7 @@ static int print_help(void)
             if (rows[i].commands & commands[j].bit) printf(" [%s]", commands[j].name);
         printf("\n");
     }
-    printf("\nExit status: 0 done, 1 failed while running, 2 wrong use, 3 no OpenGL, 4 unusable input.\n");
+    printf("\nExit status: 0 done, 1 failed while running, 2 wrong use, 4 unusable input.\n");
     return HAIR_EXIT_OK;
 }
 
