@@ -10,17 +10,7 @@
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 
-// The call failed so, with one sentence that holds `words`.
-static void refused(struct hair_test* test, hair_result result, hair_result expected, const char* words)
-{
-    uint32_t errors = hair_test_forgive(test);
-    if (result != expected)
-        fail_msg("\"%s\" instead of \"%s\" (%s)", hair_result_string(result), hair_result_string(expected),
-                 words);
-    if (errors != 1) fail_msg("%u sentences, not one (%s): %s", errors, words, test->host.sentence);
-    if (!strstr(test->host.sentence, words)) fail_msg("no \"%s\" in: %s", words, test->host.sentence);
-    *test->host.sentence = 0;
-}
+#define refused hair_test_refused
 
 static hair_instance* make(struct hair_test* test, hair_groom** groom)
 {

@@ -91,6 +91,17 @@ void hair_test_ok(const struct hair_test* test, hair_result result)
     if (result) fail_msg("%s: %s", hair_result_string(result), test->host.sentence);
 }
 
+void hair_test_refused(struct hair_test* test, hair_result result, hair_result expected, const char* words)
+{
+    uint32_t errors = hair_test_forgive(test);
+    if (result != expected)
+        fail_msg("\"%s\" instead of \"%s\" (%s)", hair_result_string(result), hair_result_string(expected),
+                 words);
+    if (errors != 1) fail_msg("%u sentences, not one (%s): %s", errors, words, test->host.sentence);
+    if (!strstr(test->host.sentence, words)) fail_msg("no \"%s\" in: %s", words, test->host.sentence);
+    *test->host.sentence = 0;
+}
+
 void hair_test_near(const char* what, size_t i, double a, double b, double tolerance)
 {
     double difference = a > b ? a - b : b - a;

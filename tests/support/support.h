@@ -40,6 +40,9 @@ uint32_t hair_test_forgive(struct hair_test* test);
 // `result` is HAIR_OK, or the test fails with the last sentence of the log.
 void hair_test_ok(const struct hair_test* test, hair_result result);
 
+// The call failed with `expected` and logged one sentence, which holds `words`. Forgives it.
+void hair_test_refused(struct hair_test* test, hair_result result, hair_result expected, const char* words);
+
 // a and b differ by no more than `tolerance`; NaN differs from everything. `what` and `i` are for the
 // message.
 void hair_test_near(const char* what, size_t i, double a, double b, double tolerance);
