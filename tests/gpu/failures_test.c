@@ -123,6 +123,8 @@ static int exit_code_of_an_old_driver(void)
 static void a_driver_that_is_too_old_is_an_opengl_error(void** state)
 {
     (void)state;
+    if (!strstr((const char*)glGetString(GL_RENDERER), "llvmpipe"))
+        skip(); // No other has an old one beside it.
     pid_t child = fork();
     if (child == 0) {
         setenv("GALLIUM_DRIVER", "softpipe", 1);

@@ -361,7 +361,9 @@ static void disturb_textures(void)
 
 static void disturb_program(void)
 {
-    const char* text = "#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+    const char* text =
+        "#version 450 core\nout gl_PerVertex { vec4 gl_Position; }; // separable programs must say so\n"
+        "void main() { gl_Position = vec4(0.0); }\n";
     glUseProgram(glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &text));
     GLuint pipeline;
     glCreateProgramPipelines(1, &pipeline);
