@@ -71,6 +71,7 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
         }
     }
     free(bytes.data);
+    if (result == HAIR_ERROR_FILE) hair_complain(tool, "%s cannot be used", scene->groom);
     return result ? hair_exit_for(result) : build(host, scene, asset, out);
 }
 
