@@ -31,11 +31,10 @@ typedef uint32_t hair_uint;
 #endif
 
 // Storage buffers of compute passes: OpenGL 4.5 promises a compute shader no more than eight.
-#define HAIR_BIND_GUIDE 0 // hair_guide[]    per guide, never written
-#define HAIR_BIND_REST 1  // hair_rest[]     per guide vertex, never written
-#define HAIR_BIND_STATE 2 // hair_state[]    per guide vertex
-#define HAIR_BIND_POSITION                                                                                   \
-    3 // hair_vec4[]     per smooth vertex: position from the head's origin, length from the root
+#define HAIR_BIND_GUIDE 0    // hair_guide[]    per guide, never written
+#define HAIR_BIND_REST 1     // hair_rest[]     per guide vertex, never written
+#define HAIR_BIND_STATE 2    // hair_state[]    per guide vertex
+#define HAIR_BIND_POSITION 3 // hair_vec4[] per smooth vertex: position from the head, length from the root
 #define HAIR_BIND_TANGENT 4  // hair_vec4[]     per smooth vertex: unit tangent, stretch of the segment
 #define HAIR_BIND_FRAME 5    // hair_vec4[]     per smooth vertex: unit quaternion, y along the strand
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
@@ -48,16 +47,15 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_POSITION 0
 #define HAIR_UNIT_TANGENT 1
 #define HAIR_UNIT_FRAME 2
-#define HAIR_UNIT_FOLLOWER                                                                                   \
-    3                     // hair_follower[] as unsigned texels: a float texture may flush small integers to 0
-#define HAIR_UNIT_PATCH 4 // hair_patch[], likewise
-#define HAIR_UNIT_SHADOW 5 // the host's shadow map
+#define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
+#define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
+#define HAIR_UNIT_SHADOW 5   // the host's shadow map
 
 #define HAIR_GROUP_SIZE 64         // threads of a work group
 #define HAIR_MAX_GUIDE_VERTICES 64 // one thread per vertex of a guide
 #ifndef HAIR_GUIDE_THREADS
 #define HAIR_GUIDE_THREADS                                                                                   \
-    HAIR_MAX_GUIDE_VERTICES // of the work group of a guide; a pass for shorter ones has fewer
+    HAIR_MAX_GUIDE_VERTICES // of a guide's work group; a pass for shorter ones has fewer
 #endif
 #define HAIR_MAX_SMOOTH_VERTICES 127 // two samples per segment of the longest guide
 #define HAIR_MAX_ISOLINES 64         // per patch, and
@@ -79,9 +77,9 @@ HAIR_SIZE(hair_guide, 32)
 // A guide vertex at rest, in groom space.
 struct hair_rest {
     hair_vec4 position; // xyz: m; w: distance to the next vertex, m (0 for the tip)
-    hair_vec4
-        direction; // xyz: unit direction to the next vertex, in the frame carried here along the strand from the
-        // segment before (at the root: in the root frame); w: distance to the vertex after the next, m
+    // xyz: unit direction to the next vertex, in the frame carried here along the strand from the segment before
+    // (at the root: in the root frame); w: distance to the vertex after the next, m
+    hair_vec4 direction;
 };
 HAIR_SIZE(hair_rest, 32)
 
@@ -102,9 +100,8 @@ HAIR_SIZE(hair_capsule, 64)
 
 // One substep: where the head is at its end.
 struct hair_substep {
-    hair_vec4 rotation; // unit quaternion
-    hair_vec4
-        displacement; // xyz: of the head's origin over this substep, m; w: share of the step done at its end
+    hair_vec4 rotation;     // unit quaternion
+    hair_vec4 displacement; // xyz: of the head's origin over it, m; w: share of the step done at its end
 };
 HAIR_SIZE(hair_substep, 32)
 

@@ -55,7 +55,7 @@ typedef enum hair_result {
     HAIR_ERROR_MEMORY,   ///< hair_host.alloc or the driver refused.
     HAIR_ERROR_OPENGL,   ///< No context current, older than 4.5, or a shader it would not compile.
     HAIR_ERROR_FILE,     ///< Unreadable, or not in the format it claims; the log has the byte offset.
-    HAIR_ERROR_VERSION   ///< The caller was compiled against another major version, or without a default function.
+    HAIR_ERROR_VERSION   ///< Compiled against another major version, or no default function was used.
 } hair_result;
 
 HAIR_API uint32_t    hair_version(void);                     ///< The library's HAIR_VERSION. [any thread]
@@ -98,7 +98,7 @@ typedef struct hair_import {
     float     scale;           ///< Metres per unit of the positions. [1e-6, 1e6]. Default 1.
     hair_up   up;              ///< The axis that points up in them; turned to +y. Default HAIR_UP_Y.
     uint32_t  tip_first;       ///< 1: strands run from tip to root. [0, 1]. Default 0.
-    float     share;           ///< Share of the strands to keep, drawn evenly by `seed`. [1e-6, 1]. Default 1.
+    float     share;           ///< Share of the strands to keep, by `seed`. [1e-6, 1]. Default 1.
     uint32_t  strand_vertices; ///< Vertices to resample every strand to. 0 (as they are) to 256. Default 0.
     uint32_t  seed;            ///< Of every random choice. Default 1.
 } hair_import;
@@ -106,11 +106,11 @@ HAIR_DESC(hair_import)
 
 /// What was wrong with foreign strands and what was done about it.
 typedef struct hair_repairs {
-    uint32_t dropped_single;     ///< Strands of fewer than two vertices, also after the repairs below.
-    uint32_t dropped_short;      ///< Strands shorter than 10 micrometres.
-    uint32_t removed_nonfinite;  ///< Vertices that were NaN, infinite or farther than 1e6 m from the origin.
-    uint32_t removed_repeated;   ///< Vertices nearer to the one before than 1e-5 of the strand's length.
-    uint32_t resampled;          ///< Strands of more than 256 vertices, brought down to 256.
+    uint32_t dropped_single;    ///< Strands of fewer than two vertices, also after the repairs below.
+    uint32_t dropped_short;     ///< Strands shorter than 10 micrometres.
+    uint32_t removed_nonfinite; ///< Vertices that were NaN, infinite or beyond 1e6 m.
+    uint32_t removed_repeated;  ///< Vertices nearer to the one before than 1e-5 of the strand's length.
+    uint32_t resampled;         ///< Strands of more than 256 vertices, brought down to 256.
 } hair_repairs;
 
 typedef enum hair_strands_are {
@@ -120,22 +120,22 @@ typedef enum hair_strands_are {
 
 typedef struct hair_groom_desc {
     hair_made          made;
-    const hair_host*   host;            ///< NULL: the C library's allocator, no log.
-    const float*       positions;       ///< xyz per vertex, strand after strand. Units as `import` says. Required.
+    const hair_host*   host;      ///< NULL: the C library's allocator, no log.
+    const float*       positions; ///< xyz per vertex, strand after strand; `import` says the unit. Required.
     const uint32_t*    strand_vertices; ///< Vertices in each strand, any number. Required.
     uint32_t           strand_count;    ///< [1, 4194304].
     const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
     hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
-    uint32_t           guide_count;     ///< For HAIR_STRANDS_ALL: guides to choose. 0 (one in ten, at least 64) to 65535.
-    uint32_t           guide_vertices;  ///< Most vertices simulated per guide. [4, 64]. Default 32.
-    uint32_t           follower_count;  ///< For HAIR_STRANDS_GUIDES: followers to grow. [0, 4194304]. Default 18000.
-    float              clump_radius;    ///< Of what grows around a guide without a scalp. m. [0, 1]. Default 0.01.
-    const float*       scalp_positions; ///< xyz per vertex of the scalp, in the space of `positions`. NULL: none.
-    const uint32_t*    scalp_triangles; ///< Three indices each, counter-clockwise from outside.
-    const float*       scalp_density;   ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
-    uint32_t           scalp_vertex_count;   ///< [0, 4194304].
-    uint32_t           scalp_triangle_count; ///< [0, 4194304].
-    uint32_t           seed;            ///< Of every random choice. Default 1.
+    uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 65535.
+    uint32_t           guide_vertices; ///< Most vertices simulated per guide. [4, 64]. Default 32.
+    uint32_t           follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
+    float           clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
+    const float*    scalp_positions;      ///< xyz per vertex, in the space of `positions`. NULL: no scalp.
+    const uint32_t* scalp_triangles;      ///< Three indices each, counter-clockwise from outside.
+    const float*    scalp_density;        ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
+    uint32_t        scalp_vertex_count;   ///< [0, 4194304].
+    uint32_t        scalp_triangle_count; ///< [0, 4194304].
+    uint32_t        seed;                 ///< Of every random choice. Default 1.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 
@@ -145,7 +145,7 @@ HAIR_API void        hair_groom_destroy(hair_groom* groom);
 
 typedef struct hair_groom_info {
     hair_made    made;
-    uint32_t     strand_count;       ///< Left after the repairs.
+    uint32_t     strand_count; ///< Left after the repairs.
     uint32_t     guide_count;
     uint32_t     guide_vertex_count; ///< In all guides together.
     uint32_t     follower_count;     ///< Strands drawn at full density.
@@ -162,18 +162,18 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
-    HAIR_GL_CLOBBER      ///< It may change: program, vertex array, patch vertices, face culling, storage buffers 0-6,
-                         ///< uniform buffers 0-1, buffer textures of units 0-4, 2D texture and sampler of unit 5.
+    HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-6,
+                    ///< uniform buffers 0-1, buffer textures of units 0-4, 2D texture, sampler of unit 5.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
     hair_made        made;
     const hair_host* host;                           ///< NULL: the C library's allocator, no log.
     void* (*get_proc)(const char* name, void* user); ///< Finds OpenGL functions. Required.
-    void*            get_proc_user;                  ///< Given back to get_proc.
-    hair_gl_state    gl_state;                       ///< Default HAIR_GL_RESTORE.
-    uint32_t         timings;                        ///< 1: time every pass for hair_timings. [0, 1]. Default 0.
-    const char*      glsl_dir;                       ///< For development: read glsl/ here. NULL: the text built in.
+    void*         get_proc_user;                     ///< Given back to get_proc.
+    hair_gl_state gl_state;                          ///< Default HAIR_GL_RESTORE.
+    uint32_t      timings;                           ///< 1: time passes, for hair_timings. [0, 1]. Default 0.
+    const char*   glsl_dir; ///< For development: glsl/ read from here. NULL: built in.
 } hair_context_desc;
 HAIR_DESC(hair_context_desc)
 
@@ -186,18 +186,18 @@ HAIR_API hair_result hair_context_reload(hair_context* context);
 // Instance: [GL] --------------------------------------------------------------------------------------------
 
 typedef enum hair_solver {
-    HAIR_SOLVER_REDBLACK = 0 ///< Tariq 2010: Verlet, then `iterations` of red/black distance, angular and collision constraints.
+    HAIR_SOLVER_REDBLACK = 0 ///< Tariq 2010: Verlet, red/black constraints, `iterations` times.
 } hair_solver;
 
 /// How hair moves.
 typedef struct hair_physics {
     hair_made made;
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
-    float     damping;    ///< Decay rate of velocity relative to the air at rest. 1/s. [0, 1000]. Default 4.
-    float     pull_root;  ///< Pull to the rest pose near the root, as the frequency it swings at. Hz. [0, 30]. Default 4.
-    float     pull_tip;   ///< The same at the tip; between them it changes linearly. Hz. [0, 30]. Default 1.
-    float     angular;    ///< Angular force: pull to the rest angle in the frame of the segment before. Hz. [0, 30]. Default 8.
-    float     bend;       ///< Angular constraint: share of the bend from rest that an iteration removes. [0, 1]. Default 0.1.
+    float     damping;    ///< Decay rate of velocity, the air being at rest. 1/s. [0, 1000]. Default 4.
+    float     pull_root;  ///< Pull to the rest pose near the root, as a frequency. Hz. [0, 30]. Default 4.
+    float     pull_tip;   ///< The same at the tip; linear between. Hz. [0, 30]. Default 1.
+    float     angular; ///< Angular force to the rest angle with the segment before. Hz. [0, 30]. Default 8.
+    float     bend;    ///< Angular constraint: share removed by an iteration. [0, 1]. Default 0.1.
     uint32_t  iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
     float     margin;     ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
 } hair_physics;
@@ -209,31 +209,32 @@ typedef struct hair_look {
     float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.06, 0.027, 0.012).
     float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.12, 0.058, 0.028).
     float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
-    float     specular[2];   ///< Strength of the first (white) and second (coloured) highlight. [0, 4]. Default (0.05, 0.5).
-    float     gloss[2];      ///< Their exponents. [1, 1000]. Default (60, 15).
-    float     radius;        ///< Of a drawn strand, which may stand for several real ones. m. [1e-6, 0.01]. Default 1.5e-4.
-    float     tip_radius;    ///< At the tip, as a share of that. [0, 1]. Default 0.5.
-    float     clump;         ///< How far tips gather around their guide: 0 spread evenly, 1 in locks. [0, 1]. Default 0.6.
-    float     frizz;         ///< Strands' own deviation, as a share of their length. [0, 0.2]. Default 0.01.
-    float     absorption;    ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
-    float     density;       ///< Share of the followers drawn. [0, 1]. Default 1.
-    uint32_t  segments;      ///< Line segments of a drawn strand. [1, 256]. Default 32.
+    float     specular[2]; ///< Strength of the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
+    float     gloss[2];    ///< Their exponents. [1, 1000]. Default (60, 15).
+    float     radius;      ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
+    float     tip_radius;  ///< At the tip, as a share of that. [0, 1]. Default 0.5.
+    float     clump;       ///< How far tips gather around their guide. [0, 1]. Default 0.6.
+    float     frizz;       ///< Strands' own deviation, share of their length. [0, 0.2]. Default 0.01.
+    float     absorption;  ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
+    float     density;     ///< Share of the followers drawn. [0, 1]. Default 1.
+    uint32_t  segments;    ///< Line segments of a drawn strand. [1, 256]. Default 32.
 } hair_look;
 HAIR_DESC(hair_look)
 
 typedef struct hair_desc {
     hair_made           made;
-    const char*         label;         ///< Name in the log and in GPU debuggers. NULL: "hair".
-    hair_solver         solver;        ///< Default HAIR_SOLVER_REDBLACK.
-    float               substep;       ///< Length of a substep. s. [1e-4, 0.1]. Default 1/120.
-    float               max_dt;        ///< Longest time a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
-    const hair_physics* physics;       ///< NULL: the defaults.
-    const hair_look*    look;          ///< NULL: the defaults.
-    float               transform[16]; ///< Groom space to world. Rigid. Default identity.
+    const char*         label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
+    hair_solver         solver;  ///< Default HAIR_SOLVER_REDBLACK.
+    float               substep; ///< Length of a substep. s. [1e-4, 0.1]. Default 1/120.
+    float               max_dt;  ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
+    const hair_physics* physics; ///< NULL: the defaults.
+    const hair_look*    look;    ///< NULL: the defaults.
+    float               transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
 } hair_desc;
 HAIR_DESC(hair_desc)
 
-HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc, hair_instance** out);
+HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
+                                 hair_instance** out);
 HAIR_API void        hair_destroy(hair_instance* hair);
 HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics);
 HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
@@ -257,7 +258,8 @@ typedef struct hair_solid {
 
 /// Replace the solids; `stride` is sizeof(hair_solid). The i-th moves from where the i-th was at the last
 /// step, so keep their order; one more than before starts where it is. count in [0, HAIR_MAX_SOLIDS].
-HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride);
+HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count,
+                                     size_t stride);
 
 /// Advance by `dt` seconds, in substeps of the desc's fixed length: the motion does not depend on the frame
 /// rate, and what is drawn is interpolated to now. The same inputs on the same driver give the same bits.
@@ -273,7 +275,7 @@ HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16
 typedef enum hair_pass {
     HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
     HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.
-    HAIR_PASS_GUIDES     ///< Debug: the simulated strands as lines, coloured by stretch: blue -2 % to red +2 %.
+    HAIR_PASS_GUIDES     ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
 } hair_pass;
 
 typedef enum hair_path {
@@ -287,21 +289,21 @@ typedef enum hair_primitive {
 
 typedef struct hair_view {
     hair_made      made;
-    hair_pass      pass;              ///< Default HAIR_PASS_COLOR.
-    hair_path      path;              ///< Default HAIR_PATH_TESSELLATION.
-    hair_primitive primitive;         ///< Default HAIR_RIBBONS.
-    float          view[16];          ///< World to view. Default identity.
-    float          projection[16];    ///< View to clip. Reversed and infinite depth are fine. Default identity.
-    float          light_to[3];       ///< From the hair towards the light. World; need not be unit. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
-    float          light[3];          ///< Its irradiance. [0, 1e6]. Default 3.
-    float          ambient[3];        ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
-    uint32_t       shadow_texture;    ///< OpenGL name of a 2D depth texture drawn from the light. 0: no shadow.
-    float          shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+    hair_pass      pass;           ///< Default HAIR_PASS_COLOR.
+    hair_path      path;           ///< Default HAIR_PATH_TESSELLATION.
+    hair_primitive primitive;      ///< Default HAIR_RIBBONS.
+    float          view[16];       ///< World to view. Default identity.
+    float          projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
+    float    light_to[3];    ///< Towards the light, any length. World. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
+    float    light[3];       ///< Its irradiance. [0, 1e6]. Default 3.
+    float    ambient[3];     ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
+    uint32_t shadow_texture; ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow.
+    float    shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
 } hair_view;
 HAIR_DESC(hair_view)
 
-/// Draw into the bound framebuffer and viewport, with the depth function that is set. HAIR_ERROR_OPENGL when the
-/// framebuffer is not complete.
+/// Draw into the bound framebuffer and viewport, with the depth function that is set. An incomplete framebuffer
+/// is HAIR_ERROR_OPENGL.
 HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 
 // Looking inside: [GL] --------------------------------------------------------------------------------------
@@ -312,13 +314,14 @@ typedef enum hair_read_what {
     HAIR_READ_FOLLOWERS   ///< Vertices of all followers as drawn: look.segments + 1 each.
 } hair_read_what;
 
-/// Copy positions, xyz each, world: at most `capacity` vertices. Returns in `count` how many there are. Waits.
-HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity, uint32_t* count);
+/// Copy positions, xyz each, world, of at most `capacity` vertices. `count` becomes how many there are. Waits.
+HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity,
+                               uint32_t* count);
 
 typedef struct hair_timing {
-    const char* pass;  ///< Static text: the shader's path under glsl/.
-    float       ms;    ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t    runs;  ///< Since the context was created.
+    const char* pass; ///< Static text: the shader's path under glsl/.
+    float       ms;   ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t    runs; ///< Since the context was created.
 } hair_timing;
 
 /// GPU time of every pass, if the context was created with `timings`. Never waits. Returns how many passes

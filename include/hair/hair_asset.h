@@ -12,9 +12,9 @@ typedef struct hair_asset hair_asset;
 typedef enum hair_format {
     HAIR_FORMAT_NONE = 0, ///< Made by hair_asset_generate.
     HAIR_FORMAT_HAIR,     ///< .hair ("cyHair"): all strands, any number of vertices each.
-    HAIR_FORMAT_TFX4,     ///< .tfx version 4: guides, the same number of vertices each, 4 to 64, a power of two.
-    HAIR_FORMAT_TFX3,     ///< .tfx version 3. Read only.
-    HAIR_FORMAT_TFX2      ///< .tfx version 2, text. Read only.
+    HAIR_FORMAT_TFX4, ///< .tfx version 4: guides, the same number of vertices each, 4 to 64, a power of two.
+    HAIR_FORMAT_TFX3, ///< .tfx version 3. Read only.
+    HAIR_FORMAT_TFX2  ///< .tfx version 2, text. Read only.
 } hair_format;
 
 typedef struct hair_asset_desc {
@@ -27,12 +27,14 @@ HAIR_DESC(hair_asset_desc)
 /// Read strands. The format is told by the first bytes. Malformed input of any kind is HAIR_ERROR_FILE and a
 /// sentence with the byte offset. Memory stays under 4 times `size` and 64 MiB, whatever the bytes claim, and
 /// 12 bytes for every vertex that import.strand_vertices asks for.
-HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size, hair_asset** out);
+HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size,
+                                     hair_asset** out);
 HAIR_API void        hair_asset_destroy(hair_asset* asset);
 
 /// Write strands as HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Returns in `size` the bytes needed; writes them if
 /// `capacity` is enough. For .tfx all strands must have the same fitting number of vertices: resample first.
-HAIR_API hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* bytes, size_t capacity, size_t* size);
+HAIR_API hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* bytes,
+                                      size_t capacity, size_t* size);
 
 /// The built-in haircuts, on the built-in scalp.
 typedef enum hair_style {
@@ -61,25 +63,25 @@ HAIR_DESC(hair_style_desc)
 /// +z; the neck goes down from there to shoulders 0.40 m wide at height 1.40.
 HAIR_API hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out);
 
-HAIR_API const char* hair_style_name(hair_style style);   ///< "long", "bob", … NULL beyond the last.
+HAIR_API const char* hair_style_name(hair_style style);    ///< "long", "bob", … NULL beyond the last.
 HAIR_API const char* hair_format_name(hair_format format); ///< "hair", "tfx4", … NULL beyond the last.
 
 typedef struct hair_asset_info {
     hair_made        made;
     hair_format      format;
-    hair_strands_are strands_are;      ///< .tfx and the built-in haircuts hold guides; .hair holds all.
-    uint32_t         strand_count;     ///< After the repairs.
+    hair_strands_are strands_are;  ///< .tfx and the built-in haircuts hold guides; .hair holds all.
+    uint32_t         strand_count; ///< After the repairs.
     uint32_t         vertex_count;
-    uint32_t         fewest, most;     ///< Vertices of a strand.
-    float            length[3];        ///< Least, mean, greatest. m.
+    uint32_t         fewest, most;       ///< Vertices of a strand.
+    float            length[3];          ///< Least, mean, greatest. m.
     float            lower[3], upper[3]; ///< Bounds. m.
-    uint32_t         file_strands;     ///< Before the repairs and `share`.
+    uint32_t         file_strands;       ///< Before the repairs and `share`.
     uint32_t         file_vertices;
     hair_repairs     repairs;
-    const float*     positions;        ///< xyz per vertex. Lives as long as the asset, as do the following.
-    const uint32_t*  strand_vertices;  ///< Per strand.
-    const float*     strand_radii;     ///< Per strand, at the root. m. NULL: the file has none.
-    const float*     scalp_positions;  ///< xyz per vertex. NULL: no scalp.
+    const float*     positions;       ///< xyz per vertex. Lives as long as the asset, as do the following.
+    const uint32_t*  strand_vertices; ///< Per strand.
+    const float*     strand_radii;    ///< Per strand, at the root. m. NULL: the file has none.
+    const float*     scalp_positions; ///< xyz per vertex. NULL: no scalp.
     const uint32_t*  scalp_triangles;
     uint32_t         scalp_vertex_count, scalp_triangle_count;
 } hair_asset_info;

@@ -12,6 +12,10 @@ static hair_result check_transform(const hair_instance* hair, const char* name, 
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
                          "%s: %s is not a rigid motion to 1e-3: no scale, no shear, no mirror", hair->label,
                          name);
+    for (int i = 0; i < 3; ++i)
+        if (!(fabs(out->position[i]) <= 1e9))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: %s[%d] is %g, not in [-1e9, 1e9]", hair->label,
+                             name, 12 + i, out->position[i]);
     return HAIR_OK;
 }
 

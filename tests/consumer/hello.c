@@ -14,7 +14,7 @@ int main(void)
     hair_groom*           groom;
     hair_instance*        hair;
 
-    if (hair_egl_create(NULL, -1, &egl)) return 1; // A game has its own OpenGL context, current on this thread.
+    if (hair_egl_create(NULL, -1, &egl)) return 1; // A game has its own context.
     hair_context_desc context_desc = hair_context_desc_default();
     context_desc.get_proc          = hair_egl_get_proc;
     if (hair_context_create(&context_desc, &context)) return 1;
