@@ -250,12 +250,12 @@ static int read_asset(const char* path, const struct said* said, hair_asset** ou
 {
     struct hair_bytes bytes;
     if (!hair_file_read(TOOL, path, MOST_BYTES, &bytes)) return HAIR_EXIT_INPUT;
-    hair_asset_desc desc = hair_asset_desc_default();
-    desc.host            = &host;
-    desc.import          = &said->import;
-    hair_result result   = hair_asset_read(&desc, bytes.data, bytes.size, out);
+    hair_host       named = {NULL, NULL, hair_print_log, (void*)hair_log_name(TOOL, path)};
+    hair_asset_desc desc  = hair_asset_desc_default();
+    desc.host             = &named;
+    desc.import           = &said->import;
+    hair_result result    = hair_asset_read(&desc, bytes.data, bytes.size, out);
     free(bytes.data);
-    if (result == HAIR_ERROR_FILE) hair_complain(TOOL, "%s cannot be used", path);
     return exit_code(result);
 }
 

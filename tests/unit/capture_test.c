@@ -128,7 +128,7 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
     expect(4, "$T --groom $D/none.hair -o $D/a.png", "none.hair");
     expect(4, "$T --groom $D/s.json -o $D/a.png", "hair-capture:");
     expect(1, "test -e $D/a.png", "");
-    expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null cannot be used");
+    expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null: the file ends at byte 0");
 }
 
 static void a_driver_that_is_too_old_exits_with_3(void** state)

@@ -25,6 +25,13 @@ void hair_print_log(hair_log_level level, const char* sentence, void* tool)
     if (level < HAIR_LOG_INFO) hair_complain(tool, "%s", sentence);
 }
 
+const char* hair_log_name(const char* tool, const char* path)
+{
+    static char name[1024];
+    snprintf(name, sizeof name, "%s: %s", tool, path);
+    return name;
+}
+
 static bool is_standard(const char* path)
 {
     return strcmp(path, "-") == 0;

@@ -14,6 +14,10 @@ enum { HAIR_EXIT_OK = 0, HAIR_EXIT_RUNTIME, HAIR_EXIT_USAGE, HAIR_EXIT_OPENGL, H
 
 // For hair_host.log, with `tool` ("hair-groom") as its user. Leaves out HAIR_LOG_INFO.
 void hair_print_log(hair_log_level level, const char* sentence, void* tool);
+
+// "TOOL: PATH", to be such a user while a file is read, so that one sentence says which. Lives until the next call.
+const char* hair_log_name(const char* tool, const char* path);
+
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
 struct hair_bytes {

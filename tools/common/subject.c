@@ -58,20 +58,21 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
 {
     struct hair_bytes bytes;
     if (!hair_file_read(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
+    hair_host named     = *host;
+    named.user          = (void*)hair_log_name(tool, scene->groom);
     hair_import import  = scene->settings.import;
     bool        guesses = import.scale == HAIR_SCALE_GUESSED;
     if (guesses) import.scale = 1;
     hair_asset* asset  = NULL;
-    hair_result result = read_asset(host, import, &bytes, &asset);
+    hair_result result = read_asset(&named, import, &bytes, &asset);
     if (!result && guesses) {
         import.scale = guess_scale(tool, scene->groom, asset);
         if (import.scale != 1) { // Again, since what is too short to keep depends on it.
             hair_asset_destroy(asset);
-            result = read_asset(host, import, &bytes, &asset);
+            result = read_asset(&named, import, &bytes, &asset);
         }
     }
     free(bytes.data);
-    if (result == HAIR_ERROR_FILE) hair_complain(tool, "%s cannot be used", scene->groom);
     return result ? hair_exit_for(result) : build(host, scene, asset, out);
 }
 
