@@ -1,5 +1,6 @@
 // buffers.glsl - the storage and uniform buffers of compute passes, at the slots of shared.h.
 #include "shared.h"
+#include "workgroup.glsl"
 
 layout(std430, binding = HAIR_BIND_GUIDE) readonly buffer guide_buffer { hair_guide guide[]; };
 layout(std430, binding = HAIR_BIND_REST) readonly buffer rest_buffer { hair_rest rest[]; };
@@ -8,14 +9,3 @@ layout(std430, binding = HAIR_BIND_POSITION) buffer position_buffer { vec4 smoot
 layout(std430, binding = HAIR_BIND_TANGENT) buffer tangent_buffer { vec4 smooth_tangent[]; };
 layout(std430, binding = HAIR_BIND_FRAME) buffer frame_buffer { vec4 smooth_frame[]; };
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
-
-// Number of this work group: dispatches have two dimensions, since one is promised only 65,535 groups.
-uint hair_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
-// The work group meets here, and sees what each of its threads wrote to shared memory: barrier() alone orders only
-// the threads, and one driver does move shared writes across it.
-void synchronise()
-{
-    memoryBarrierShared();
-    barrier();
-}

@@ -32,7 +32,7 @@ void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
     if (a + 2u < count) relax_link(a, a + 2u, rest[first + a].direction.w, stiffness);
 }
 
-#define COLLISION_REACH 0.05 // m: farther than this no vertex is moved by the iterations of a substep
+#define COLLISION_REACH 0.05 // m: farther than this no vertex is taken to be moved by a substep's iterations
 
 struct capsule { // a solid at one moment
     vec3  start, axis;

@@ -32,31 +32,38 @@ struct guide_point {
     float to_root; // m, along the guide
 };
 
+struct guide_place { // between a sample of a smoothed guide and the next
+    int   at;
+    float share;
+};
+
+guide_place find_place(uint number, float u)
+{
+    float along = min(u, 1.0) * float(draw.smooth_vertices - 1u);
+    int   k     = min(int(along), int(draw.smooth_vertices) - 2);
+    return guide_place(int(number * draw.smooth_vertices) + k, along - float(k));
+}
+
 // Beyond its tip (u > 1) a guide goes on straight.
 guide_point fetch_guide(uint number, float u)
 {
-    int   first = int(number * draw.smooth_vertices);
-    float at    = min(u, 1.0) * float(draw.smooth_vertices - 1u);
-    int   k     = min(int(at), int(draw.smooth_vertices) - 2);
-    vec4  a     = texelFetch(position_texture, first + k);
-    vec4  b     = texelFetch(position_texture, first + k + 1);
-    vec3  ta    = texelFetch(tangent_texture, first + k).xyz;
-    vec3  tb    = texelFetch(tangent_texture, first + k + 1).xyz;
-    float w     = at - float(k);
-    vec4  p     = mix(a, b, w);
-    vec3  t     = direction_or(mix(ta, tb, w), ta);
-    float more  = max(u - 1.0, 0.0) * b.w;
+    guide_place place = find_place(number, u);
+    vec4        a     = texelFetch(position_texture, place.at);
+    vec4        b     = texelFetch(position_texture, place.at + 1);
+    vec3        ta    = texelFetch(tangent_texture, place.at).xyz;
+    vec3        tb    = texelFetch(tangent_texture, place.at + 1).xyz;
+    vec4        p     = mix(a, b, place.share);
+    vec3        t     = direction_or(mix(ta, tb, place.share), ta);
+    float       more  = max(u - 1.0, 0.0) * b.w;
     return guide_point(p.xyz + more * t, t, p.w + more);
 }
 
 vec4 fetch_frame(uint number, float u)
 {
-    int   first = int(number * draw.smooth_vertices);
-    float at    = min(u, 1.0) * float(draw.smooth_vertices - 1u);
-    int   k     = min(int(at), int(draw.smooth_vertices) - 2);
-    vec4  a     = texelFetch(frame_texture, first + k);
-    vec4  b     = texelFetch(frame_texture, first + k + 1);
-    return normalize(mix(a, dot(a, b) < 0.0 ? -b : b, at - float(k)));
+    guide_place place = find_place(number, u);
+    vec4        a     = texelFetch(frame_texture, place.at);
+    vec4        b     = texelFetch(frame_texture, place.at + 1);
+    return normalize(mix(a, dot(a, b) < 0.0 ? -b : b, place.share));
 }
 
 // The strand's own smooth deviation across it, growing from the root, as a share of the length.
