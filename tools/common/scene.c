@@ -283,29 +283,29 @@ static json_t* load_builtin(const char* tool, const char* name, const char* text
     return load(tool, name, quoted, size);
 }
 
+// Into the scene, by the reader of the key that a scene file would say it under.
+static bool read_builtin(const char* tool, const char* name, const char* text, const char* key,
+                         bool (*read)(const place*, const char*, const json_t*, void*),
+                         struct hair_scene* scene)
+{
+    json_t* value = load_builtin(tool, name, text);
+    if (!value) return false;
+    struct hair_json json = {tool, name, ""};
+    bool             ok   = read(&json, key, value, scene);
+    json_decref(value);
+    return ok;
+}
+
 static bool read_style_settings(const char* tool, const char* name, struct hair_scene* scene)
 {
-    json_t* settings = load_builtin(tool, name, text_of(hair_builtin_styles, name));
-    if (!settings) return false;
-    struct hair_json json = {tool, name, ""};
-    bool             ok   = read_settings(&json, "settings", settings, scene);
-    json_decref(settings);
-    return ok;
+    return read_builtin(tool, name, text_of(hair_builtin_styles, name), "settings", read_settings, scene);
 }
 
 bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene* scene)
 {
     const char* text = text_of(hair_builtin_motions, name);
-    if (!text) {
-        hair_complain(tool, "there is no motion %s; --help lists them", name);
-        return false;
-    }
-    json_t* keys = load_builtin(tool, name, text);
-    if (!keys) return false;
-    struct hair_json json = {tool, name, ""};
-    bool             ok   = read_motion(&json, "motion", keys, scene);
-    json_decref(keys);
-    return ok;
+    if (!text) hair_complain(tool, "there is no motion %s; --help lists them", name);
+    return text && read_builtin(tool, name, text, "motion", read_motion, scene);
 }
 
 // A style is shown as the first scene shows its own.
