@@ -51,13 +51,9 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 
-#define HAIR_GROUP_SIZE 64         // threads of a work group
-#define HAIR_MAX_GUIDE_VERTICES 64 // one thread per vertex of a guide
-#ifndef HAIR_GUIDE_THREADS
-#define HAIR_GUIDE_THREADS                                                                                   \
-    HAIR_MAX_GUIDE_VERTICES // of a guide's work group; a pass for shorter ones has fewer
-#endif
-#define HAIR_MAX_SMOOTH_VERTICES 127 // two samples per segment of the longest guide
+#define HAIR_GROUP_SIZE 64           // threads of a work group, but for those of a guide: lib/gl/passes.inl
+#define HAIR_MAX_GUIDE_VERTICES 256  // one thread per vertex of a guide
+#define HAIR_MAX_SMOOTH_VERTICES 511 // two samples per segment of the longest guide
 #define HAIR_MAX_ISOLINES 64         // per patch, and
 #define HAIR_MAX_ISOLINE_SEGMENTS 64 // per isoline: what OpenGL promises
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch

@@ -7,11 +7,11 @@
 // leave the scalp.
 #version 450 core
 #include "buffers.glsl"
-layout(local_size_x = HAIR_GROUP_SIZE) in;
+layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "frames.glsl"
 
-shared vec3  vertex[HAIR_MAX_GUIDE_VERTICES];
-shared float from_root[HAIR_MAX_GUIDE_VERTICES];
+shared vec3  vertex[HAIR_GUIDE_THREADS];
+shared float from_root[HAIR_GUIDE_THREADS];
 
 // Distances from the root: an inclusive scan of segment lengths.
 void sum_lengths(uint i, uint count)
@@ -71,7 +71,7 @@ void main()
     sum_lengths(i, count);
 
     float total = from_root[count - 1u];
-    for (uint k = i; k < params.smooth_vertices; k += HAIR_GROUP_SIZE) {
+    for (uint k = i; k < params.smooth_vertices; k += HAIR_GUIDE_THREADS) {
         float s      = total * float(k) / float(params.smooth_vertices - 1u);
         uint  j      = find_segment(s, count);
         float l      = max(from_root[j + 1u] - from_root[j], 1e-12);

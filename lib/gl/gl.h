@@ -50,13 +50,17 @@ struct hair_gl {
 
 // functions.c, program.c, selftest.c ------------------------------------------------------------------------
 
-// Fill the table by `get_proc`, ask the version, compile every pass, find out what the driver gets wrong.
+// Fill the table by `get_proc`, ask the version, compile the passes, find out what the driver gets wrong.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass; those that fail keep the program they had, and the first failure is returned.
+// Compile every pass but those of GUIDE_PASS that nothing has needed; those that fail keep the program they had, and
+// the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
+
+// The program that a row of GUIDE_PASS runs, compiled when first needed: a head of hair needs one of its four sizes.
+hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
 
 // One program of stages such as "NAME=1 draw/patch.vert draw/patch.tesc", definitions first; `captured`: outputs for transform feedback, or NULL.
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
@@ -110,7 +114,10 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 // Run a compute pass over `groups` work groups, numbered by hair_group() in GLSL, and make what it wrote visible.
 void        hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
 const char* hair_gl_pass_label(hair_gl_pass pass);
-float       hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass);
-void        hair_gl_free_timers(struct hair_gl* gl);
+
+// Of the four rows of a GUIDE_PASS, the first of which is `smallest`, that for guides of up to `vertices`.
+hair_gl_pass hair_gl_pass_for(hair_gl_pass smallest, uint32_t vertices);
+float        hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass);
+void         hair_gl_free_timers(struct hair_gl* gl);
 
 #endif

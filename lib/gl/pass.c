@@ -35,6 +35,11 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
     hair_gl_end(gl, pass);
 }
 
+hair_gl_pass hair_gl_pass_for(hair_gl_pass smallest, uint32_t vertices)
+{
+    return smallest + (vertices > 32) + (vertices > 64) + (vertices > 128);
+}
+
 static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 {
     if (timer->begun - timer->read > HAIR_GL_TIMER_DEPTH) timer->read = timer->begun - HAIR_GL_TIMER_DEPTH;

@@ -1,14 +1,24 @@
 // passes.inl - every shader program: its name in code, its name in reports, what it defines, its stages
 // under glsl/.
 // Read by the enum, the compiler loop, the timers, the OpenGL labels and the tests.
+//
+// A pass with a work group per guide and a thread per vertex is four programs, one after the other, for guides of up
+// to 32, 64, 128 and 256 vertices: a group of 256 threads on guides of 32 would wait for those that do nothing.
+#define GUIDE_PASS(name, label, stages) \
+    PASS(name##_32, label "_32", "HAIR_GUIDE_THREADS=32 " stages) \
+    PASS(name##_64, label "_64", "HAIR_GUIDE_THREADS=64 " stages) \
+    PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
+    PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
+
 PASS(RESET, "sim/reset", "sim/reset.comp")
 PASS(TURN, "sim/turn", "sim/turn.comp")
-PASS(REDBLACK, "sim/redblack", "HAIR_GUIDE_THREADS=64 sim/redblack.comp")
-PASS(REDBLACK_32, "sim/redblack_32", "HAIR_GUIDE_THREADS=32 sim/redblack.comp")
-PASS(SMOOTH, "interpolate/smooth", "interpolate/smooth.comp")
+GUIDE_PASS(REDBLACK, "sim/redblack", "sim/redblack.comp")
+GUIDE_PASS(SMOOTH, "interpolate/smooth", "interpolate/smooth.comp")
 PASS(EXPAND, "interpolate/expand", "interpolate/expand.comp")
 PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
 PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
 PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
 PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
+
+#undef GUIDE_PASS

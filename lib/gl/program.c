@@ -119,18 +119,33 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     return HAIR_OK;
 }
 
+static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
+{
+    GLuint      program = 0;
+    hair_result result  = hair_gl_link(gl, passes[pass].label, passes[pass].stages, NULL, &program);
+    if (result) return result;
+    if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
+    gl->program[pass] = program;
+    return HAIR_OK;
+}
+
+static int is_of_a_size(hair_gl_pass pass)
+{
+    return strstr(passes[pass].stages, "HAIR_GUIDE_THREADS=") != NULL;
+}
+
 hair_result hair_gl_compile(struct hair_gl* gl)
 {
     hair_result first = HAIR_OK;
     for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
-        GLuint      program = 0;
-        hair_result result  = hair_gl_link(gl, passes[pass].label, passes[pass].stages, NULL, &program);
-        if (result) {
-            if (!first) first = result;
-            continue;
-        }
-        if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
-        gl->program[pass] = program;
+        if (is_of_a_size((hair_gl_pass)pass) && !gl->program[pass]) continue;
+        hair_result result = compile_pass(gl, (hair_gl_pass)pass);
+        if (!first) first = result;
     }
     return first;
+}
+
+hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
+{
+    return gl->program[pass] ? HAIR_OK : compile_pass(gl, pass);
 }

@@ -9,6 +9,7 @@ struct hair_smooth {
     struct hair_gl* gl;
     GLuint          buffer[3];  // position, tangent, frame
     GLuint          texture[3]; // the same, for stages that are promised no storage buffers
+    hair_gl_pass    pass;       // the size of smooth.comp that the longest guide needs
     uint32_t        vertices;   // in all
 };
 

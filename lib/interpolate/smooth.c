@@ -6,14 +6,15 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
     smooth->gl                     = gl;
     smooth->vertices               = sim->guides * sim->smooth_vertices;
-    for (int i = 0; i < 3; ++i) {
-        hair_result result =
+    smooth->pass                   = hair_gl_pass_for(HAIR_GL_SMOOTH_32, sim->most_vertices);
+    hair_result result             = hair_gl_need(gl, smooth->pass);
+    for (int i = 0; i < 3 && !result; ++i) {
+        result =
             hair_gl_storage(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
         if (!result)
             result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
-        if (result) return result;
     }
-    return HAIR_OK;
+    return result;
 }
 
 void hair_smooth_destroy(struct hair_smooth* smooth)
@@ -29,5 +30,5 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
 {
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
-    hair_gl_run(smooth->gl, HAIR_GL_SMOOTH, sim->guides);
+    hair_gl_run(smooth->gl, smooth->pass, sim->guides);
 }

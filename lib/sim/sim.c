@@ -6,6 +6,11 @@
 #define TWO_PI 6.28318530718f
 #define FARTHEST 1e4f // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
+static hair_gl_pass solver_pass(const struct hair_sim* sim)
+{
+    return hair_gl_pass_for(HAIR_GL_REDBLACK_32, sim->most_vertices);
+}
+
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
 {
     sim->gl              = gl;
@@ -14,8 +19,10 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     size_t      state    = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result result =
-        hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide);
+    hair_result result   = hair_gl_need(gl, solver_pass(sim));
+    if (!result)
+        result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
+                                 &sim->guide);
     if (!result)
         result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
                                  &sim->rest);
@@ -119,7 +126,7 @@ void hair_sim_step(struct hair_sim* sim, double dt)
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
-        hair_gl_run(sim->gl, sim->most_vertices > 32 ? HAIR_GL_REDBLACK : HAIR_GL_REDBLACK_32, sim->guides);
+        hair_gl_run(sim->gl, solver_pass(sim), sim->guides);
         done += count;
     }
     if (total == 0) {

@@ -429,7 +429,7 @@ static void timings_count_the_runs_of_every_pass(void** state)
     assert_int_equal(hair_timings(context, timings, HAIR_GL_PASS_COUNT), HAIR_GL_PASS_COUNT);
     assert_string_equal(timings[HAIR_GL_REDBLACK_32].pass, "sim/redblack_32");
     assert_int_equal(timings[HAIR_GL_REDBLACK_32].runs, 9);
-    assert_int_equal(timings[HAIR_GL_SMOOTH].runs, 10); // once for the rest pose
+    assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 10); // once for the rest pose
     assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
     for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
     hair_destroy(hair);

@@ -228,17 +228,38 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         hair_gl_pass pass;
         const char*  block;
         GLint        binding, size;
-    } uses[] = {{HAIR_GL_REDBLACK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_SMOOTH, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+    } uses[] = {{HAIR_GL_REDBLACK_32, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_REDBLACK_64, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_REDBLACK_128, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_REDBLACK_256, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_SMOOTH_32, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
+                {HAIR_GL_SMOOTH_256, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
                 {HAIR_GL_EXPAND, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)},
                 {HAIR_GL_RIBBONS, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)}};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
+        hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));
         GLuint program = test->context->gl.program[uses[i].pass];
         GLuint block   = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, uses[i].block);
         assert_int_not_equal(block, GL_INVALID_INDEX);
         assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_BINDING), uses[i].binding);
         assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), uses[i].size);
     }
+}
+
+// A guide's work group has a thread for each of its vertices, in the smallest group of the four that has.
+static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
+{
+    struct hair_test* test     = *state;
+    hair_gl_pass      groups[] = {HAIR_GL_REDBLACK_32, HAIR_GL_SMOOTH_32};
+    for (int i = 0; i < 2; ++i)
+        for (uint32_t vertices = 2; vertices <= HAIR_MAX_GUIDE_VERTICES; ++vertices) {
+            hair_gl_pass pass    = hair_gl_pass_for(groups[i], vertices);
+            GLint        size[3] = {0};
+            hair_test_ok(test, hair_gl_need(&test->context->gl, pass));
+            glGetProgramiv(test->context->gl.program[pass], GL_COMPUTE_WORK_GROUP_SIZE, size);
+            assert_in_range(size[0], vertices, vertices <= 32 ? 32 : 2 * vertices - 2);
+            assert_in_range(pass, groups[i], groups[i] + 3);
+        }
 }
 
 int main(void)
@@ -249,6 +270,7 @@ int main(void)
         HAIR_TEST(the_stride_of_every_struct_is_its_size_in_c),
         HAIR_TEST(no_member_is_forgotten),
         HAIR_TEST(the_passes_have_the_buffers_of_shared_h),
+        HAIR_TEST(a_guide_has_a_thread_for_each_of_its_vertices),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

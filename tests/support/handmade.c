@@ -103,10 +103,16 @@ static void place_patch(struct hair_patch* patch, uint32_t first, const struct h
     patch->density = wanted->density;
 }
 
+static uint32_t count_vertices(const struct hair_test_handmade* wanted, uint32_t guide)
+{
+    if (wanted->vertices) return wanted->vertices[guide];
+    return wanted->fewest + guide % (wanted->most - wanted->fewest + 1);
+}
+
 hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wanted)
 {
-    uint32_t random = wanted.seed, range = wanted.most - wanted.fewest + 1, vertices = 0;
-    for (uint32_t i = 0; i < wanted.guides; ++i) vertices += wanted.fewest + i % range;
+    uint32_t random = wanted.seed, vertices = 0;
+    for (uint32_t i = 0; i < wanted.guides; ++i) vertices += count_vertices(&wanted, i);
     uint32_t    patches = (wanted.followers + wanted.each - 1) / wanted.each;
     hair_groom* groom   = take(host, 1, sizeof *groom);
     groom->host         = *host;
@@ -119,7 +125,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     for (uint32_t i = 0; i < wanted.guides; ++i) {
         struct hair_guide* guide = &groom->guides[i];
         guide->first             = first;
-        guide->count             = wanted.fewest + i % range;
+        guide->count             = count_vertices(&wanted, i);
         place_guide(guide, groom->rest + first, find_root(i, wanted.guides), &wanted, &random);
         first += guide->count;
         if (guide->count > groom->most_vertices) groom->most_vertices = guide->count;

@@ -287,7 +287,7 @@ static void stats_tell_what_was_drawn(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
     assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
     assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
-    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/redblack\""));
+    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/redblack_32\""));
     assert_non_null(strstr(hair_test_said, "\"repairs\""));
     expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
 }
