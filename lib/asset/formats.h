@@ -3,6 +3,7 @@
 #define HAIR_ASSET_FORMATS_H
 
 #include "lib/asset/asset.h"
+#include "lib/base/bytes.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -40,43 +41,5 @@ hair_result hair_check_section(const struct hair_source* source, const char* wha
 // Memory for the strands of a file whose size has been checked to hold them.
 hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
                                   uint32_t vertex_count);
-
-// Numbers in files are little-endian and need not be aligned.
-static inline uint32_t hair_read_u16(const unsigned char* at)
-{
-    return at[0] | (uint32_t)at[1] << 8;
-}
-static inline uint32_t hair_read_u32(const unsigned char* at)
-{
-    return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
-}
-
-static inline float hair_read_float(const unsigned char* at)
-{
-    uint32_t bits = hair_read_u32(at);
-    float    value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-// Return where the next number goes.
-static inline unsigned char* hair_write_u16(unsigned char* at, uint32_t value)
-{
-    for (int i = 0; i < 2; ++i) at[i] = (unsigned char)(value >> 8 * i);
-    return at + 2;
-}
-
-static inline unsigned char* hair_write_u32(unsigned char* at, uint32_t value)
-{
-    for (int i = 0; i < 4; ++i) at[i] = (unsigned char)(value >> 8 * i);
-    return at + 4;
-}
-
-static inline unsigned char* hair_write_float(unsigned char* at, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return hair_write_u32(at, bits);
-}
 
 #endif
