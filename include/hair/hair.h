@@ -272,6 +272,16 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 /// Move the head without moving the hair against it: shape and motion go along, nothing swings.
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
+/// Write all that the coming motion depends on but settings (physics, look): strands, head, solids, the time
+/// since the last substep. `size` becomes the bytes it takes, also when `capacity` is too small, which is an
+/// error; NULL and a capacity of 0 only ask for it. Waits.
+HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
+
+/// Go on from what hair_save wrote, here or elsewhere: with the same settings and inputs the same driver gives
+/// the same bits. Any bytes may be given: what is no saved state is refused, and so is one of guides with other
+/// numbers of vertices, of another solver or of another substep.
+HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t size);
+
 typedef enum hair_pass {
     HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
     HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.

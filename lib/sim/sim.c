@@ -18,8 +18,9 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->guide_vertices  = groom->info.guide_vertex_count;
     sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
-    size_t      state    = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result result   = hair_gl_need(gl, solver_pass(sim));
+    for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
+    size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
+    hair_result result = hair_gl_need(gl, solver_pass(sim));
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
                                  &sim->guide);
@@ -92,6 +93,15 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
 static void upload(struct hair_sim* sim, const struct hair_step_params* params)
 {
     hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
+}
+
+void hair_sim_show(struct hair_sim* sim)
+{
+    struct hair_step_params params = {0};
+    write_physics(sim, &params);
+    write_now(sim, &params);
+    params.rotation_now = vec4_of_quat(sim->at_step.rotation); // The head may have been moved since.
+    upload(sim, &params);
 }
 
 // The next `count` substeps, of which the first ends `first` seconds into a step of `dt`.
@@ -180,6 +190,5 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now    = vec4_of_quat(to->rotation);
     run_over_vertices(sim, HAIR_GL_TURN, &params);
-    write_now(sim, &params);
-    upload(sim, &params);
+    hair_sim_show(sim);
 }

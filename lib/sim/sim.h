@@ -15,6 +15,7 @@ struct hair_sim {
     GLuint             guide, rest, state, step; // buffers, as in shared.h
     uint32_t           guides, guide_vertices, smooth_vertices;
     uint32_t           most_vertices; // of a guide
+    uint32_t           layout;        // hash of how many vertices each guide has
     double             left;          // s: since the end of the last substep, less than a substep
     struct hair_pose   last_before;   // the head at the start of the last substep,
     struct hair_pose   last_after;    // at its end,
@@ -30,6 +31,14 @@ void        hair_sim_destroy(struct hair_sim* sim);
 void hair_sim_step(struct hair_sim* sim, double dt);
 void hair_sim_reset(struct hair_sim* sim);                                // rest pose under sim->head
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
+void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
 void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+
+// save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
+size_t hair_sim_save_size(struct hair_sim* sim);
+void   hair_sim_save(struct hair_sim* sim, unsigned char* bytes);
+
+// Any bytes may be given. On failure nothing has changed.
+hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size);
 
 #endif

@@ -1,0 +1,35 @@
+// save.c - public calls on the state of an instance as bytes.
+#include "lib/api/api.h"
+
+hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &hair->context->host;
+    if (!size) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: size is NULL", hair->label);
+    if (!bytes && capacity)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL but capacity is %zu", hair->label,
+                         capacity);
+    hair_result result = hair_check_current(hair->context);
+    if (result) return result;
+    *size = hair_sim_save_size(&hair->sim);
+    if (!bytes) return HAIR_OK;
+    if (capacity < *size)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: capacity is %zu, less than the state's %zu bytes",
+                         hair->label, capacity, *size);
+    hair_sim_save(&hair->sim, bytes);
+    return HAIR_OK;
+}
+
+hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_context* context = hair->context;
+    if (!bytes) return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL", hair->label);
+    hair_result result = hair_check_current(context);
+    if (result) return result;
+    hair_gl_enter(&context->gl);
+    result = hair_sim_load(&hair->sim, bytes, size);
+    if (!result) hair_smooth_run(&hair->smooth, &hair->sim);
+    hair_gl_leave(&context->gl);
+    return result;
+}

@@ -1,0 +1,266 @@
+// save.c - the moving part of a simulation as bytes that may come back from anywhere.
+//
+//   byte  0  "hairsave"
+//         8  u32 version
+//        12  u64 bytes of all
+//        20  the fields, as walk() lists them
+//   the end  u64 FNV-1a hash of all bytes before
+//
+// The hash finds what was damaged; against harm every field is checked as well, for anyone can make a hash.
+#include "lib/sim/sim.h"
+
+#include <string.h>
+
+#include "lib/base/bytes.h"
+
+#define VERSION 1 // Of the list in walk() and what its fields mean: raise it with either.
+#define HEADER 20
+#define TRAILER 8
+#define MAGIC "hairsave"
+
+#define MOST_PLACE 1e9 // m: of the head, as in hair_set_transform
+#define MOST_PAST 1e12 // m: of a pose before it, which teleports between two steps take further
+#define MOST_STATE 1e9 // any number of a guide vertex: a solver itself resets what is too far for hair
+
+_Static_assert(sizeof(hair_solid) == 40 && sizeof(struct hair_pose) == 40 && sizeof(struct hair_state) == 32,
+               "what is saved has changed: raise VERSION, and see that walk() has it all");
+
+static size_t state_size(const struct hair_sim* sim)
+{
+    return sim->guide_vertices * sizeof(struct hair_state);
+}
+
+// Goes over the fields to count, write or read and check them.
+struct cursor {
+    const hair_host*     host;
+    const unsigned char* read;  // all the bytes, or
+    unsigned char*       write; // all the bytes, or neither: count only
+    size_t               at, end;
+    hair_result          result; // the first failure's; nothing is read after it
+};
+
+// Whether the next `size` bytes are there to be read.
+static int can_read(struct cursor* c, const char* name, size_t size)
+{
+    if (!c->read || c->result) return 0;
+    if (size <= c->end - c->at) return 1;
+    c->result = hair_fail(c->host, HAIR_ERROR_FILE,
+                          "the fields of the saved state end at byte %zu, within %s at byte %zu", c->end,
+                          name, c->at);
+    return 0;
+}
+
+static void check(struct cursor* c, const char* name, double value, double least, double most)
+{
+    if (c->result || (value >= least && value <= most)) return; // Written so that NaN fails too.
+    c->result =
+        hair_fail(c->host, HAIR_ERROR_FILE, "%s at byte %zu of the saved state is %.9g, not in [%.9g, %.9g]",
+                  name, c->at, value, least, most);
+}
+
+static void walk_uint(struct cursor* c, const char* name, uint32_t* value, uint32_t most)
+{
+    if (c->write) hair_write_u32(c->write + c->at, *value);
+    if (can_read(c, name, 4)) {
+        uint32_t read = hair_read_u32(c->read + c->at);
+        check(c, name, read, 0, most);
+        if (!c->result) *value = read;
+    }
+    c->at += 4;
+}
+
+static void walk_float(struct cursor* c, const char* name, float* value, double most)
+{
+    if (c->write) hair_write_float(c->write + c->at, *value);
+    if (can_read(c, name, 4)) {
+        *value = hair_read_float(c->read + c->at);
+        check(c, name, (double)*value, -most, most);
+    }
+    c->at += 4;
+}
+
+static void walk_double(struct cursor* c, const char* name, double* value, double least, double most)
+{
+    if (c->write) hair_write_double(c->write + c->at, *value);
+    if (can_read(c, name, 8)) {
+        *value = hair_read_double(c->read + c->at);
+        check(c, name, *value, least, most);
+    }
+    c->at += 8;
+}
+
+// What must be as the instance has it: else the state is another's.
+static void walk_same(struct cursor* c, const char* name, double value)
+{
+    if (c->write) hair_write_double(c->write + c->at, value);
+    if (can_read(c, name, 8)) {
+        double saved = hair_read_double(c->read + c->at);
+        if (!(saved == value))
+            c->result = hair_fail(c->host, HAIR_ERROR_ARGUMENT,
+                                  "the saved state is another's: its %s is %.9g, the instance's %.9g", name,
+                                  saved, value);
+    }
+    c->at += 8;
+}
+
+static void walk_pose(struct cursor* c, const char* name, struct hair_pose* pose, double most)
+{
+    float* rotation[] = {&pose->rotation.x, &pose->rotation.y, &pose->rotation.z, &pose->rotation.w};
+    float  norm       = 0;
+    for (int i = 0; i < 3; ++i) walk_double(c, name, &pose->position[i], -most, most);
+    for (int i = 0; i < 4; ++i) {
+        walk_float(c, name, rotation[i], 2);
+        norm += *rotation[i] * *rotation[i];
+    }
+    if (c->read && !c->result && !(fabsf(norm - 1) <= 1e-3f))
+        c->result = hair_fail(c->host, HAIR_ERROR_FILE,
+                              "the rotation of %s, before byte %zu of the saved state, has norm %g, not 1",
+                              name, c->at, (double)sqrtf(norm));
+}
+
+// As bits: check_solids knows which of the numbers matter to a shape.
+static void walk_solids(struct cursor* c, const char* name, hair_solid* solids, uint32_t* count)
+{
+    walk_uint(c, name, count, HAIR_MAX_SOLIDS);
+    for (uint32_t i = 0; i < *count && !c->result; ++i)
+        for (size_t k = 0; k < sizeof *solids; k += 4) {
+            unsigned char* at = (unsigned char*)&solids[i] + k;
+            uint32_t       bits;
+            memcpy(&bits, at, sizeof bits);
+            walk_uint(c, name, &bits, UINT32_MAX);
+            memcpy(at, &bits, sizeof bits);
+        }
+}
+
+// Whatever a solver keeps in a vertex: floats. They are read into `out`.
+static void walk_vertices(struct cursor* c, struct hair_sim* sim, float* out)
+{
+    size_t count = state_size(sim) / sizeof *out;
+    if (c->write) {
+        unsigned char* at = c->write + c->at;
+        sim->gl->GetNamedBufferSubData(sim->state, 0, (GLsizeiptr)state_size(sim), at);
+        for (size_t i = 0; i < count; ++i) { // In place, from the machine's order of bytes.
+            uint32_t bits;
+            memcpy(&bits, at, sizeof bits);
+            at = hair_write_u32(at, bits);
+        }
+    }
+    if (c->read)
+        for (size_t i = 0; i < count && !c->result; ++i) walk_float(c, "a guide vertex", &out[i], MOST_STATE);
+    else
+        c->at += state_size(sim);
+}
+
+// All that is saved, in order: of which haircut it is, and what the coming motion depends on.
+static void walk(struct cursor* c, struct hair_sim* sim, float* vertices)
+{
+    walk_same(c, "solver", sim->solver);
+    walk_same(c, "substep", sim->substep);
+    walk_same(c, "number of guides", sim->guides);
+    walk_same(c, "number of guide vertices", sim->guide_vertices);
+    walk_same(c, "hash of the vertices of each guide", sim->layout);
+    walk_double(c, "the time since the last substep", &sim->left, 0, sim->substep);
+    walk_pose(c, "the head at the start of the last substep", &sim->last_before, MOST_PAST);
+    walk_pose(c, "the head at the end of the last substep", &sim->last_after, MOST_PAST);
+    walk_pose(c, "the head at the last step", &sim->at_step, MOST_PAST);
+    walk_pose(c, "the head", &sim->head, MOST_PLACE);
+    walk_solids(c, "the solids", sim->solids.now, &sim->solids.count);
+    walk_solids(c, "the solids of the last step", sim->solids.before, &sim->solids.count_before);
+    walk_vertices(c, sim, vertices);
+}
+
+static uint64_t hash(const unsigned char* bytes, size_t size)
+{
+    uint64_t value = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size; ++i) value = (value ^ bytes[i]) * 0x100000001b3u;
+    return value;
+}
+
+size_t hair_sim_save_size(struct hair_sim* sim)
+{
+    struct cursor c = {.host = &sim->gl->host, .at = HEADER};
+    walk(&c, sim, NULL);
+    return c.at + TRAILER;
+}
+
+void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
+{
+    struct cursor c = {.host = &sim->gl->host, .write = bytes, .at = HEADER};
+    walk(&c, sim, NULL);
+    memcpy(bytes, MAGIC, 8);
+    hair_write_u32(bytes + 8, VERSION);
+    hair_write_u64(bytes + 12, c.at + TRAILER);
+    hair_write_u64(bytes + c.at, hash(bytes, c.at));
+}
+
+static hair_result check_frame(const hair_host* host, const unsigned char* bytes, size_t size)
+{
+    if (size < HEADER + TRAILER || memcmp(bytes, MAGIC, 8) != 0)
+        return hair_fail(host, HAIR_ERROR_FILE,
+                         "the %zu bytes are no saved state: it is longer, with \"" MAGIC "\" at byte 0",
+                         size);
+    uint32_t version = hair_read_u32(bytes + 8);
+    uint64_t whole   = hair_read_u64(bytes + 12);
+    if (version != VERSION)
+        return hair_fail(host, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is %u, not %d",
+                         version, VERSION);
+    if (whole != size)
+        return hair_fail(host, HAIR_ERROR_FILE,
+                         "the saved state ends at byte %zu, not at byte %llu as byte 12 says", size,
+                         (unsigned long long)whole);
+    if (hash(bytes, size - TRAILER) != hair_read_u64(bytes + size - TRAILER))
+        return hair_fail(host, HAIR_ERROR_FILE,
+                         "the saved state is damaged: the hash at byte %zu is not that of the bytes before",
+                         size - TRAILER);
+    return HAIR_OK;
+}
+
+static hair_result check_solids(const hair_host* host, const struct hair_solids* solids)
+{
+    struct hair_solids checked;
+    hair_result result = hair_solids_set(host, &checked, solids->now, solids->count, sizeof *solids->now);
+    if (result) return result;
+    return hair_solids_set(host, &checked, solids->before, solids->count_before, sizeof *solids->before);
+}
+
+// Into `sim`, which is a copy, and `vertices`.
+static hair_result read(const unsigned char* bytes, size_t size, struct hair_sim* sim, float* vertices)
+{
+    const hair_host* host = &sim->gl->host;
+    struct cursor    c    = {.host = host, .read = bytes, .at = HEADER, .end = size - TRAILER};
+    walk(&c, sim, vertices);
+    if (!c.result && c.at != c.end)
+        c.result = hair_fail(host, HAIR_ERROR_FILE,
+                             "the fields of the saved state end at byte %zu, not at byte %zu", c.at, c.end);
+    return c.result ? c.result : check_solids(host, &sim->solids);
+}
+
+// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has just
+// written.
+static hair_result upload(struct hair_sim* sim, const float* vertices)
+{
+    struct hair_gl* gl     = sim->gl;
+    GLuint          source = 0;
+    hair_result     result = hair_gl_buffer(gl, "hair loaded", state_size(sim), vertices, &source);
+    if (result) return result;
+    gl->CopyNamedBufferSubData(source, sim->state, 0, 0, (GLsizeiptr)state_size(sim));
+    hair_gl_free_buffer(gl, &source);
+    return HAIR_OK;
+}
+
+hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
+{
+    const hair_host* host   = &sim->gl->host;
+    struct hair_sim  loaded = *sim;
+    hair_result      result = check_frame(host, bytes, size);
+    if (result) return result;
+    float* vertices = hair_alloc(host, 1, state_size(sim));
+    if (!vertices) return hair_fail_memory(host, "the state to load");
+    result = read(bytes, size, &loaded, vertices);
+    if (!result) result = upload(sim, vertices);
+    hair_free(host, vertices);
+    if (result) return result;
+    *sim = loaded;
+    hair_sim_show(sim);
+    return HAIR_OK;
+}
