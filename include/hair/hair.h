@@ -127,7 +127,7 @@ typedef struct hair_groom_desc {
     const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
     hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
     uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 65535.
-    uint32_t           guide_vertices; ///< Most vertices simulated per guide. [4, 64]. Default 32.
+    uint32_t           guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
     uint32_t           follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
     float           clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
     const float*    scalp_positions;      ///< xyz per vertex, in the space of `positions`. NULL: no scalp.

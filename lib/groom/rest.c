@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#define FEWEST 4 // Vertices, where guide_vertices allows: the scalp pins two, and two that are free can bend.
 #define Y_AXIS hair_v3(0, 1, 0)
 
 static hair_vec3 vertex(const float* p, size_t i)
@@ -22,8 +23,9 @@ static hair_vec3 segment(const float* p, size_t i)
 static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
 {
     uint32_t vertices = draft->strands.vertices[draft->chosen[guide]];
-    if (vertices < 4) return 4;
-    return vertices < draft->desc->guide_vertices ? vertices : draft->desc->guide_vertices;
+    uint32_t most     = draft->desc->guide_vertices;
+    if (vertices < FEWEST) vertices = FEWEST;
+    return vertices < most ? vertices : most;
 }
 
 // A strand with `count` vertices. Those that it has are kept where they are enough: its shape and length
@@ -111,7 +113,7 @@ hair_result hair_draft_rest(struct hair_draft* draft)
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         uint32_t count   = count_vertices(draft, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
-        info->guide_vertex_count += count; // At most 65,535 times 64.
+        info->guide_vertex_count += count; // At most 65,535 times 256.
         if (count > groom->most_vertices) groom->most_vertices = count;
     }
     groom->rest = hair_alloc(draft->host, info->guide_vertex_count, sizeof *groom->rest);

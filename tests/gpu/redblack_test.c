@@ -399,7 +399,7 @@ static void guides_move_the_same_in_a_larger_work_group(void** state)
     finish(&f);
 }
 
-// Two to ten guides of so many vertices, each time with a longer one among them: every size of the work group, with
+// One to ten guides of so many vertices, each time with a longer one among them: every size of the work group, with
 // guides that fill it and guides that leave most of it idle. None is longer than 1 m: see tolerance().
 static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** state)
 {
