@@ -11,6 +11,7 @@
 
 #include "lib/api/api.h"
 #include "tests/support/handmade.h"
+#include "tests/support/shell.h"
 
 #define refused hair_test_refused
 
@@ -102,6 +103,50 @@ static void glsl_that_is_not_there_or_wrong_is_an_opengl_error(void** state)
     desc.glsl_dir = "glsl";
     hair_test_ok(test, hair_context_create(&desc, &context));
     hair_test_ok(test, hair_context_reload(context));
+    hair_context_destroy(context);
+}
+
+static void expect(int code, const char* command)
+{
+    hair_test_shell_expect(code, command, "");
+}
+
+// Programs that depend on how long guides are wait for the first that long.
+static void a_shader_that_hair_create_finds_broken_is_an_opengl_error(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = NULL;
+    hair_context_desc of      = hair_context_desc_default();
+    of.host                   = &test->host.host;
+    of.get_proc               = hair_egl_get_proc;
+    of.glsl_dir               = hair_test_folder();
+    expect(0, "cp -r glsl/* $D && sed -i '/^void main/i broken' $D/sim/redblack.comp");
+    hair_test_ok(test, hair_context_create(&of, &context));
+
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_groom*               groom  = hair_test_groom(&test->host.host, wanted);
+    hair_instance*            hair   = NULL;
+    hair_desc                 desc   = hair_desc_default();
+    assert_int_equal(hair_create(context, groom, &desc, &hair), HAIR_ERROR_OPENGL);
+    assert_null(hair);
+    assert_string_equal(test->host.sentence, "shader glsl/sim/redblack.comp does not compile");
+    hair_test_forgive(test);
+
+    expect(0, "cp glsl/sim/redblack.comp $D/sim");
+    hair_test_ok(test, hair_create(context, groom, &desc, &hair));
+    // Broken again: the last good program goes on, and what needs another size of it is told.
+    expect(0, "sed -i '/^void main/i broken' $D/sim/redblack.comp");
+    assert_int_equal(hair_context_reload(context), HAIR_ERROR_OPENGL);
+    hair_test_forgive(test);
+    hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    wanted.fewest = wanted.most = 33;
+    hair_groom*    longer       = hair_test_groom(&test->host.host, wanted);
+    hair_instance* other        = NULL;
+    assert_int_equal(hair_create(context, longer, &desc, &other), HAIR_ERROR_OPENGL);
+    assert_null(other);
+    hair_test_forgive(test);
+    drop(hair, groom);
+    hair_groom_destroy(longer);
     hair_context_destroy(context);
 }
 
@@ -220,8 +265,14 @@ static hair_result create_context(struct user* user)
     desc.host                 = &user->test->host.host;
     desc.get_proc             = hair_egl_get_proc;
     desc.glsl_dir             = "glsl";
-    hair_result result        = hair_context_create(&desc, &context);
+    hair_result    result     = hair_context_create(&desc, &context);
+    hair_instance* hair       = NULL;
+    hair_desc      of         = hair_desc_default();
     assert_true((result == HAIR_OK) == (context != NULL));
+    if (!result)
+        result = hair_create(context, user->groom, &of, &hair); // Compiles what it is the first to need.
+    assert_true((result == HAIR_OK) == (hair != NULL));
+    hair_destroy(hair);
     hair_context_destroy(context);
     return result;
 }
@@ -259,7 +310,9 @@ static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
 static void a_context_without_memory_leaks_nothing_and_a_retry_works(void** state)
 {
     struct user user = {.test = *state};
+    user.groom       = hair_test_groom(&user.test->host.host, hair_test_handmade_default());
     torture(user.test, create_context, &user, 19);
+    hair_groom_destroy(user.groom);
 }
 
 int main(int count, char** arguments)
@@ -270,10 +323,13 @@ int main(int count, char** arguments)
         HAIR_TEST(without_a_current_context_every_call_says_so),
         HAIR_TEST(each_missing_function_is_named),
         HAIR_TEST(glsl_that_is_not_there_or_wrong_is_an_opengl_error),
+        HAIR_TEST(a_shader_that_hair_create_finds_broken_is_an_opengl_error),
         HAIR_TEST(a_driver_that_is_too_old_is_an_opengl_error),
         HAIR_TEST(an_old_context_is_told_its_version),
         HAIR_TEST(refused_memory_leaks_nothing_and_a_retry_works),
         HAIR_TEST(a_context_without_memory_leaks_nothing_and_a_retry_works),
     };
-    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+    if (hair_test_shell_start("/bin/sh")) return 1;
+    int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+    return hair_test_shell_finish() ? 1 : failed;
 }
