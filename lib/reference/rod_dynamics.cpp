@@ -1,0 +1,218 @@
+// rod_dynamics.cpp - a rod in motion. A substep is, in this order and so that it reads alike backwards:
+// half of the damping, half of the forces, motion under the constraints, half of the forces, half of the
+// damping. Constraint forces act along the segments as they were at the substep's start (SHAKE: Ryckaert,
+// Ciccotti, Berendsen 1977), which keeps the second order and the energy; at the end the velocities are
+// made to agree with the lengths (RATTLE: Andersen 1983).
+#include "lib/reference/rod_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+// The head's way over a frame.
+struct journey {
+    hair_reference_rod_place from;
+    Vector3d                 velocity, spin; // spin: rad/s
+
+    hair_reference_rod_place at(double t) const
+    {
+        return {from.position + t * velocity, (rotation_by(t * spin) * from.rotation).normalized()};
+    }
+};
+
+journey journey_to(const hair_reference_rod_place& from, const hair_reference_rod_place& to, double dt)
+{
+    Quaterniond turn = to.rotation * from.rotation.conjugate();
+    if (turn.w() < 0) turn.coeffs() *= -1;
+    const double   sine  = turn.vec().norm();
+    const double   angle = 2 * std::atan2(sine, turn.w());
+    const Vector3d spin  = sine > 0 ? Vector3d(turn.vec() * (angle / sine / dt)) : Vector3d(0, 0, 0);
+    return {from, (to.position - from.position) / dt, spin};
+}
+
+struct tridiagonal {
+    std::vector<double> below, diagonal, above, right;
+
+    explicit tridiagonal(size_t n) : below(n), diagonal(n), above(n), right(n) {}
+    void solve() // into `right`
+    {
+        const size_t n = right.size();
+        for (size_t j = 1; j < n; ++j) {
+            const double f = below[j] / diagonal[j - 1];
+            diagonal[j] -= f * above[j - 1];
+            right[j] -= f * right[j - 1];
+        }
+        for (size_t j = n; j-- > 0;) {
+            if (j + 1 < n) right[j] -= above[j] * right[j + 1];
+            right[j] /= diagonal[j];
+        }
+    }
+};
+
+std::vector<Vector3d> directions(const std::vector<Vector3d>& x)
+{
+    std::vector<Vector3d> d;
+    for (size_t j = 0; j + 1 < x.size(); ++j) d.push_back((x[j + 1] - x[j]).normalized());
+    return d;
+}
+
+// How the lengths change when the ends of the segments are pushed apart along `along`: the segments
+// themselves point along `now`.
+void fill(const hair_reference_rod& rod, const std::vector<Vector3d>& now, const std::vector<Vector3d>& along,
+          tridiagonal& t)
+{
+    for (uint32_t j = 0; j < rod.segments(); ++j) {
+        t.diagonal[j] = (rod.inverse_mass(j) + rod.inverse_mass(j + 1)) * now[j].dot(along[j]);
+        if (j > 0) t.below[j] = -rod.inverse_mass(j) * now[j].dot(along[j - 1]);
+        if (j + 1 < rod.segments()) t.above[j] = -rod.inverse_mass(j + 1) * now[j].dot(along[j + 1]);
+    }
+}
+
+void push(const hair_reference_rod& rod, const std::vector<Vector3d>& along, const std::vector<double>& by,
+          std::vector<Vector3d>& what)
+{
+    for (uint32_t j = 0; j < rod.segments(); ++j) {
+        what[j] -= rod.inverse_mass(j) * by[j] * along[j];
+        what[j + 1] += rod.inverse_mass(j + 1) * by[j] * along[j];
+    }
+}
+
+// Move by `step`, corrected so that the lengths are kept. Newton's method.
+bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
+{
+    const std::vector<Vector3d> start = rod.x, along = directions(rod.x);
+    double                      previous = INFINITY;
+    for (int iteration = 0; iteration < 50; ++iteration) {
+        double farthest = 0, error = 0;
+        for (uint32_t i = 0; i < rod.vertices; ++i) {
+            rod.x[i] = start[i] + step[i];
+            farthest = std::fmax(farthest, rod.x[i].cwiseAbs().maxCoeff());
+        }
+        std::vector<Vector3d> now      = directions(rod.x);
+        double                rounding = 0;
+        for (uint32_t j = 0; j < rod.segments(); ++j) {
+            t.right[j] = rod.lengths[j] - (rod.x[j + 1] - rod.x[j]).norm();
+            error      = std::fmax(error, std::fabs(t.right[j]) / rod.lengths[j]);
+            rounding   = std::fmax(rounding, 4e-16 * farthest / rod.lengths[j]);
+        }
+        if (!(error < 1e3)) return false;
+        if (error < 1e-14 + rounding || (error < 1e-10 && error >= previous / 2)) return true;
+        previous = error;
+        fill(rod, now, along, t);
+        t.solve();
+        push(rod, along, t.right, step);
+    }
+    return false;
+}
+
+void make_velocities_agree(hair_reference_rod& rod, tridiagonal& t)
+{
+    if (rod.is_held()) rod.v[0] = rod.root_velocity;
+    const std::vector<Vector3d> now = directions(rod.x);
+    for (uint32_t j = 0; j < rod.segments(); ++j) t.right[j] = -now[j].dot(rod.v[j + 1] - rod.v[j]);
+    fill(rod, now, now, t);
+    t.solve();
+    push(rod, now, t.right, rod.v);
+}
+
+void accelerate(hair_reference_rod& rod, double dt)
+{
+    for (uint32_t i = 0; i < rod.vertices; ++i)
+        rod.v[i] +=
+            dt * (rod.gravity + rod.force[i] / rod.masses[i] + rod.pull[i] * (rod.target_of(i) - rod.x[i]));
+}
+
+void damp(hair_reference_rod& rod, double dt)
+{
+    const double keep = std::exp(-rod.damping * dt);
+    for (Vector3d& v : rod.v) v = rod.wind + keep * (v - rod.wind);
+}
+
+bool advance(hair_reference_rod& rod, const journey& head, double dt, uint32_t substeps)
+{
+    const double          h = dt / substeps;
+    tridiagonal           t(rod.segments());
+    std::vector<Vector3d> step(rod.vertices);
+    for (uint32_t k = 0; k < substeps; ++k) {
+        damp(rod, h / 2);
+        accelerate(rod, h / 2);
+        rod.head = head.at((k + 1) * h);
+        for (uint32_t i = 0; i < rod.vertices; ++i) step[i] = h * rod.v[i];
+        if (rod.is_held()) step[0] = rod.root_position() - rod.x[0];
+        if (!move(rod, step, t)) return false;
+        for (uint32_t i = 0; i < rod.vertices; ++i) rod.v[i] = step[i] / h;
+        hair_reference_rod_update(rod);
+        accelerate(rod, h / 2);
+        damp(rod, h / 2);
+    }
+    rod.root_velocity = head.velocity + head.spin.cross(rod.head.rotation * rod.arm);
+    make_velocities_agree(rod, t);
+    return true;
+}
+
+} // namespace
+
+int hair_reference_rod_advance(hair_reference_rod* rod, const hair_reference_rod_pose* head, double dt,
+                               uint32_t substeps)
+{
+    hair_reference_rod_place to = rod->head;
+    if (head) to = {vector_of(head->position), quaternion_of(head->rotation).normalized()};
+    if (!advance(*rod, journey_to(rod->head, to, dt), dt, substeps)) return 0;
+    rod->head = to; // Without the rounding of the way there.
+    return 1;
+}
+
+// The squared frequencies of a chain are at most the largest sum of a row of its stiffness over its mass
+// (Gershgorin). A joint's stiffness k / l^2 acts on the vertices around it as (1, -2, 1) (1, -2, 1)^T.
+double hair_reference_rod_longest_substep(const hair_reference_rod* rod)
+{
+    std::vector<double> sums(rod->vertices);
+    for (uint32_t i = hair_reference_rod_first_joint(*rod); i < rod->segments(); ++i) {
+        const double k      = rod->stiffness[i].maxCoeff(); // Twist bends a curved rod.
+        const double row[3] = {i ? 1 / rod->lengths[i - 1] : 0,
+                               (i ? 1 / rod->lengths[i - 1] : 0) + 1 / rod->lengths[i], 1 / rod->lengths[i]};
+        for (uint32_t a = i ? 0 : 1; a < 3; ++a) sums[i + a - 1] += k * row[a] * (row[0] + row[1] + row[2]);
+    }
+    double most = 0;
+    for (uint32_t i = rod->is_held() ? 1 : 0; i < rod->vertices; ++i)
+        most = std::fmax(most, sums[i] / rod->masses[i] + rod->pull[i]);
+    return most > 0 ? 2 / std::sqrt(most) : INFINITY;
+}
+
+hair_reference_rod_report hair_reference_rod_converge(hair_reference_rod* rod, uint32_t frames,
+                                                      const hair_reference_rod_pose* heads, double dt,
+                                                      uint32_t substeps, uint32_t most, double tolerance,
+                                                      double* positions)
+{
+    const size_t              size   = 3 * size_t(rod->vertices);
+    hair_reference_rod_report report = {0, 0, INFINITY, NAN};
+    std::vector<double>       before, now(frames * size);
+    const hair_reference_rod  start = *rod;
+    double                    last  = NAN;
+    const double              needs = std::ceil(2 * dt / hair_reference_rod_longest_substep(rod));
+    uint32_t                  count = substeps ? substeps : 1;
+    while (count < needs) count *= 2;
+    for (; count <= most && !report.converged; count *= 2) {
+        *rod    = start;
+        bool ok = true;
+        for (uint32_t k = 0; k < frames && ok; ++k) {
+            ok = hair_reference_rod_advance(rod, heads ? heads + k : nullptr, dt, count);
+            hair_reference_rod_positions(rod, &now[k * size]);
+        }
+        report.substeps = count;
+        if (ok && !before.empty()) {
+            report.change = 0;
+            for (size_t i = 0; i < now.size(); i += 3)
+                report.change = std::fmax(report.change, (vector_of(&now[i]) - vector_of(&before[i])).norm());
+            report.order     = std::log2(last / report.change);
+            report.converged = report.change < tolerance;
+            last             = report.change;
+        }
+        before = ok ? now : std::vector<double>();
+        if (!ok) last = NAN;
+    }
+    if (positions) std::copy(now.begin(), now.end(), positions);
+    return report;
+}

@@ -1,0 +1,203 @@
+// rod_energy.cpp - bending and twist of a rod: energy, forces, and the twist at which the energy is least.
+#include "lib/reference/rod_state.h"
+
+#include <cmath>
+
+Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to)
+{
+    const Vector3d from = along(q);
+    const double   w    = 1 + from.dot(to);
+    Quaterniond    turn(0, 0, 0, 0);
+    if (w < 1e-12)
+        turn.vec() = from.unitOrthogonal();
+    else
+        turn = Quaterniond(w, 0, 0, 0), turn.vec() = from.cross(to);
+    return (turn.normalized() * q).normalized();
+}
+
+// Far from the clamp a chain under the tension T that leaves it at an angle straightens by the factor
+// 1/r a segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). Equating its moment at the clamp to the
+// continuous rod's, sqrt(B T) times the angle, gives 1 / (1/p - 1/(1/r - 1)), which is this.
+double hair_reference_rod_clamp_factor(double length, double weight, double bend)
+{
+    if (!(bend > 0)) return 0;
+    const double p = length * std::sqrt(weight / bend);
+    return 1 + p / 2 + std::sqrt(1 + p * p / 4);
+}
+
+void hair_reference_rod_stiffen(hair_reference_rod& rod)
+{
+    double hanging = 0;
+    for (uint32_t i = 1; i < rod.vertices; ++i) hanging += rod.masses[i];
+    const double weight = hanging * rod.gravity.norm();
+    rod.stiffness.assign(rod.segments(), Vector3d(0, 0, 0));
+    for (uint32_t i = 0; i < rod.segments(); ++i) {
+        const double   length = i ? (rod.lengths[i - 1] + rod.lengths[i]) / 2 : rod.lengths[0];
+        const Vector3d k      = rod.scale[i] * Vector3d(rod.bend[0], rod.twist, rod.bend[1]);
+        Vector3d       factor(1, 1, 1);
+        if (i == 0) {
+            factor = Vector3d(2, 2, 2);
+            if (!rod.plain_clamp)
+                factor.x() = hair_reference_rod_clamp_factor(length, weight, k.x()),
+                factor.z() = hair_reference_rod_clamp_factor(length, weight, k.z());
+        }
+        rod.stiffness[i] = factor.cwiseProduct(k) / length;
+    }
+}
+
+hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& rod, uint32_t i,
+                                                     const Quaterniond& before, const Quaterniond& after)
+{
+    const Quaterniond        r    = before.conjugate() * after;
+    const double             sign = r.w() < 0 ? -1 : 1;
+    hair_reference_rod_joint joint;
+    joint.w               = sign * r.w();
+    joint.v               = sign * r.vec();
+    const Vector3d excess = 2 * joint.v - rod.rest_strain[i];
+    joint.g               = rod.stiffness[i].cwiseProduct(excess);
+    joint.energy          = joint.g.dot(excess) / 2;
+    return joint;
+}
+
+namespace
+{
+
+// The energy as a function of the angles by which the frames are turned about their segments, to second
+// order: its second derivatives are a tridiagonal matrix.
+struct expansion {
+    double              energy = 0;
+    std::vector<double> slope, diagonal, beside; // beside[j]: of segments j and j + 1
+};
+
+// Turning segments i-1 and i by a and b about their y makes of r = (w, v) exp(-y a/2) r exp(y b/2).
+expansion expand(const hair_reference_rod& rod)
+{
+    const uint32_t n = rod.segments();
+    expansion      e;
+    e.slope.assign(n, 0), e.diagonal.assign(n, 0), e.beside.assign(n, 0);
+    for (uint32_t i = hair_reference_rod_first_joint(rod); i < n; ++i) {
+        const hair_reference_rod_joint j =
+            hair_reference_rod_joint_at(rod, i, hair_reference_rod_before(rod, i), rod.frames[i]);
+        const Vector3d by_a(-j.v.z(), -j.w, j.v.x()); // -(w y + y x v)
+        const Vector3d by_b(-j.v.z(), j.w, j.v.x());  //   w y + v x y
+        const Vector3d k = rod.stiffness[i];
+        const double   c = -0.5 * j.g.dot(j.v);
+        e.energy += j.energy;
+        e.slope[i] += j.g.dot(by_b);
+        e.diagonal[i] += by_b.dot(k.cwiseProduct(by_b)) + c;
+        if (i == 0) continue; // The scalp does not turn.
+        e.slope[i - 1] += j.g.dot(by_a);
+        e.diagonal[i - 1] += by_a.dot(k.cwiseProduct(by_a)) + c;
+        e.beside[i - 1] += by_a.dot(k.cwiseProduct(by_b)) -
+                           0.5 * (j.g.x() * j.v.x() - j.g.y() * j.v.y() + j.g.z() * j.v.z());
+    }
+    return e;
+}
+
+// angles = -(H + shift)^-1 slope. False when H + shift is not positive definite.
+bool solve(const expansion& e, double shift, std::vector<double>& angles)
+{
+    const size_t        n = e.slope.size();
+    std::vector<double> pivot(n);
+    for (size_t j = 0; j < n; ++j) {
+        pivot[j]  = e.diagonal[j] + shift;
+        angles[j] = -e.slope[j];
+        if (j > 0) {
+            const double f = e.beside[j - 1] / pivot[j - 1];
+            pivot[j] -= f * e.beside[j - 1];
+            angles[j] -= f * angles[j - 1];
+        }
+        if (!(pivot[j] > 0)) return false;
+    }
+    for (size_t j = n; j-- > 0;) {
+        if (j + 1 < n) angles[j] -= e.beside[j] * angles[j + 1];
+        angles[j] /= pivot[j];
+    }
+    return true;
+}
+
+double largest(const std::vector<double>& values)
+{
+    double most = 0;
+    for (double v : values) most = std::fmax(most, std::fabs(v));
+    return most;
+}
+
+void turn_about_segments(std::vector<Quaterniond>& frames, const std::vector<double>& angles, double share)
+{
+    for (size_t j = 0; j < frames.size(); ++j) {
+        const double half = share * angles[j] / 2;
+        frames[j]         = (frames[j] * Quaterniond(std::cos(half), 0, std::sin(half), 0)).normalized();
+    }
+}
+
+// Newton, and where the energy is not convex, or the step too long, down its slope.
+void settle_twist(hair_reference_rod& rod)
+{
+    expansion           e     = expand(rod);
+    const double        scale = largest(e.diagonal);
+    std::vector<double> angles(rod.segments());
+    if (scale == 0) return;
+    for (int iteration = 0; iteration < 100; ++iteration) {
+        // A rod that no clamp keeps from turning about itself has a direction without stiffness.
+        double shift = rod.root == HAIR_REFERENCE_ROD_CLAMPED ? 0 : 1e-9 * scale;
+        while (!solve(e, shift, angles)) shift = std::fmax(4 * shift, 1e-3 * scale);
+        const double step  = largest(angles);
+        double       share = std::fmin(1, 0.5 / step);
+        for (const auto from = rod.frames;;) {
+            turn_about_segments(rod.frames, angles, share);
+            if (step < 1e-9) return; // Squared, it is nothing.
+            expansion after = expand(rod);
+            if (after.energy <= e.energy * (1 + 1e-13) || step * share < 1e-6) {
+                e = std::move(after);
+                break;
+            }
+            rod.frames = from;
+            share /= 2;
+        }
+    }
+}
+
+// Force on a segment's end, and its opposite on its start, from the torque on the segment.
+void couple(hair_reference_rod& rod, uint32_t segment, const Vector3d& torque)
+{
+    const Vector3d link = rod.x[segment + 1] - rod.x[segment];
+    const Vector3d f    = torque.cross(link) / link.squaredNorm();
+    rod.force[segment + 1] += f;
+    rod.force[segment] -= f;
+}
+
+// u = t_i - t_{i-1}.
+void update_straight(hair_reference_rod& rod)
+{
+    for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
+        const Vector3d before = along(hair_reference_rod_before(rod, i)), after = along(rod.frames[i]);
+        const double   k      = rod.stiffness[i].x();
+        const Vector3d torque = k * after.cross(before); // -dE / (turn of segment i)
+        rod.energy += k * (after - before).squaredNorm() / 2;
+        couple(rod, i, torque);
+        if (i > 0) couple(rod, i - 1, -torque);
+    }
+}
+
+} // namespace
+
+void hair_reference_rod_update(hair_reference_rod& rod)
+{
+    for (uint32_t j = 0; j < rod.segments(); ++j)
+        rod.frames[j] = hair_reference_rod_turned(rod.frames[j], direction_of(rod.x[j + 1] - rod.x[j]));
+    rod.force.assign(rod.vertices, Vector3d(0, 0, 0));
+    rod.energy = 0;
+    if (rod.straight) return update_straight(rod);
+    settle_twist(rod);
+    // Turning segment i by d changes u by w d' + d' x v, d' as segment i-1 sees d. With no torque about the
+    // segments, how the frames turn about them as the segments move does not matter.
+    for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
+        const Quaterniond              before = hair_reference_rod_before(rod, i);
+        const hair_reference_rod_joint j      = hair_reference_rod_joint_at(rod, i, before, rod.frames[i]);
+        const Vector3d                 torque = -(before * (j.w * j.g + j.v.cross(j.g)));
+        rod.energy += j.energy;
+        couple(rod, i, torque);
+        if (i > 0) couple(rod, i - 1, -torque);
+    }
+}

@@ -1,0 +1,88 @@
+// rod_state.h - what the files of rod.h share.
+#ifndef HAIR_REFERENCE_ROD_STATE_H
+#define HAIR_REFERENCE_ROD_STATE_H
+
+#include <cmath>
+#include <vector>
+
+#include "lib/reference/convert.h"
+#include "lib/reference/rod.h"
+
+struct hair_reference_rod_place {
+    Vector3d    position;
+    Quaterniond rotation;
+};
+
+struct hair_reference_rod {
+    uint32_t                vertices;
+    std::vector<double>     lengths, masses, pull; // pull: squared angular frequency
+    std::vector<Vector3d>   target;                // in the head's frame
+    double                  bend[2], twist;
+    std::vector<double>     scale;
+    std::vector<Vector3d>   rest_strain;
+    bool                    straight, plain_clamp;
+    hair_reference_rod_root root;
+    Quaterniond             root_frame; // in the head's frame, as the root's place is:
+    Vector3d                arm;
+    Vector3d                gravity, wind;
+    double                  damping;
+
+    std::vector<Vector3d> stiffness; // per joint: B1, C, B2 over length, times the clamp's factors
+
+    hair_reference_rod_place head;
+    Vector3d                 root_velocity;
+    std::vector<Vector3d>    x, v;
+    std::vector<Quaterniond> frames; // per segment
+    std::vector<Vector3d>    force;  // elastic, per vertex
+    double                   energy; // elastic
+
+    uint32_t    segments() const { return vertices - 1; }
+    bool        is_held() const { return root != HAIR_REFERENCE_ROD_FREE; }
+    Quaterniond scalp() const { return head.rotation * root_frame; }
+    Vector3d    root_position() const { return head.position + head.rotation * arm; }
+    Vector3d    target_of(uint32_t i) const { return head.position + head.rotation * target[i]; }
+    double      inverse_mass(uint32_t i) const { return i == 0 && is_held() ? 0 : 1 / masses[i]; }
+};
+
+// A joint's strain and what follows from it: g = dE/du.
+struct hair_reference_rod_joint {
+    double   w;
+    Vector3d v, g;
+    double   energy;
+};
+
+static inline Vector3d along(const Quaterniond& q)
+{
+    return Vector3d(2 * (q.x() * q.y() - q.w() * q.z()), 1 - 2 * (q.x() * q.x() + q.z() * q.z()),
+                    2 * (q.y() * q.z() + q.w() * q.x()));
+}
+
+// The rotation by the vector v, |v| radians.
+static inline Quaterniond rotation_by(const Vector3d& v)
+{
+    const double angle = v.norm(), share = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
+    return Quaterniond(std::cos(angle / 2), share * v.x(), share * v.y(), share * v.z());
+}
+
+// q, turned by the least rotation so that its y is the unit vector `to`.
+Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to);
+
+// Masses on the clamp, and from them the joints' stiffness.
+void hair_reference_rod_stiffen(hair_reference_rod& rod);
+
+hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& rod, uint32_t i,
+                                                     const Quaterniond& before, const Quaterniond& after);
+// From which joints there are: a rod without clamp has none at 0.
+static inline uint32_t hair_reference_rod_first_joint(const hair_reference_rod& rod)
+{
+    return rod.root == HAIR_REFERENCE_ROD_CLAMPED ? 0 : 1;
+}
+static inline Quaterniond hair_reference_rod_before(const hair_reference_rod& rod, uint32_t joint)
+{
+    return joint ? rod.frames[joint - 1] : rod.scalp();
+}
+
+// Turn the frames along with x, settle their twist, and find `force` and `energy`.
+void hair_reference_rod_update(hair_reference_rod& rod);
+
+#endif
