@@ -45,7 +45,7 @@ static int can_read(struct cursor* c, const char* name, size_t size)
     if (!c->read || c->result) return 0;
     if (size <= c->end - c->at) return 1;
     c->result = hair_fail(c->host, HAIR_ERROR_FILE,
-                          "the fields of the saved state end at byte %zu, within %s at byte %zu", c->end,
+                          "the fields of the saved state end at byte %zu, within the %s at byte %zu", c->end,
                           name, c->at);
     return 0;
 }
@@ -53,9 +53,9 @@ static int can_read(struct cursor* c, const char* name, size_t size)
 static void check(struct cursor* c, const char* name, double value, double least, double most)
 {
     if (c->result || (value >= least && value <= most)) return; // Written so that NaN fails too.
-    c->result =
-        hair_fail(c->host, HAIR_ERROR_FILE, "%s at byte %zu of the saved state is %.9g, not in [%.9g, %.9g]",
-                  name, c->at, value, least, most);
+    c->result = hair_fail(c->host, HAIR_ERROR_FILE,
+                          "the %s at byte %zu of the saved state is %.9g, not in [%.9g, %.9g]", name, c->at,
+                          value, least, most);
 }
 
 static void walk_uint(struct cursor* c, const char* name, uint32_t* value, uint32_t most)
@@ -113,9 +113,10 @@ static void walk_pose(struct cursor* c, const char* name, struct hair_pose* pose
         norm += *rotation[i] * *rotation[i];
     }
     if (c->read && !c->result && !(fabsf(norm - 1) <= 1e-3f))
-        c->result = hair_fail(c->host, HAIR_ERROR_FILE,
-                              "the rotation of %s, before byte %zu of the saved state, has norm %g, not 1",
-                              name, c->at, (double)sqrtf(norm));
+        c->result =
+            hair_fail(c->host, HAIR_ERROR_FILE,
+                      "the rotation of the %s, before byte %zu of the saved state, has norm %g, not 1", name,
+                      c->at, (double)sqrtf(norm));
 }
 
 // As bits: check_solids knows which of the numbers matter to a shape.
@@ -146,7 +147,7 @@ static void walk_vertices(struct cursor* c, struct hair_sim* sim, float* out)
         }
     }
     if (c->read)
-        for (size_t i = 0; i < count && !c->result; ++i) walk_float(c, "a guide vertex", &out[i], MOST_STATE);
+        for (size_t i = 0; i < count && !c->result; ++i) walk_float(c, "guide vertices", &out[i], MOST_STATE);
     else
         c->at += state_size(sim);
 }
@@ -159,13 +160,13 @@ static void walk(struct cursor* c, struct hair_sim* sim, float* vertices)
     walk_same(c, "number of guides", sim->guides);
     walk_same(c, "number of guide vertices", sim->guide_vertices);
     walk_same(c, "hash of the vertices of each guide", sim->layout);
-    walk_double(c, "the time since the last substep", &sim->left, 0, sim->substep);
-    walk_pose(c, "the head at the start of the last substep", &sim->last_before, MOST_PAST);
-    walk_pose(c, "the head at the end of the last substep", &sim->last_after, MOST_PAST);
-    walk_pose(c, "the head at the last step", &sim->at_step, MOST_PAST);
-    walk_pose(c, "the head", &sim->head, MOST_PLACE);
-    walk_solids(c, "the solids", sim->solids.now, &sim->solids.count);
-    walk_solids(c, "the solids of the last step", sim->solids.before, &sim->solids.count_before);
+    walk_double(c, "time since the last substep", &sim->left, 0, sim->substep);
+    walk_pose(c, "head at the start of the last substep", &sim->last_before, MOST_PAST);
+    walk_pose(c, "head at the end of the last substep", &sim->last_after, MOST_PAST);
+    walk_pose(c, "head at the last step", &sim->at_step, MOST_PAST);
+    walk_pose(c, "head", &sim->head, MOST_PLACE);
+    walk_solids(c, "number of solids", sim->solids.now, &sim->solids.count);
+    walk_solids(c, "number of solids at the last step", sim->solids.before, &sim->solids.count_before);
     walk_vertices(c, sim, vertices);
 }
 

@@ -44,6 +44,7 @@ static void without_a_current_context_every_call_says_so(void** state)
     hair_context*     context;
     float             positions[3];
     uint32_t          count;
+    size_t            size;
     const char*       words = "no OpenGL context is current";
     of.host                 = &test->host.host;
     of.get_proc             = hair_egl_get_proc;
@@ -54,6 +55,8 @@ static void without_a_current_context_every_call_says_so(void** state)
     refused(test, hair_step(hair, 0.1f), HAIR_ERROR_OPENGL, words);
     refused(test, hair_reset(hair), HAIR_ERROR_OPENGL, words);
     refused(test, hair_teleport(hair, desc.transform), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_save(hair, NULL, 0, &size), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_load(hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
     refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL, words);
     hair_egl_make_current(test->egl);
@@ -298,12 +301,21 @@ static hair_result read_all(struct user* user)
     return result;
 }
 
+static hair_result save_and_load(struct user* user)
+{
+    static unsigned char bytes[65536];
+    size_t               size   = 0;
+    hair_result          result = hair_save(user->hair, bytes, sizeof bytes, &size);
+    return result ? result : hair_load(user->hair, bytes, size);
+}
+
 static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
 {
     struct user user = {.test = *state};
     user.hair        = make(user.test, &user.groom);
     torture(user.test, create_instance, &user, 1);
     torture(user.test, read_all, &user, 1);
+    torture(user.test, save_and_load, &user, 1);
     drop(user.hair, user.groom);
 }
 

@@ -149,6 +149,13 @@ static hair_result read_all(struct fixture* f)
         result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
     return result;
 }
+static hair_result save_and_load(struct fixture* f)
+{
+    static unsigned char bytes[65536];
+    size_t               size   = 0;
+    hair_result          result = hair_save(f->hair, bytes, sizeof bytes, &size);
+    return result ? result : hair_load(f->hair, bytes, size);
+}
 static hair_result time_all(struct fixture* f)
 {
     hair_timing timings[32];
@@ -179,6 +186,7 @@ static const struct {
     {"hair_read", read_all},
     {"hair_teleport", teleport},
     {"hair_reset", reset},
+    {"hair_save and hair_load", save_and_load},
     {"hair_timings", time_all},
     {"hair_context_reload", reload},
     {"hair_draw after a reload", draw},

@@ -1,0 +1,277 @@
+// save_hostile_test.c - bytes that are no saved state are refused and do no harm.
+#include "tests/support/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/base/bytes.h"
+
+#define refused hair_test_refused
+
+// Where the fields are: lib/sim/save.c.
+enum { VERSION = 8, WHOLE = 12, SUBSTEP = 28, LEFT = 60, HEAD = 68 + 3 * 40, SOLIDS = 68 + 4 * 40 };
+
+// As the library hashes, so that what is harmful looks undamaged.
+static void seal(struct hair_test_blob* blob)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    hair_write_u64(blob->bytes + WHOLE, blob->size);
+    for (size_t i = 0; i < blob->size - 8; ++i) hash = (hash ^ blob->bytes[i]) * 0x100000001b3u;
+    hair_write_u64(blob->bytes + blob->size - 8, hash);
+}
+
+// Small, on its way, with two solids.
+static hair_instance* make_small(struct hair_test* test)
+{
+    struct hair_test_subject subject = hair_test_subject_of(0);
+    subject.groom.guides             = 2;
+    subject.groom.fewest = 4, subject.groom.most = 5;
+    subject.groom.followers = 8;
+    hair_instance* hair     = hair_test_subject_make(test, &subject);
+    hair_test_run(test, hair, &subject, 0, 4);
+    hair_test_move(test, hair, &subject, 4);
+    assert_int_equal(hair->sim.solids.count, 2);
+    return hair;
+}
+
+struct wrong {
+    hair_result (*load)(hair_instance* hair, struct hair_test_blob blob, size_t at);
+    size_t      at;
+    hair_result result;
+    const char* words;
+};
+
+static hair_result load_sealed(hair_instance* hair, struct hair_test_blob blob)
+{
+    seal(&blob);
+    return hair_load(hair, blob.bytes, blob.size);
+}
+static hair_result load_nothing(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    (void)at;
+    return hair_load(hair, NULL, blob.size);
+}
+static hair_result load_short(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    return hair_load(hair, blob.bytes, at);
+}
+static hair_result load_flipped(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    blob.bytes[at] ^= 1;
+    return hair_load(hair, blob.bytes, blob.size);
+}
+static hair_result load_sealed_short(hair_instance* hair, struct hair_test_blob blob, size_t by)
+{
+    blob.size -= by;
+    return load_sealed(hair, blob);
+}
+static hair_result load_sealed_long(hair_instance* hair, struct hair_test_blob blob, size_t by)
+{
+    blob.size += by;
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_nan(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_double(blob.bytes + at, (double)NAN);
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_nan_float(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_float(blob.bytes + at, NAN);
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_minus_1(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_double(blob.bytes + at, -1);
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_2e9(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_double(blob.bytes + at, 2e9);
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_2e9_float(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_float(blob.bytes + at, 2e9f);
+    return load_sealed(hair, blob);
+}
+static hair_result load_with_65(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_u32(blob.bytes + at, 65);
+    return load_sealed(hair, blob);
+}
+
+static void a_refused_load_leaves_the_instance_as_it_was(void** state)
+{
+    static struct hair_test_seen before, after;
+    struct hair_test*            test = *state;
+    hair_instance*               hair = make_small(test);
+    struct hair_test_blob        good = hair_test_save(test, hair);
+    size_t                       tip  = good.size - 8 - 32;
+
+    // clang-format off
+    const struct wrong wrongs[] = {
+        {load_nothing, 0, HAIR_ERROR_ARGUMENT, "hair: bytes is NULL"},
+        {load_short, 0, HAIR_ERROR_FILE, "the 0 bytes are no saved state"},
+        {load_short, 27, HAIR_ERROR_FILE, "the 27 bytes are no saved state"},
+        {load_short, 28, HAIR_ERROR_FILE, "ends at byte 28, not at byte "},
+        {load_flipped, 3, HAIR_ERROR_FILE, "\"hairsave\" at byte 0"},
+        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 0, not 1"},
+        {load_flipped, WHOLE, HAIR_ERROR_FILE, "as byte 12 says"},
+        {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
+        {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
+        {load_sealed_short, 1, HAIR_ERROR_FILE, "within the guide vertices at byte "},
+        {load_sealed_short, good.size - 28, HAIR_ERROR_FILE, "end at byte 20, within the solver at byte 20"},
+        {load_sealed_long, 4, HAIR_ERROR_FILE, "the fields of the saved state end at byte "},
+        {load_with_minus_1, SUBSTEP, HAIR_ERROR_ARGUMENT, "its substep is -1, the instance's 0.008333"},
+        {load_with_nan, SUBSTEP, HAIR_ERROR_ARGUMENT, "the saved state is another's"},
+        {load_with_minus_1, LEFT, HAIR_ERROR_FILE, "since the last substep at byte 60 of the saved state is -1"},
+        {load_with_nan, LEFT, HAIR_ERROR_FILE, "the time since the last substep"},
+        {load_with_nan, 68, HAIR_ERROR_FILE, "the head at the start of the last substep at byte 68"},
+        {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 188 of the saved state is 2e+09, not in [-1e+09"},
+        {load_with_nan, HEAD + 24, HAIR_ERROR_FILE, "the head at byte "},
+        {load_with_minus_1, HEAD + 24, HAIR_ERROR_FILE, "the rotation of the head"},
+        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids at byte 228 of the saved state is 65, not in [0, 64]"},
+        {load_with_65, SOLIDS + 4, HAIR_ERROR_ARGUMENT, "solids[0].shape is 65"},
+        {load_with_nan_float, SOLIDS + 4 + 32, HAIR_ERROR_ARGUMENT, "solids[0].size[0] is "},
+        {load_with_nan_float, SOLIDS + 84 + 8, HAIR_ERROR_ARGUMENT, "solids[0].position[0] is "},
+        {load_with_nan_float, tip, HAIR_ERROR_FILE, "the guide vertices at byte "},
+        {load_with_2e9_float, tip + 28, HAIR_ERROR_FILE, "is 2e+09, not in [-1e+09, 1e+09]"},
+    };
+    // clang-format on
+
+    struct hair_test_blob wrong = {malloc(good.size + 4), good.size};
+    hair_test_step(test, hair, &(struct hair_test_subject){0}, 1); // It is not where the state was saved.
+    hair_instance as_it_was = *hair;
+    hair_test_look(test, hair, &before);
+    for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; ++i) {
+        memcpy(wrong.bytes, good.bytes, good.size);
+        refused(test, wrongs[i].load(hair, wrong, wrongs[i].at), wrongs[i].result, wrongs[i].words);
+        assert_memory_equal(hair, &as_it_was, sizeof as_it_was);
+        hair_test_look(test, hair, &after);
+        hair_test_same(&after, &before);
+    }
+    hair_test_ok(test, hair_load(hair, good.bytes, good.size));
+    hair_destroy(hair);
+    free(good.bytes), free(wrong.bytes);
+}
+
+static void the_state_of_another_haircut_or_substep_is_refused(void** state)
+{
+    struct hair_test*        test    = *state;
+    struct hair_test_subject subject = hair_test_subject_of(0);
+    hair_instance*           hair    = hair_test_subject_make(test, &subject);
+    struct hair_test_subject others[3];
+    const char*              words[3] = {"its number of guides is 8, the instance's 7",
+                                         "its hash of the vertices of each guide is ",
+                                         "its substep is 0.00999999978, the instance's"};
+    for (int i = 0; i < 3; ++i) others[i] = hair_test_subject_of(0);
+    others[0].groom.guides = 8;
+    others[1].groom.guides = 6, subject.groom.guides = 6;
+    others[1].groom.fewest = 15, others[1].groom.most = 17;
+    others[2].desc.substep = 0.01f;
+    hair_instance* six =
+        hair_test_subject_make(test, &subject); // of 16 vertices each, as many in all as 15 to 17
+    for (int i = 0; i < 3; ++i) {
+        hair_instance*        other = hair_test_subject_make(test, &others[i]);
+        struct hair_test_blob blob  = hair_test_save(test, other);
+        refused(test, hair_load(i == 1 ? six : hair, blob.bytes, blob.size), HAIR_ERROR_ARGUMENT, words[i]);
+        hair_destroy(other);
+        free(blob.bytes);
+    }
+    hair_destroy(hair);
+    hair_destroy(six);
+}
+
+static void a_state_cut_off_at_any_byte_is_refused(void** state)
+{
+    struct hair_test*     test = *state;
+    hair_instance*        hair = make_small(test);
+    struct hair_test_blob good = hair_test_save(test, hair), cut = {malloc(good.size), 0};
+    for (cut.size = 0; cut.size < good.size; ++cut.size) {
+        unsigned char* exact = malloc(cut.size ? cut.size : 1); // so that reading beyond it is seen
+        memcpy(exact, good.bytes, cut.size);
+        refused(test, hair_load(hair, exact, cut.size), HAIR_ERROR_FILE, "saved state");
+        free(exact);
+        if (cut.size < 28) continue;
+        memcpy(cut.bytes, good.bytes, cut.size);
+        refused(test, load_sealed(hair, cut), HAIR_ERROR_FILE, "saved state");
+    }
+    hair_destroy(hair);
+    free(good.bytes), free(cut.bytes);
+}
+
+// Refused, or loaded and finite: now, and after a step that goes through substeps. Returns whether loaded.
+static int survives(struct hair_test* test, hair_instance* hair, struct hair_test_blob blob)
+{
+    static struct hair_test_seen seen;
+    hair_result                  result = load_sealed(hair, blob);
+    assert_int_equal(hair_test_forgive(test), result ? 1 : 0);
+    if (result) return 0;
+    hair_test_look(test, hair, &seen);
+    hair_test_finite(&seen);
+    hair_test_ok(test, hair_step(hair, 0.02f));
+    hair_test_look(test, hair, &seen);
+    hair_test_finite(&seen);
+    return 1;
+}
+
+static void any_flipped_bit_is_refused_or_harmless(void** state)
+{
+    struct hair_test*     test = *state;
+    hair_instance*        hair = make_small(test);
+    struct hair_test_blob good = hair_test_save(test, hair), wrong = {malloc(good.size), good.size};
+    uint32_t              accepted = 0, random = 3;
+    for (size_t bit = 0; bit < 8 * good.size; ++bit) {
+        memcpy(wrong.bytes, good.bytes, good.size);
+        wrong.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
+        refused(test, hair_load(hair, wrong.bytes, wrong.size), HAIR_ERROR_FILE, "saved state");
+        accepted += (uint32_t)survives(test, hair, wrong);
+    }
+    print_message("    %u of %zu accepted once they are sealed\n", accepted, 8 * good.size);
+    // Every bit of the magic, of the version and of the five that say whose it is, and of some exponents.
+    assert_in_range(accepted, 1000, 8 * good.size - 8 * (8 + 4 + 40) - 100);
+    for (int n = 0; n < 1000; ++n) { // several numbers at once
+        memcpy(wrong.bytes, good.bytes, good.size);
+        for (int k = 0; k < 4; ++k) {
+            size_t at = 60 + 4 * (size_t)((double)hair_random(&random) * (double)((good.size - 68) / 4));
+            hair_write_float(wrong.bytes + at,
+                             ldexpf(hair_random(&random) - 0.5f, (int)(60 * hair_random(&random)) - 25));
+        }
+        survives(test, hair, wrong);
+    }
+    hair_destroy(hair);
+    free(good.bytes), free(wrong.bytes);
+}
+
+// The greatest of every number that is let through, all together.
+static void the_farthest_state_is_drawn_and_stepped_in_finite_numbers(void** state)
+{
+    struct hair_test*     test = *state;
+    hair_instance*        hair = make_small(test);
+    struct hair_test_blob blob = hair_test_save(test, hair);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (int p = 0; p < 4; ++p)
+            for (int k = 0; k < 3; ++k)
+                hair_write_double(blob.bytes + 68 + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
+        for (size_t at = SOLIDS + 4 + 2 * 84; at < blob.size - 8; at += 4)
+            hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
+        assert_true(survives(test, hair, blob));
+    }
+    hair_destroy(hair);
+    free(blob.bytes);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_refused_load_leaves_the_instance_as_it_was),
+        HAIR_TEST(the_state_of_another_haircut_or_substep_is_refused),
+        HAIR_TEST(a_state_cut_off_at_any_byte_is_refused),
+        HAIR_TEST(any_flipped_bit_is_refused_or_harmless),
+        HAIR_TEST(the_farthest_state_is_drawn_and_stepped_in_finite_numbers),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
