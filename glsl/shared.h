@@ -76,8 +76,23 @@ struct hair_rest {
     // xyz: unit direction to the next vertex, in the frame carried here along the strand from the segment before
     // (at the root: in the root frame); w: distance to the vertex after the next, m
     hair_vec4 direction;
+    hair_vec4 frame; // unit quaternion of the segment to the next vertex, y along it, carried so from the root frame
 };
-HAIR_SIZE(hair_rest, 32)
+HAIR_SIZE(hair_rest, 48)
+
+// A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. Everything is divided by the mass
+// of a metre of hair, so that masses are lengths.
+struct hair_rod {
+    // xyz: rest strain at the vertex, between the frames of segments i-1 and i (at the root: of the scalp and
+    // segment 0): 2 Im(conj(q_(i-1)) q_i); w: bending stiffness over the length it is for, m^3/s^2
+    hair_vec4 strain;
+    hair_vec4 segment; // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2
+    // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method; and
+    // of implicit Euler, to which it falls back
+    hair_vec4 factor;
+    hair_vec4 factor_euler;
+};
+HAIR_SIZE(hair_rod, 64)
 
 // A guide vertex in motion. Positions are from the head's origin, so that far from the world's origin floats
 // still resolve micrometres; the displacement is kept rather than differenced, for the same reason.

@@ -1,8 +1,10 @@
-// rest.c - the rest shape of guides: vertices, lengths, directions in the frame of the segment before.
+// rest.c - the rest shape of guides: vertices, lengths, frames, directions in the frame of the segment before.
 //
 //   F_0 = root frame, y along the first segment       direction_0 = (0, 1, 0)
 //   F_i = T_i F_(i-1), where T_i is the least rotation from segment i-1 to segment i
 //   direction_i = F_(i-1)^-1 d_i, with d_i the unit direction of segment i
+//
+// The tip, where no segment begins, has the frame of the last.
 #include "lib/groom/draft.h"
 
 #include <string.h>
@@ -87,9 +89,10 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
         }
         rest[i].position  = (hair_vec4){at.x, at.y, at.z, length};
         rest[i].direction = (hair_vec4){direction.x, direction.y, direction.z, over_two};
+        rest[i].frame     = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         total += (double)length;
     }
-    guide->length = (float)total;
+    guide->arc_length = (float)total;
 }
 
 static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mean)

@@ -28,10 +28,15 @@ static const struct member members[] = {
     VEC4(hair_guide, root_frame),
     UINT(hair_guide, first),
     UINT(hair_guide, count),
-    FLOAT(hair_guide, length),
+    FLOAT(hair_guide, arc_length),
     UINT(hair_guide, unused),
     VEC4(hair_rest, position),
     VEC4(hair_rest, direction),
+    VEC4(hair_rest, frame),
+    VEC4(hair_rod, strain),
+    VEC4(hair_rod, segment),
+    VEC4(hair_rod, factor),
+    VEC4(hair_rod, factor_euler),
     VEC4(hair_state, position),
     VEC4(hair_state, displacement),
     VEC4(hair_capsule, start[0]),
@@ -108,9 +113,9 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),    STRUCT(hair_rest),    STRUCT(hair_state),
-    STRUCT(hair_capsule),  STRUCT(hair_substep), STRUCT(hair_step_params),
-    STRUCT(hair_follower), STRUCT(hair_patch),   STRUCT(hair_draw_params),
+    STRUCT(hair_guide),   STRUCT(hair_rest),        STRUCT(hair_rod),         STRUCT(hair_state),
+    STRUCT(hair_capsule), STRUCT(hair_substep),     STRUCT(hair_step_params), STRUCT(hair_follower),
+    STRUCT(hair_patch),   STRUCT(hair_draw_params),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)

@@ -69,8 +69,9 @@ static void place_guide(struct hair_guide* guide, struct hair_rest* rest, hair_v
         }
         rest[i].position  = (hair_vec4){at.x, at.y, at.z, length};
         rest[i].direction = (hair_vec4){own.x, own.y, own.z, 0};
+        rest[i].frame     = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         at                = hair_add(at, hair_scale(direction, length));
-        guide->length += length;
+        guide->arc_length += length;
     }
     for (uint32_t i = 0; i + 2 < guide->count; ++i) {
         hair_vec4 a = rest[i].position, b = rest[i + 2].position;

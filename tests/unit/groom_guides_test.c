@@ -251,12 +251,12 @@ static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samp
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strands_are     = HAIR_STRANDS_GUIDES;
     hair_groom* groom    = make(&desc);
-    assert_float_equal(groom->guides[0].length / length_of(strands.positions, 3), 1, 1e-6);
-    assert_float_equal(groom->guides[1].length / length_of(strands.positions + 9, 32), 1, 1e-6);
+    assert_float_equal(groom->guides[0].arc_length / length_of(strands.positions, 3), 1, 1e-6);
+    assert_float_equal(groom->guides[1].arc_length / length_of(strands.positions + 9, 32), 1, 1e-6);
 
     double turn = 12.566 / 31, around = 0.02 * 12.566,
            share = around * around / (around * around + 0.2 * 0.2);
-    double loss  = 1 - groom->guides[2].length / length_of(strands.positions + 3 * 35, 200);
+    double loss  = 1 - groom->guides[2].arc_length / length_of(strands.positions + 3 * 35, 200);
     printf("200 vertices brought down to 32: %.2f %% shorter\n", 100 * loss);
     assert_float_equal(loss, share * turn * turn / 24, 0.1 * turn * turn / 24);
     hair_groom_destroy(groom);
@@ -305,6 +305,12 @@ static void root_frames_vary_as_smoothly_as_the_roots(void** state)
     hair_test_strands_free(&strands);
 }
 
+// 1 or -1 when both are the same rotation.
+static float same_turn(hair_quat a, hair_vec4 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+
 // F_i = T_i F_(i-1): vertex by vertex from the root frame, lengths and directions alone.
 static void lengths_and_directions_give_the_guide_back(void** state)
 {
@@ -325,7 +331,10 @@ static void lengths_and_directions_give_the_guide_back(void** state)
             at     = hair_add(at, hair_scale(to, rest[j].position.w));
             before = to;
             assert_true(hair_distance(at, xyz(rest[j + 1].position)) < 5e-6f);
+            assert_float_equal(fabsf(same_turn(frame, rest[j].frame)), 1, 1e-6);
         }
+        assert_memory_equal(&rest[groom->guides[i].count - 1].frame, &rest[groom->guides[i].count - 2].frame,
+                            sizeof rest->frame);
     }
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
@@ -373,7 +382,7 @@ static void strands_that_run_to_and_fro_become_sound_guides(void** state)
             assert_in_range(guide->count, guide_vertices < 4 ? guide_vertices : 4, guide_vertices);
             for (uint32_t j = 0; j < guide->count; ++j) {
                 const float* rest = &groom->rest[guide->first + j].position.x;
-                for (int k = 0; k < 8; ++k) assert_true(isfinite(rest[k]));
+                for (int k = 0; k < 12; ++k) assert_true(isfinite(rest[k]));
                 if (j + 1 < guide->count) assert_true(rest[3] > 0);
             }
         }
