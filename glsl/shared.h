@@ -65,7 +65,7 @@ struct hair_guide {
     hair_vec4 root_frame; // unit quaternion of the first segment: y along it
     hair_uint first;      // of its vertices
     hair_uint count;
-    float     length; // m
+    float     arc_length; // m
     hair_uint unused;
 };
 HAIR_SIZE(hair_guide, 32)

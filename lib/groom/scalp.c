@@ -150,7 +150,7 @@ static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
 static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
 {
     hair_vec3 a = root_to_tip(groom, i), b = root_to_tip(groom, j);
-    float     mean = 0.5f * (groom->guides[i].length + groom->guides[j].length);
+    float     mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
     if (hair_distance(a, b) > 0.6f * mean) return true;
     float product = hair_length(a) * hair_length(b);
     if (product < 0.01f * mean * mean) return false; // Curled up: the tip says little about the way.

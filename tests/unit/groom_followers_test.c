@@ -232,7 +232,7 @@ static void a_follower_is_as_long_as_its_strand(void** state)
         const struct hair_follower* follower = &groom->followers[i];
         hair_vec3                   root     = hair_test_single(groom, follower, 0);
         float                       length   = positions[6 * (int)(root.x + 0.5f) + 4];
-        assert_float_equal(follower->length_ratio * groom->guides[0].length, length, 1e-5);
+        assert_float_equal(follower->length_ratio * groom->guides[0].arc_length, length, 1e-5);
         assert_float_equal(hair_test_single(groom, follower, 1).y, length, 1e-5);
     }
     hair_groom_destroy(groom);

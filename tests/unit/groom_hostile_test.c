@@ -93,7 +93,7 @@ static void assert_sound(const hair_groom* groom)
     assert_true(info->guide_count && info->follower_count && info->patch_count);
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         assert_finite(&groom->guides[i].root_frame, 4);
-        assert_true(isfinite(groom->guides[i].length) && groom->guides[i].length > 0);
+        assert_true(isfinite(groom->guides[i].arc_length) && groom->guides[i].arc_length > 0);
         assert_in_range(groom->guides[i].count, 2, groom->most_vertices);
     }
     assert_finite(groom->rest, 8 * (size_t)info->guide_vertex_count);

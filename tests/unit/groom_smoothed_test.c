@@ -86,7 +86,7 @@ static void compare_guides(const struct fixture* fixture)
     for (uint32_t i = 0; i < fixture->groom->info.guide_count; ++i) {
         struct hair_smoothed     smoothed;
         const struct hair_guide* guide   = &fixture->groom->guides[i];
-        double                   segment = (double)guide->length / (guide->count - 1);
+        double                   segment = (double)guide->arc_length / (guide->count - 1);
         hair_smooth_guide(fixture->groom, i, &smoothed);
         assert_int_equal(smoothed.count, fixture->each);
         for (uint32_t k = 0; k < fixture->each; ++k) {
