@@ -20,23 +20,27 @@
 
 #define MOST_PLACE 1e9 // m: of the head, as in hair_set_transform
 #define MOST_PAST 1e12 // m: of a pose before it, which teleports between two steps take further
-#define MOST_STATE 1e9 // any number of a guide vertex: a solver itself resets what is too far for hair
+#define MOST_STATE 1e9 // any number in a buffer: a solver itself resets what is too far for hair
 
 _Static_assert(sizeof(hair_solid) == 40 && sizeof(struct hair_pose) == 40 && sizeof(struct hair_state) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
-static size_t state_size(const struct hair_sim* sim)
-{
-    return sim->guide_vertices * sizeof(struct hair_state);
-}
+#define MOST_BUFFERS 4 // that walk() lists
 
 // Goes over the fields to count, write or read and check them.
 struct cursor {
     const hair_host*     host;
+    struct hair_gl*      gl;
     const unsigned char* read;  // all the bytes, or
     unsigned char*       write; // all the bytes, or neither: count only
+    unsigned char*       own;   // as many; what is read of buffers, in the machine's order
     size_t               at, end;
     hair_result          result; // the first failure's; nothing is read after it
+    uint32_t             buffers;
+    struct {
+        GLuint buffer;
+        size_t at, size;
+    } buffer[MOST_BUFFERS]; // read so far
 };
 
 // Whether the next `size` bytes are there to be read.
@@ -133,27 +137,37 @@ static void walk_solids(struct cursor* c, const char* name, hair_solid* solids, 
         }
 }
 
-// Whatever a solver keeps in a vertex: floats. They are read into `out`.
-static void walk_vertices(struct cursor* c, struct hair_sim* sim, float* out)
+// Floats, whatever they are to a solver. A buffer that the instance has no use for is 0.
+static void walk_buffer(struct cursor* c, const char* name, GLuint buffer, size_t size)
 {
-    size_t count = state_size(sim) / sizeof *out;
+    size_t end = c->at + size;
+    if (!buffer) return;
     if (c->write) {
         unsigned char* at = c->write + c->at;
-        sim->gl->GetNamedBufferSubData(sim->state, 0, (GLsizeiptr)state_size(sim), at);
-        for (size_t i = 0; i < count; ++i) { // In place, from the machine's order of bytes.
+        c->gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, at);
+        for (size_t i = 0; i < size / 4; ++i) { // In place, from the machine's order of bytes.
             uint32_t bits;
             memcpy(&bits, at, sizeof bits);
             at = hair_write_u32(at, bits);
         }
     }
-    if (c->read)
-        for (size_t i = 0; i < count && !c->result; ++i) walk_float(c, "guide vertices", &out[i], MOST_STATE);
-    else
-        c->at += state_size(sim);
+    if (c->read) {
+        c->buffer[c->buffers].buffer = buffer;
+        c->buffer[c->buffers].at     = c->at;
+        c->buffer[c->buffers].size   = size;
+        ++c->buffers;
+        while (c->at < end && !c->result) {
+            float  number = 0;
+            size_t at     = c->at;
+            walk_float(c, name, &number, MOST_STATE);
+            if (!c->result) memcpy(c->own + at, &number, sizeof number);
+        }
+    }
+    c->at = end;
 }
 
 // All that is saved, in order: of which haircut it is, and what the coming motion depends on.
-static void walk(struct cursor* c, struct hair_sim* sim, float* vertices)
+static void walk(struct cursor* c, struct hair_sim* sim)
 {
     walk_same(c, "solver", sim->solver);
     walk_same(c, "substep", sim->substep);
@@ -167,7 +181,7 @@ static void walk(struct cursor* c, struct hair_sim* sim, float* vertices)
     walk_pose(c, "head", &sim->head, MOST_PLACE);
     walk_solids(c, "number of solids", sim->solids.now, &sim->solids.count);
     walk_solids(c, "number of solids at the last step", sim->solids.before, &sim->solids.count_before);
-    walk_vertices(c, sim, vertices);
+    walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)
@@ -179,15 +193,15 @@ static uint64_t hash(const unsigned char* bytes, size_t size)
 
 size_t hair_sim_save_size(struct hair_sim* sim)
 {
-    struct cursor c = {.host = &sim->gl->host, .at = HEADER};
-    walk(&c, sim, NULL);
+    struct cursor c = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
+    walk(&c, sim);
     return c.at + TRAILER;
 }
 
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
-    struct cursor c = {.host = &sim->gl->host, .write = bytes, .at = HEADER};
-    walk(&c, sim, NULL);
+    struct cursor c = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
+    walk(&c, sim);
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, VERSION);
     hair_write_u64(bytes + 12, c.at + TRAILER);
@@ -224,28 +238,28 @@ static hair_result check_solids(const hair_host* host, const struct hair_solids*
     return hair_solids_set(host, &checked, solids->before, solids->count_before, sizeof *solids->before);
 }
 
-// Into `sim`, which is a copy, and `vertices`.
-static hair_result read(const unsigned char* bytes, size_t size, struct hair_sim* sim, float* vertices)
+// Into `sim`, which is a copy, and c->own.
+static hair_result read(struct cursor* c, struct hair_sim* sim)
 {
-    const hair_host* host = &sim->gl->host;
-    struct cursor    c    = {.host = host, .read = bytes, .at = HEADER, .end = size - TRAILER};
-    walk(&c, sim, vertices);
-    if (!c.result && c.at != c.end)
-        c.result = hair_fail(host, HAIR_ERROR_FILE,
-                             "the fields of the saved state end at byte %zu, not at byte %zu", c.at, c.end);
-    return c.result ? c.result : check_solids(host, &sim->solids);
+    walk(c, sim);
+    if (!c->result && c->at != c->end)
+        c->result =
+            hair_fail(c->host, HAIR_ERROR_FILE,
+                      "the fields of the saved state end at byte %zu, not at byte %zu", c->at, c->end);
+    return c->result ? c->result : check_solids(c->host, &sim->solids);
 }
 
-// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has just
-// written.
-static hair_result upload(struct hair_sim* sim, const float* vertices)
+// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has
+// just written.
+static hair_result upload(const struct cursor* c)
 {
-    struct hair_gl* gl     = sim->gl;
-    GLuint          source = 0;
-    hair_result     result = hair_gl_buffer(gl, "hair loaded", state_size(sim), vertices, &source);
+    GLuint      source = 0;
+    hair_result result = hair_gl_buffer(c->gl, "hair loaded", c->end, c->own, &source);
     if (result) return result;
-    gl->CopyNamedBufferSubData(source, sim->state, 0, 0, (GLsizeiptr)state_size(sim));
-    hair_gl_free_buffer(gl, &source);
+    for (uint32_t i = 0; i < c->buffers; ++i)
+        c->gl->CopyNamedBufferSubData(source, c->buffer[i].buffer, (GLintptr)c->buffer[i].at, 0,
+                                      (GLsizeiptr)c->buffer[i].size);
+    hair_gl_free_buffer(c->gl, &source);
     return HAIR_OK;
 }
 
@@ -255,11 +269,12 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     struct hair_sim  loaded = *sim;
     hair_result      result = check_frame(host, bytes, size);
     if (result) return result;
-    float* vertices = hair_alloc(host, 1, state_size(sim));
-    if (!vertices) return hair_fail_memory(host, "the state to load");
-    result = read(bytes, size, &loaded, vertices);
-    if (!result) result = upload(sim, vertices);
-    hair_free(host, vertices);
+    struct cursor c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
+    c.own           = hair_alloc(host, 1, c.end);
+    if (!c.own) return hair_fail_memory(host, "the state to load");
+    result = read(&c, &loaded);
+    if (!result) result = upload(&c);
+    hair_free(host, c.own);
     if (result) return result;
     *sim = loaded;
     hair_sim_show(sim);
