@@ -37,7 +37,17 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_POSITION 3 // hair_vec4[] per smooth vertex: position from the head, length from the root
 #define HAIR_BIND_TANGENT 4  // hair_vec4[]     per smooth vertex: unit tangent, stretch of the segment
 #define HAIR_BIND_FRAME 5    // hair_vec4[]     per smooth vertex: unit quaternion, y along the strand
+// The solvers of rods read and write no smooth vertices; they have, in their place:
+#define HAIR_BIND_ROD 3      // hair_rod[]      per guide vertex, never written
+#define HAIR_BIND_HISTORY 4  // hair_history[]  per guide vertex
+#define HAIR_BIND_MATERIAL 5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
+#define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT]
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
+
+#define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
+#define HAIR_HEALTH_FOLLOW 1
+#define HAIR_HEALTH_RESET 2
+#define HAIR_HEALTH_COUNT 4
 
 // Uniform buffers.
 #define HAIR_BIND_STEP 0 // hair_step_params
@@ -97,17 +107,27 @@ HAIR_SIZE(hair_rod, 64)
 // A guide vertex in motion. Positions are from the head's origin, so that far from the world's origin floats
 // still resolve micrometres; the displacement is kept rather than differenced, for the same reason.
 struct hair_state {
-    hair_vec4 position;     // xyz: m, world axes, from the head's origin at the end of the substep
+    // xyz: m, world axes, from the head's origin at the end of the substep; w: of a guide's first vertex, how much
+    // of the past a solver knows: 0 nothing, it is at rest; 1 the displacement; 2 hair_history as well
+    hair_vec4 position;
     hair_vec4 displacement; // xyz: m, over the last substep, in the world
 };
 HAIR_SIZE(hair_state, 32)
+
+// What BDF2 knows of a guide vertex beside its state: displacements per substep that its velocities stand for.
+struct hair_history {
+    hair_vec4 rate;        // xyz: at the end of the last substep, m
+    hair_vec4 rate_before; // xyz: of the one before
+};
+HAIR_SIZE(hair_history, 32)
 
 // A sphere (both ends alike) or capsule, at the start and at the end of the step, from the head's origin.
 struct hair_capsule {
     hair_vec4 start[2]; // xyz: ends of the axis, m; w: radius, m
     hair_vec4 end[2];
+    hair_vec4 spin; // xyz: turn about its own axis (a sphere: any) over the step, radians
 };
-HAIR_SIZE(hair_capsule, 64)
+HAIR_SIZE(hair_capsule, 80)
 
 // One substep: where the head is at its end.
 struct hair_substep {
@@ -135,10 +155,20 @@ struct hair_step_params {
     hair_vec4 rotation_after;  // head at its end
     hair_vec4 rotation_now;
     hair_vec4 last_displacement; // xyz: of the head's origin over the last substep, m
+    // Of the solvers of rods.
+    hair_vec4 rotation_start; // head at the start of the first substep of this dispatch
+    hair_vec4 wind;           // xyz: velocity of the air, m/s
+    hair_vec4 ratio;          // of stiffness about the section's x axis, along it, and about z, to bending's
+    float     kick;           // h (1 - exp(-damping h)) / damping, s^2: displacement by an acceleration
+    float     damping;        // 1/s
+    float     friction;
+    float     share_start; // of the step done before this dispatch
+    float     rescale;     // of displacements, where the substep's length has changed; else 1
+    hair_uint unused0, unused1, unused2;
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
 };
-HAIR_SIZE(hair_step_params, 128 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 64)
+HAIR_SIZE(hair_step_params, 208 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 80)
 
 // A strand that is made while drawing. With t from 0 at its root to 1 at its tip, u = t length_ratio,
 // g_k(u) and F_k(u) position and frame of guide k, o(t) the cubic Bezier curve of `offset`:

@@ -1,4 +1,6 @@
 // workgroup.glsl - which work group this is, and where its threads meet.
+#ifndef HAIR_WORKGROUP_GLSL
+#define HAIR_WORKGROUP_GLSL
 
 // Number of this work group: dispatches have two dimensions, since one is promised only 65,535 groups.
 uint hair_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
@@ -10,3 +12,5 @@ void synchronise()
     memoryBarrierShared();
     barrier();
 }
+
+#endif

@@ -3,6 +3,9 @@
 #include "buffers.glsl"
 #include "rotation.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
+#ifdef HAIR_ROD
+#include "sim/rod_buffers.glsl"
+#endif
 
 void main()
 {
@@ -10,4 +13,8 @@ void main()
     if (i >= rest.length()) return;
     state[i].position     = vec4(rotate(params.rotation_now, rest[i].position.xyz), 0.0);
     state[i].displacement = vec4(0.0);
+#ifdef HAIR_ROD
+    material[i] = quat_multiply(params.rotation_now, rest[i].frame);
+    if (i < history.length()) history[i] = hair_history(vec4(0.0), vec4(0.0));
+#endif
 }

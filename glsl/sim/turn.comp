@@ -3,12 +3,22 @@
 #include "buffers.glsl"
 #include "rotation.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
+#ifdef HAIR_ROD
+#include "sim/rod_buffers.glsl"
+#endif
 
 void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     if (i >= state.length()) return;
-    vec4 turn             = quat_multiply(params.rotation_now, quat_conjugate(params.rotation_before));
-    state[i].position     = vec4(rotate(turn, state[i].position.xyz), 0.0);
-    state[i].displacement = vec4(rotate(turn, state[i].displacement.xyz), 0.0);
+    vec4 turn                 = quat_multiply(params.rotation_now, quat_conjugate(params.rotation_before));
+    state[i].position.xyz     = rotate(turn, state[i].position.xyz);
+    state[i].displacement.xyz = rotate(turn, state[i].displacement.xyz);
+#ifdef HAIR_ROD
+    material[i] = normalize(quat_multiply(turn, material[i]));
+    if (i < history.length()) {
+        history[i].rate.xyz        = rotate(turn, history[i].rate.xyz);
+        history[i].rate_before.xyz = rotate(turn, history[i].rate_before.xyz);
+    }
+#endif
 }

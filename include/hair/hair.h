@@ -127,8 +127,8 @@ typedef struct hair_groom_desc {
     const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
     hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
     uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 65535.
-    uint32_t           guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
-    uint32_t           follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
+    uint32_t        guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
+    uint32_t        follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
     float           clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
     const float*    scalp_positions;      ///< xyz per vertex, in the space of `positions`. NULL: no scalp.
     const uint32_t* scalp_triangles;      ///< Three indices each, counter-clockwise from outside.
@@ -186,20 +186,41 @@ HAIR_API hair_result hair_context_reload(hair_context* context);
 // Instance: [GL] --------------------------------------------------------------------------------------------
 
 typedef enum hair_solver {
-    HAIR_SOLVER_REDBLACK = 0 ///< Tariq 2010: Verlet, red/black constraints, `iterations` times.
+    HAIR_SOLVER_DIRECT = 0, ///< Second order, exact lengths, implicit bending. Robust; the default.
+    HAIR_SOLVER_ACCURATE,   ///< Second order without damping of its own, finer substeps: least error.
+    HAIR_SOLVER_FOLLOW,     ///< Follow the leader, one pass: cheapest. Never stretches, never converges.
+    HAIR_SOLVER_REDBLACK    ///< Tariq 2010: Verlet, red/black constraints, `iterations` times. Stretches.
 } hair_solver;
 
-/// How hair moves.
+typedef enum hair_root {
+    HAIR_ROOT_CLAMPED = 0, ///< Held by the scalp in place and direction.
+    HAIR_ROOT_HINGED,      ///< Held in place, free to turn.
+    HAIR_ROOT_FREE         ///< Held by nothing.
+} hair_root;
+
+/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, wind, friction.
 typedef struct hair_physics {
     hair_made made;
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
-    float     damping;    ///< Decay rate of velocity, the air being at rest. 1/s. [0, 1000]. Default 4.
+    float     damping;    ///< Decay rate of velocity relative to the air. 1/s. [0, 1000]. Default 4.
     float     pull_root;  ///< Pull to the rest pose near the root, as a frequency. Hz. [0, 30]. Default 4.
     float     pull_tip;   ///< The same at the tip; linear between. Hz. [0, 30]. Default 1.
     float     angular; ///< Angular force to the rest angle with the segment before. Hz. [0, 30]. Default 8.
     float     bend;    ///< Angular constraint: share removed by an iteration. [0, 1]. Default 0.1.
     uint32_t  iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
     float     margin;     ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
+    float     young;      ///< Young's modulus of a hair. Pa. [0, 1e12]. Default 4e9.
+    float     poisson;    ///< Poisson's ratio: how much softer twist is than bending. [0, 0.5]. Default 0.45.
+    float     fiber_radius;   ///< Of a section's circle of like area. m. [1e-6, 1e-3]. Default 4e-5.
+    float     fiber_density;  ///< kg/m^3. [1, 1e5]. Default 1300.
+    float     flatness;       ///< Short by long axis of its section. [0.03, 1]. Default 1.
+    float     stiffness_root; ///< Of bending and twist, as a multiple, at the root. [0, 1e4]. Default 1.
+    float     stiffness_tip;  ///< The same at the tip; linear between. [0, 1e4]. Default 1.
+    float     hold;     ///< Share of gravity that the rest shape bears: 1 keeps the groom. [0, 1]. Default 1.
+    hair_root root;     ///< Default HAIR_ROOT_CLAMPED.
+    float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
+    float     wind[3];  ///< Velocity of the air. m/s. [-1000, 1000]. Default 0.
+    float     friction; ///< Coulomb's coefficient with solids. [0, 10]. Default 0.3.
 } hair_physics;
 HAIR_DESC(hair_physics)
 
@@ -221,11 +242,18 @@ typedef struct hair_look {
 } hair_look;
 HAIR_DESC(hair_look)
 
+typedef enum hair_mapping {
+    HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
+    HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other.
+    HAIR_MAPPING_THREAD    ///< A thread per guide: fastest on software rasterisers.
+} hair_mapping;
+
 typedef struct hair_desc {
     hair_made           made;
     const char*         label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
-    hair_solver         solver;  ///< Default HAIR_SOLVER_REDBLACK.
-    float               substep; ///< Length of a substep. s. [1e-4, 0.1]. Default 1/120.
+    hair_solver         solver;  ///< Default HAIR_SOLVER_DIRECT.
+    float               substep; ///< Length of a substep. s. 0 (as the solver wants), [1e-5, 0.1]. Default 0.
+    hair_mapping        mapping; ///< Of guides to GPU threads. Default HAIR_MAPPING_AUTO.
     float               max_dt;  ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
     const hair_physics* physics; ///< NULL: the defaults.
     const hair_look*    look;    ///< NULL: the defaults.
@@ -327,6 +355,21 @@ typedef enum hair_read_what {
 /// Copy positions, xyz each, world, of at most `capacity` vertices. `count` becomes how many there are. Waits.
 HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity,
                                uint32_t* count);
+
+/// What went wrong since the instance was created, and how it was borne.
+typedef struct hair_health {
+    hair_made made;
+    uint32_t  euler;     ///< Times that a guide's substep was redone by implicit Euler.
+    uint32_t  follow;    ///< Times that it was redone by follow-the-leader after that.
+    uint32_t  reset;     ///< Times that a guide was put back in its rest pose: it was not finite.
+    uint32_t  stiffened; ///< Guides that could not hold their groom against gravity, as `hold` asks.
+    float     stiffest;  ///< Greatest multiple of their stiffness that they were given.
+    float     substep;   ///< Length of a substep. s.
+} hair_health;
+HAIR_DESC(hair_health)
+
+/// Waits for the GPU.
+HAIR_API hair_result hair_get_health(hair_instance* hair, hair_health* out);
 
 typedef struct hair_timing {
     const char* pass; ///< Static text: the shader's path under glsl/.

@@ -19,14 +19,28 @@ static hair_result check_transform(const hair_instance* hair, const char* name, 
     return HAIR_OK;
 }
 
+// `hold` may ask for more than hair can bear.
+static void tell_stiffened(hair_instance* hair)
+{
+    uint32_t guides   = 0;
+    float    stiffest = hair_sim_stiffest(&hair->sim, &guides);
+    if (guides)
+        hair_log(&hair->context->host, HAIR_LOG_INFO,
+                 "%s: %u of %u guides cannot hold their groom against gravity: stiffened up to %.3g times",
+                 hair->label, guides, hair->sim.guides, (double)stiffest);
+}
+
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
                         const hair_desc* desc)
 {
-    const hair_host* host = &context->host;
-    hair->context         = context;
-    hair->max_dt          = (double)desc->max_dt;
-    hair->sim.substep     = (double)desc->substep;
-    hair->sim.solver      = desc->solver;
+    const hair_host* host   = &context->host;
+    hair->context           = context;
+    hair->max_dt            = (double)desc->max_dt;
+    hair->sim.asked_substep = (double)desc->substep;
+    hair->sim.solver        = desc->solver;
+    hair->sim.by_thread =
+        desc->solver != HAIR_SOLVER_REDBLACK &&
+        (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
@@ -36,6 +50,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
 
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
+    if (!result) tell_stiffened(hair);
     if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
     if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
     if (!result) {
@@ -129,10 +144,10 @@ hair_result hair_step(hair_instance* hair, float dt)
         time             = hair->max_dt;
     }
     hair_gl_enter(&context->gl);
-    hair_sim_step(&hair->sim, time);
-    hair_smooth_run(&hair->smooth, &hair->sim);
+    result = hair_sim_step(&hair->sim, time);
+    if (!result) hair_smooth_run(&hair->smooth, &hair->sim);
     hair_gl_leave(&context->gl);
-    return HAIR_OK;
+    return result;
 }
 
 hair_result hair_reset(hair_instance* hair)

@@ -123,3 +123,13 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,
                        positions);
 }
+
+hair_result hair_get_health(hair_instance* hair, hair_health* out)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    hair_result result = hair_check_current(hair->context);
+    if (result) return result;
+    hair_health own = hair_health_default();
+    hair_sim_health(&hair->sim, &own);
+    return HAIR_GIVE(&hair->context->host, hair_health, &own, out);
+}

@@ -63,6 +63,25 @@ static void place(const hair_solid* solid, const struct hair_pose* head, hair_ve
     ends[1] = (hair_vec4){b.x, b.y, b.z, solid->size[0]};
 }
 
+// The turn from one pose of a solid to the next, as far as its capsule's ends do not show it.
+static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
+{
+    hair_quat a = hair_quat_normalize(
+        (hair_quat){from->rotation[0], from->rotation[1], from->rotation[2], from->rotation[3]});
+    hair_quat b =
+        hair_quat_normalize((hair_quat){to->rotation[0], to->rotation[1], to->rotation[2], to->rotation[3]});
+    hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
+    hair_vec3 v    = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
+    float     sine = hair_length(v);
+    float     angle = 2 * atan2f(sine, fabsf(turn.w));
+    hair_vec3 spin  = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
+    if (to->shape == HAIR_SHAPE_CAPSULE) {
+        hair_vec3 axis = hair_rotate(b, hair_v3(0, 1, 0));
+        spin           = hair_scale(axis, hair_dot(spin, axis));
+    }
+    return (hair_vec4){spin.x, spin.y, spin.z, 0};
+}
+
 uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, struct hair_capsule out[HAIR_MAX_SOLIDS])
 {
@@ -72,6 +91,7 @@ uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hai
         int               same = i < solids->count_before && solids->before[i].shape == now->shape;
         place(same ? &solids->before[i] : now, head_before, out[i].start);
         place(now, head_now, out[i].end);
+        out[i].spin = spin_between(same ? &solids->before[i] : now, now);
     }
     return solids->count;
 }

@@ -29,6 +29,9 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
         return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find gl" #name);
 #include "lib/gl/functions.inl"
 #undef FUNCTION
+    const char* renderer = (const char*)gl->GetString(GL_RENDERER);
+    gl->software         = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
+                                strstr(renderer, "SwiftShader"));
     return HAIR_OK;
 }
 

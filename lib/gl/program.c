@@ -83,7 +83,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     GLuint program = gl->CreateProgram();
     if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
     hair_result result      = HAIR_OK;
-    char        prefix[128] = "";
+    char        prefix[192] = "";
     size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
     for (const char* at = stages; *at && !result;) {
         char   word[64];

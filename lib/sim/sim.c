@@ -4,11 +4,23 @@
 #include <string.h>
 
 #define TWO_PI 6.28318530718f
-#define FARTHEST 1e4f // m in a substep: beyond it redblack.comp puts strands back in their rest pose
+#define REDBLACK_SUBSTEP (1.0 / 120)
+#define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
+#define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
+// In the order of passes.inl: four sizes, with solids, curved, by thread.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
-    return hair_gl_pass_for(HAIR_GL_REDBLACK_32, sim->most_vertices);
+    static const hair_gl_pass smallest[] = {
+        [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT_32,
+        [HAIR_SOLVER_ACCURATE] = HAIR_GL_ACCURATE_32,
+        [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW_32,
+        [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
+    };
+    hair_gl_pass pass = smallest[sim->solver];
+    int          kind = (sim->solids.count > 0) + 2 * hair_sim_is_curved(sim) + 4 * (sim->by_thread != 0);
+    if (sim->rods) pass += 4 * (hair_gl_pass)kind;
+    return hair_gl_pass_for(pass, sim->most_vertices);
 }
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
@@ -20,7 +32,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result result = hair_gl_need(gl, solver_pass(sim));
+    hair_result result = HAIR_OK;
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
                                  &sim->guide);
@@ -29,7 +41,13 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
-    return result;
+    sim->rescale = 1;
+    if (sim->solver == HAIR_SOLVER_REDBLACK) {
+        sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
+    } else if (!result) {
+        result = hair_sim_make_rods(sim, groom);
+    }
+    return result ? result : hair_gl_need(gl, solver_pass(sim));
 }
 
 void hair_sim_destroy(struct hair_sim* sim)
@@ -39,6 +57,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->rest);
     hair_gl_free_buffer(sim->gl, &sim->state);
     hair_gl_free_buffer(sim->gl, &sim->step);
+    hair_sim_free_rods(sim);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
@@ -76,6 +95,7 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     params->iterations      = physics->iterations;
     params->guides          = sim->guides;
     params->smooth_vertices = sim->smooth_vertices;
+    if (sim->rods) hair_sim_write_rods(sim, params);
 }
 
 // What smooth.comp needs to place the strands between the ends of the last substep, under the head's pose now.
@@ -119,9 +139,13 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
     params->substeps = count;
 }
 
-void hair_sim_step(struct hair_sim* sim, double dt)
+hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     struct hair_step_params params = {0};
+    hair_result             result = hair_sim_renew_rods(sim);
+    hair_gl_pass            pass   = solver_pass(sim);
+    if (!result) result = hair_gl_need(sim->gl, pass);
+    if (result) return result;
     write_physics(sim, &params);
     params.solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params.solid);
 
@@ -131,13 +155,21 @@ void hair_sim_step(struct hair_sim* sim, double dt)
     double first = sim->substep - sim->left;
     sim->left    = fmax(time - total * sim->substep, 0);
     hair_sim_bind(sim);
+    if (sim->rods) hair_sim_bind_rods(sim);
+    params.share_start = (float)fmax(-(sim->substep - first) / dt, -1);
     for (uint32_t done = 0; done < total;) {
-        uint32_t count = total - done < HAIR_STEP_SUBSTEPS ? total - done : HAIR_STEP_SUBSTEPS;
+        uint32_t count        = total - done < HAIR_STEP_SUBSTEPS ? total - done : HAIR_STEP_SUBSTEPS;
+        params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
-        hair_gl_run(sim->gl, solver_pass(sim), sim->guides);
+        uint32_t groups =
+            sim->by_thread ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
+        hair_gl_run(sim->gl, pass, groups);
         done += count;
+        params.share_start = params.substep[count - 1].displacement.w;
+        params.rescale     = 1;
+        sim->rescale       = 1;
     }
     if (total == 0) {
         write_now(sim, &params);
@@ -145,6 +177,7 @@ void hair_sim_step(struct hair_sim* sim, double dt)
     }
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
+    return HAIR_OK;
 }
 
 // Head and solids are where they are, and were never elsewhere.
@@ -155,11 +188,14 @@ static void settle(struct hair_sim* sim)
     hair_solids_settle(&sim->solids);
 }
 
-static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
+static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, hair_gl_pass rod_pass,
+                              const struct hair_step_params* params)
 {
     upload(sim, params);
     hair_sim_bind(sim);
-    hair_gl_run(sim->gl, pass, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    if (sim->rods) hair_sim_bind_rods(sim);
+    hair_gl_run(sim->gl, sim->rods ? rod_pass : pass,
+                (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
 void hair_sim_reset(struct hair_sim* sim)
@@ -168,7 +204,7 @@ void hair_sim_reset(struct hair_sim* sim)
     settle(sim);
     write_physics(sim, &params);
     write_now(sim, &params);
-    run_over_vertices(sim, HAIR_GL_RESET, &params);
+    run_over_vertices(sim, HAIR_GL_RESET, HAIR_GL_RESET_ROD, &params);
 }
 
 // The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
@@ -189,6 +225,6 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now    = vec4_of_quat(to->rotation);
-    run_over_vertices(sim, HAIR_GL_TURN, &params);
+    run_over_vertices(sim, HAIR_GL_TURN, HAIR_GL_TURN_ROD, &params);
     hair_sim_show(sim);
 }

@@ -6,21 +6,27 @@
 #include "lib/collide/solid.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/groom.h"
+#include "lib/sim/rod.h"
 
 struct hair_sim {
-    struct hair_gl*    gl;
-    hair_solver        solver;
-    hair_physics       physics;
-    double             substep;                  // s
-    GLuint             guide, rest, state, step; // buffers, as in shared.h
-    uint32_t           guides, guide_vertices, smooth_vertices;
-    uint32_t           most_vertices; // of a guide
-    uint32_t           layout;        // hash of how many vertices each guide has
-    double             left;          // s: since the end of the last substep, less than a substep
-    struct hair_pose   last_before;   // the head at the start of the last substep,
-    struct hair_pose   last_after;    // at its end,
-    struct hair_pose   at_step;       // at the last step, and
-    struct hair_pose   head;          // where it is to be at the next
+    struct hair_gl*   gl;
+    hair_solver       solver;
+    hair_physics      physics;
+    double            asked_substep;                  // s; 0: as the solver wants
+    double            substep;                        // s
+    GLuint            guide, rest, state, step;       // buffers, as in shared.h
+    GLuint            rod, history, material, health; // the same; 0 under redblack
+    struct hair_rods* rods;                           // under redblack NULL
+    int               by_thread;                      // a thread per guide, not a work group
+    double            rescale; // of displacements before the next substep, which is of another length: else 1
+    uint32_t          guides, guide_vertices, smooth_vertices;
+    uint32_t          most_vertices; // of a guide
+    uint32_t          layout;        // hash of how many vertices each guide has
+    double            left;          // s: since the end of the last substep, less than a substep
+    struct hair_pose  last_before;   // the head at the start of the last substep,
+    struct hair_pose  last_after;    // at its end,
+    struct hair_pose  at_step;       // at the last step, and
+    struct hair_pose  head;          // where it is to be at the next
     struct hair_solids solids;
 };
 
@@ -28,11 +34,21 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
 void        hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
-void hair_sim_step(struct hair_sim* sim, double dt);
-void hair_sim_reset(struct hair_sim* sim);                                // rest pose under sim->head
+hair_result hair_sim_step(struct hair_sim* sim, double dt);
+void        hair_sim_reset(struct hair_sim* sim);                         // rest pose under sim->head
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
 void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
 void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+
+// rods.c: what the solvers of rods need beside the state. `write` fills in their share of the parameters.
+hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
+hair_result hair_sim_renew_rods(struct hair_sim* sim); // if the physics have changed so
+void        hair_sim_free_rods(struct hair_sim* sim);
+void        hair_sim_bind_rods(struct hair_sim* sim);
+void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
+int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, or their sections are flat
+float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // and how many were stiffened
+void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
 
 // save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
 size_t hair_sim_save_size(struct hair_sim* sim);

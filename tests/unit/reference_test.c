@@ -209,7 +209,7 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
     struct fixture f  = straight_down(4, 0.01f);
     f.params.solids   = 1;
     f.params.margin   = 0.25f;
-    f.params.solid[0] = (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}};
+    f.params.solid[0] = (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
     f.params.substep[0].displacement.w = 0.5f; // half way: its axis is at x = 4
     double p[3 * 4]                    = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
     hair_reference_collide(whole(&f), 0, p);

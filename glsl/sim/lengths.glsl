@@ -1,0 +1,71 @@
+// lengths.glsl - rest lengths, exactly: Newton's method on all lengths of a strand at once, each step a tridiagonal
+// system (Han and Harada 2013), contact within it. The corrections of vertex i, wanted by the segments on both its
+// sides, pass its contact: that makes its inverse mass an operator.
+#include "sim/contact.glsl"
+
+// Which displacement is allowed of what is wanted; and how long that leaves the segments.
+void try_wanted(vec3 head_moved, uint slot)
+{
+    EACH(guide_count) {
+        vec4 freedom = vec4(0.0);
+        moved[i]     = own(wanted);
+        if (SOLIDS) {
+            if ((own(reachable).x | own(reachable).y) != 0u)
+                moved[i] = allowed(i, own(wanted), own(reachable), head_moved, freedom);
+            touch[i] = freedom;
+        }
+    }
+    MEET;
+    measure(slot);
+}
+
+vec3 direction_of(uint i, bool of_start) { return of_start ? lever[i] : edge[i]; }
+
+void correct_lengths(bool of_start)
+{
+    uint segments = guide_count - 1u;
+    EACH(segments) {
+        vec3  below = slack[i] * (SOLIDS ? pass_on(touch[i], edge[i]) : edge[i]);
+        vec3  above = slack[i + 1u] * (SOLIDS ? pass_on(touch[i + 1u], edge[i]) : edge[i]);
+        float b     = dot(below + above, direction_of(i, of_start));
+        row[i]     = vec4(i > 0u ? -dot(below, direction_of(i - 1u, of_start)) : 0.0, b,
+                          i + 1u < segments ? -dot(above, direction_of(i + 1u, of_start)) : 0.0,
+                          -own(excess));
+        if (b == 0.0) row[i] = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
+    }
+    MEET;
+    solve_rows(segments);
+    EACH(guide_count) {
+        if (i > 0u) own(wanted) += slack[i] * solution[i - 1u] * direction_of(i - 1u, of_start);
+        if (i + 1u < guide_count) own(wanted) -= slack[i] * solution[i] * direction_of(i, of_start);
+    }
+}
+
+// The worst relative error of length that is left, by its bits.
+uint fit_lengths(bool of_start, float tolerance, uint most, vec3 head_moved, inout uint slot)
+{
+    find_solids(head_moved);
+    for (uint n = 0u;; ++n) {
+        slot = slot == 2u ? 0u : slot + 1u;
+        try_wanted(head_moved, slot);
+        uint left = worst[slot];
+        if (left <= floatBitsToUint(tolerance) || left >= 0x7f800000u || n >= most) return left;
+        correct_lengths(of_start);
+    }
+}
+
+// Each segment drawn after the one above it (Müller et al. 2012). The leader's own place is right already.
+void follow_leader()
+{
+    MEET;
+    ONCE(1u) {
+        vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
+        for (uint k = 1u; k < guide_count; ++k) {
+            vec3  to = (place[k] - place[k - 1u]) + (moved[k] - moved[k - 1u]);
+            float l  = length(to);
+            if (bits_of(l) < 0x7f800000u && l > 1e-3 * rest_length[k - 1u]) last = to / l;
+            moved[k] = moved[k - 1u] + (place[k - 1u] - place[k]) + rest_length[k - 1u] * last;
+        }
+    }
+    MEET;
+}

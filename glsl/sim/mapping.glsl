@@ -1,0 +1,51 @@
+// mapping.glsl - one text for two ways to spread a guide over threads: a work group per guide and a thread per
+// vertex, or, with HAIR_THREAD_PER_GUIDE, a thread per guide that goes over its vertices.
+//
+//   EACH(n)  for the vertices i below n, in any order; between two of them MEET where one reads what the other
+//            wrote for another vertex
+//   SHARED   an array that all vertices of the guide see
+//   OWN      what only its vertex sees: a register, or an array; read as own(name)
+//   ONCE(n)  n jobs j that each go over the whole guide, as recurrences do
+#include "workgroup.glsl"
+
+#define MOST HAIR_GUIDE_THREADS // vertices
+
+// What a program leaves out. Constants, for software rasterisers run both sides of a branch.
+#ifdef HAIR_CURVED
+#define CURVED true
+#else
+#define CURVED false
+#endif
+#ifdef HAIR_SOLIDS
+#define SOLIDS true
+#else
+#define SOLIDS false
+#endif
+
+#ifdef HAIR_THREAD_PER_GUIDE
+
+#define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
+#define EACH(n) for (uint i = 0u; i < (n); ++i)
+#define ONCE(n) for (uint j = 0u; j < (n); ++j)
+#define SHARED(T, name) T name[MOST]
+#define OWN(T, name) T name[MOST]
+#define own(name) name[i]
+#define MEET
+uint worst[3];
+void raise(uint slot, uint bits) { worst[slot] = max(worst[slot], bits); }
+uint hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocationID.x; }
+
+#else
+
+#define GROUP_THREADS MOST
+#define EACH(n) for (uint i = gl_LocalInvocationID.x; i < (n); i += MOST)
+#define ONCE(n) for (uint j = gl_LocalInvocationID.x; j < (n); j += MOST)
+#define SHARED(T, name) shared T name[MOST]
+#define OWN(T, name) T name
+#define own(name) name
+#define MEET synchronise()
+shared uint worst[3];
+void raise(uint slot, uint bits) { atomicMax(worst[slot], bits); }
+uint hair_guide_number() { return hair_group(); }
+
+#endif

@@ -1,0 +1,88 @@
+// predict.glsl - where a substep would lead if lengths were free and no solid in the way. With v the velocity, c the
+// damping, u the wind, g the gravity, w the pull to the target t, f the bending force on the mass m:
+//
+//   dv/dt = g + f/m + w^2 (t - x) - c (v - u)
+//
+// All in displacements over a substep of length h. `wanted` is the answer.
+#include "sim/implicit.glsl"
+
+#define SHAKE 0  // leapfrog: Verlet's second order, damping exact; lengths corrected along the edges of the start
+#define BACK 1   // BDF2: second order, stable at any stiffness
+#define EULER 2  // implicit Euler: first order, more stable still
+#define LEADER 3 // the same, then follow the leader
+
+OWN(vec3, rate);        // h v at the end of the last substep,
+OWN(vec3, rate_before); // and of the one before
+OWN(vec4, aim);         // rest position from the root, in groom space; w^2
+float     known;     // 0: at rest, just begun; 1: `rate` is known; 2: `rate_before` too
+bool      stiff;     // SHAKE takes bending implicitly
+vec4      turn_then; // turn_now, of the substep before
+bool      edges_stand; // edge[] is of the substep's start already
+
+// The configuration whose bending acts, as a displacement from the start.
+vec3 offset_of(uint i, int method, vec3 last)
+{
+    if (slack[i] == 0.0) return method != SHAKE ? root_moved : stiff ? root_moved - last : vec3(0.0);
+    return method == BACK ? last / 3.0 : vec3(0.0);
+}
+
+// SHAKE: d' = keep d + kick (g + f/m), a force of the start; where bending is stiff, of the end as well:
+// (m + h^2 K) (d' - d) = m ((keep - 1) d + kick g) + kick f.
+void leap(uint i, vec3 force, vec3 wind, vec3 bending)
+{
+    float kick = params.kick * (known == 0.0 ? 0.5 : 1.0); // The first leap is half a step.
+    vec3  d    = own(displacement);
+    vec3  gain = (params.keep - 1.0) * (d - wind) + kick * force;
+    own(wanted) = d;
+    if (stiff) moved[i] = gain / slack[i] + kick * bending;
+    else own(wanted) += gain + kick * slack[i] * bending;
+}
+
+// x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
+// ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f), f of the end but for q.
+void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
+{
+    float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
+    vec3  hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : own(rate);
+    own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
+    moved[i]        = (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending;
+}
+
+void predict(int method, uint slot)
+{
+    bool now     = method != SHAKE || stiff; // forces are of the end
+    vec4 turn    = now ? turn_now : turn_then;
+    scalp        = quat_multiply(turn, guide[guide_number].root_frame);
+    if (now || !edges_stand) {
+        EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
+        MEET;
+        measure(slot);
+    }
+    find_bending();
+
+    vec3 wind = params.wind.xyz * params.gravity.w;
+    EACH(guide_count) {
+        own(wanted)  = root_moved;
+        vec3 bending = bending_force(i);
+        vec3 force   = params.gravity.xyz;
+        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (now ? root_moved - moved[i] : vec3(0.0)) - place[i]);
+        moved[i] = vec3(0.0);
+        if (slack[i] > 0.0) {
+            if (method == SHAKE) leap(i, force, wind, bending);
+            else step_back(i, method == BACK, force, wind, bending);
+        }
+    }
+    MEET;
+    if (CURVED) relax_twist();
+    if (method == SHAKE) {
+        EACH(guide_count - 1u) { lever[i] = edge[i]; }
+        MEET;
+    }
+    if (now) {
+        solve_implicit(method >= EULER);
+        EACH(guide_count) {
+            if (slack[i] > 0.0) own(wanted) += moved[i];
+        }
+        MEET;
+    }
+}

@@ -1,0 +1,157 @@
+// rod.comp - the solvers of an inextensible rod: all substeps of a step for every guide.
+//
+// HAIR_SOLVER names the method that is tried first. A substep that it leaves stretched or not finite is done again
+// by implicit Euler, and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes
+// back to its rest pose. What this takes is counted in health[].
+#version 450 core
+#include "sim/rod.glsl"
+layout(local_size_x = GROUP_THREADS) in;
+#include "sim/bending.glsl"
+#include "sim/predict.glsl"
+#include "sim/lengths.glsl"
+
+#define TOO_LONG 0.01   // relative error of length at which a method has failed
+#define FARTHEST 1e4    // m from the head's origin, or in a substep: no hair is there
+
+vec3 root_at_rest, root_then;
+
+void load()
+{
+    float rescale = params.rescale;
+    EACH(guide_count) {
+        uint      at         = guide_first + i;
+        vec3      from_root  = rest[at].position.xyz - root_at_rest;
+        float     share      = float(i) / float(guide_count - 1u);
+        place[i]             = state[at].position.xyz - root_then;
+        own(displacement)    = state[at].displacement.xyz * rescale;
+        rest_length[i]       = rod[at].segment.x;
+        slack[i]             = rod[at].segment.y;
+        own(aim)             = vec4(from_root, rod[at].segment.z);
+        own(strain)          = rod[at].strain;
+        if (CURVED) own(section) = material[at];
+#if HAIR_SOLVER != SHAKE
+        own(rate)            = history[at].rate.xyz * rescale;
+        own(rate_before)     = history[at].rate_before.xyz * rescale;
+#endif
+        if (i == 0u) worst[0] = worst[1] = worst[2] = 0u;
+    }
+    known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+    stiff = rod[guide_first].segment.w != 0.0;
+    MEET;
+}
+
+void store()
+{
+    EACH(guide_count) {
+        uint at                = guide_first + i;
+        state[at].position     = vec4(root_now + place[i], known);
+        state[at].displacement = vec4(own(displacement), 0.0);
+        if (CURVED) material[at] = own(section);
+#if HAIR_SOLVER != SHAKE
+        history[at].rate        = vec4(own(rate), 0.0);
+        history[at].rate_before = vec4(own(rate_before), 0.0);
+#endif
+    }
+}
+
+void count_in(uint what)
+{
+#ifdef HAIR_THREAD_PER_GUIDE
+    atomicAdd(health[what], 1u);
+#else
+    if (gl_LocalInvocationID.x == 0u) atomicAdd(health[what], 1u);
+#endif
+}
+
+// Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
+// finite then, or beyond any hair, goes back to its rest pose, and along with the head.
+void accept(int method, vec3 head_moved, uint slot)
+{
+    float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+    EACH(guide_count) {
+        vec3 d = moved[i];
+        place[i] += d - root_moved;
+#if HAIR_SOLVER != SHAKE
+        own(rate_before) = own(rate);
+        own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : d;
+        if (method == LEADER) { // What was drawn along may not keep that speed.
+            vec3  relative = d - root_moved;
+            float speed    = length(relative);
+            own(rate)      = root_moved + relative * (speed > fastest ? fastest / speed : 1.0);
+        }
+        if (SOLIDS && touch[i].w != FREE) own(rate) = own(rate_before) = d; // An impact ends what was.
+#endif
+        own(displacement) = d;
+        vec3 from_head    = root_now + place[i];
+        raise(slot, max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))));
+        if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u;
+    }
+    known       = method == BACK || method == EULER ? 2.0 : 1.0;
+    edges_stand = method == SHAKE;
+    MEET;
+    if (worst[slot] <= floatBitsToUint(FARTHEST * FARTHEST)) return;
+
+    vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
+    EACH(guide_count) {
+        place[i]          = rotate(turn_now, own(aim).xyz);
+        own(displacement) = still;
+        if (CURVED) own(section) = quat_multiply(turn_now, rest[guide_first + i].frame);
+#if HAIR_SOLVER != SHAKE
+        own(rate) = own(rate_before) = still;
+#endif
+    }
+    known       = 1.0;
+    edges_stand = false;
+    count_in(HAIR_HEALTH_RESET);
+    MEET;
+}
+
+void main()
+{
+    guide_number = hair_guide_number();
+    if (guide_number >= params.guides) return;
+    guide_first  = guide[guide_number].first;
+    guide_count  = guide[guide_number].count;
+    guide_length = guide[guide_number].arc_length;
+    root_at_rest = rest[guide_first].position.xyz;
+    turn_now     = params.rotation_start;
+    root_then    = rotate(turn_now, root_at_rest);
+    root_now     = root_then;
+    share_now    = params.share_start;
+    load();
+
+    uint slot   = 0u;
+    edges_stand = false;
+    for (uint s = 0u; s < params.substeps; ++s) {
+        vec3 head_moved = params.substep[s].displacement.xyz;
+        turn_then       = turn_now;
+        turn_now        = params.substep[s].rotation;
+        root_then       = root_now;
+        root_now        = rotate(turn_now, root_at_rest);
+        root_moved      = root_now - root_then + head_moved;
+        share_then      = share_now;
+        share_now       = params.substep[s].displacement.w;
+
+        int method = HAIR_SOLVER == BACK && known < 2.0 ? EULER : HAIR_SOLVER;
+        for (;; ++method) {
+            slot = slot == 2u ? 0u : slot + 1u;
+            predict(method, slot);
+            if (method == LEADER) {
+                EACH(guide_count) {
+                    moved[i] = own(wanted);
+                    if (SOLIDS) touch[i] = vec4(0.0);
+                }
+                follow_leader();
+                break;
+            }
+            uint left = fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, 8u, head_moved, slot);
+            if (left <= floatBitsToUint(TOO_LONG)) break;
+            edges_stand = false;
+            if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
+            count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
+        }
+        slot = slot == 2u ? 0u : slot + 1u;
+        accept(method, head_moved, slot);
+    }
+    store();
+}

@@ -1,0 +1,44 @@
+// rod.glsl - a guide as an inextensible rod: what its solvers keep of it, and how they measure it.
+//
+// Positions are from the guide's root, where the scalp has it at the start of a substep; displacements are in the
+// world, over the substep. After it x' = x + displacement - root_moved.
+#include "buffers.glsl"
+#include "rotation.glsl"
+#include "sim/rod_buffers.glsl"
+#include "sim/mapping.glsl"
+#include "sim/tridiagonal.glsl"
+
+SHARED(vec3, place);        // at the start of the substep
+SHARED(vec3, moved);        // displacement that is tried
+SHARED(vec3, edge);         // unit, of segment i, where `moved` leads
+SHARED(vec3, lever);        // bending: what a hinge does; then: directions in which lengths are corrected
+SHARED(float, rest_length); // of segment i; 0 for the tip
+SHARED(float, slack);       // 1 / mass; 0: held
+OWN(vec3, wanted);          // displacement if no solid were in the way
+OWN(vec3, displacement);    // over the last substep
+OWN(float, excess);         // of length, of segment i
+
+// The guide, the same for all its vertices.
+uint  guide_number, guide_first, guide_count;
+float guide_length;
+vec3 root_now;   // from the head's origin, at the end of the substep
+vec3 root_moved; // over it
+vec4 turn_now;   // of the head
+vec4 scalp;      // frame that clamps the first segment
+
+// By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
+uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
+
+// Unit edges where `moved` leads; the greatest relative error of length is raised into worst[slot].
+void measure(uint slot)
+{
+    EACH(guide_count - 1u) {
+        vec3  to = (place[i + 1u] - place[i]) + (moved[i + 1u] - moved[i]);
+        float l  = length(to);
+        edge[i]     = to / l;
+        own(excess) = l - rest_length[i];
+        raise(slot, bits_of(own(excess) / rest_length[i]));
+        if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u; // For the next.
+    }
+    MEET;
+}

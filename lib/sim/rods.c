@@ -1,0 +1,146 @@
+// rods.c - guides as rods on the GPU: made of the groom and the physics, and again when the physics change.
+#include "lib/sim/sim.h"
+
+#include <string.h>
+
+struct hair_rods {
+    struct hair_guide*      guides; // copies: the groom may be gone when physics change
+    struct hair_rest*       rest;
+    hair_physics            made_for;
+    struct hair_rods_report report;
+    int                     curved;
+};
+
+// Below this, radians at a vertex, a strand is straight: what rounding leaves of one in any direction.
+#define STRAIGHT 5e-5f
+
+static int is_curved(const struct hair_rod* rod, uint32_t vertices, const hair_physics* physics)
+{
+    if (physics->flatness < 1) return 1;
+    for (uint32_t i = 0; i < vertices; ++i) {
+        hair_vec3 strain = {rod[i].strain.x, rod[i].strain.y, rod[i].strain.z};
+        if (hair_dot(strain, strain) > STRAIGHT * STRAIGHT) return 1;
+    }
+    return 0;
+}
+
+// All that depends on physics, in a new buffer: what is under way keeps the old one.
+static hair_result make(struct hair_sim* sim)
+{
+    const hair_host*  host    = &sim->gl->host;
+    struct hair_rods* rods    = sim->rods;
+    double            substep = sim->asked_substep;
+    struct hair_rod*  rod     = hair_alloc(host, sim->guide_vertices, sizeof *rod);
+    if (!rod) return hair_fail_memory(host, "the guides as rods");
+    if (substep == 0)
+        substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver);
+    hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
+                    &rods->report);
+    GLuint      buffer = 0;
+    hair_result result =
+        hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
+    if (!result) {
+        hair_gl_free_buffer(sim->gl, &sim->rod);
+        sim->rod       = buffer;
+        rods->made_for = sim->physics;
+        rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
+        if (sim->substep > 0) sim->rescale *= substep / sim->substep;
+        sim->substep = substep;
+        sim->left    = fmin(sim->left, substep);
+    }
+    hair_free(host, rod);
+    return result;
+}
+
+static hair_result make_buffers(struct hair_sim* sim)
+{
+    size_t      vertices = sim->guide_vertices;
+    hair_result result   = HAIR_OK;
+    // SHAKE keeps no past beyond the state.
+    size_t history = sim->solver == HAIR_SOLVER_ACCURATE ? 0 : vertices * sizeof(struct hair_history);
+    result         = hair_gl_storage(sim->gl, "hair history", history, NULL, &sim->history);
+    if (!result)
+        result =
+            hair_gl_storage(sim->gl, "hair material", vertices * sizeof(hair_vec4), NULL, &sim->material);
+    if (!result)
+        result =
+            hair_gl_storage(sim->gl, "hair health", HAIR_HEALTH_COUNT * sizeof(uint32_t), NULL, &sim->health);
+    return result;
+}
+
+hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom)
+{
+    const hair_host* host = &sim->gl->host;
+    sim->rods             = hair_alloc(host, 1, sizeof *sim->rods);
+    if (!sim->rods) return hair_fail_memory(host, "the guides as rods");
+    struct hair_rods* rods = sim->rods;
+    rods->guides           = hair_alloc(host, sim->guides, sizeof *rods->guides);
+    rods->rest             = hair_alloc(host, sim->guide_vertices, sizeof *rods->rest);
+    if (!rods->guides || !rods->rest) return hair_fail_memory(host, "the guides as rods");
+    memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
+    memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
+    hair_result result = make_buffers(sim);
+    return result ? result : make(sim);
+}
+
+hair_result hair_sim_renew_rods(struct hair_sim* sim)
+{
+    if (!sim->rods || !hair_rods_differ(&sim->rods->made_for, &sim->physics)) return HAIR_OK;
+    return make(sim);
+}
+
+void hair_sim_free_rods(struct hair_sim* sim)
+{
+    if (!sim->rods) return;
+    const hair_host* host = &sim->gl->host;
+    hair_gl_free_buffer(sim->gl, &sim->rod);
+    hair_gl_free_buffer(sim->gl, &sim->history);
+    hair_gl_free_buffer(sim->gl, &sim->material);
+    hair_gl_free_buffer(sim->gl, &sim->health);
+    hair_free(host, sim->rods->guides);
+    hair_free(host, sim->rods->rest);
+    hair_free(host, sim->rods);
+}
+
+void hair_sim_bind_rods(struct hair_sim* sim)
+{
+    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health};
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 4, storage);
+}
+
+void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
+{
+    const hair_physics* physics = &sim->physics;
+    double              h = sim->substep, c = (double)physics->damping;
+    double              ratio[3];
+    hair_rods_ratios(physics, ratio);
+    params->wind     = (hair_vec4){physics->wind[0], physics->wind[1], physics->wind[2], 0};
+    params->ratio    = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
+    params->kick     = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
+    params->damping  = physics->damping;
+    params->friction = physics->friction;
+    params->rescale  = (float)sim->rescale;
+}
+
+int hair_sim_is_curved(const struct hair_sim* sim)
+{
+    return sim->rods && sim->rods->curved;
+}
+
+float hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides)
+{
+    *guides = sim->rods ? sim->rods->report.stiffened : 0;
+    return *guides ? sim->rods->report.stiffest : 1;
+}
+
+void hair_sim_health(struct hair_sim* sim, hair_health* health)
+{
+    uint32_t count[HAIR_HEALTH_COUNT] = {0};
+    health->substep                   = (float)sim->substep;
+    if (!sim->rods) return;
+    sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
+    health->euler    = count[HAIR_HEALTH_EULER];
+    health->follow   = count[HAIR_HEALTH_FOLLOW];
+    health->reset    = count[HAIR_HEALTH_RESET];
+    health->stiffest = hair_sim_stiffest(sim, &health->stiffened);
+}
