@@ -1,0 +1,194 @@
+// rod.c - rods as the shaders read them: rest strain, masses, and the factors of the implicit systems.
+//
+// Taken implicitly, the bending of vertex i is that of a round, straight strand, at least as stiff: energy k/2 |row
+// x|^2 with row = (1/l_(i-1), -1/l_(i-1) - 1/l_i, 1/l_i) of the vertices i-1, i, i+1; at the root (-1/l_0, 1/l_0).
+// K sums these; the systems are diag(m_i A_i) + b^2 K, five diagonals, symmetric and positive:
+//
+//   BDF2 and implicit Euler   b = 2/3 h, h   A_i = 1 + c b + w_i^2 b^2   of damping c and pull w_i
+//   implicit leapfrog         b = h          A_i = 1
+#include "lib/sim/rod_shape.h"
+
+#define TWO_PI 6.283185307179586
+#define FRAME (1.0 / 60)  // s
+#define FEWEST_A_FRAME 16 // substeps of the accurate solver
+#define MOST_A_FRAME 64   // that one guide can ask for all
+#define MOST_STIFF 1e6    // h^2 K_ii / m_i.
+
+struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
+    double x, y, z;
+};
+
+static double implicit_ratio(const struct hair_rod_shape* s)
+{
+    return fmax(s->ratio[0], s->ratio[2]);
+}
+
+// Row of vertex i, by the vertices before, at and after it.
+static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
+{
+    double before = i > 0 ? 1 / s->length[i - 1] : 0, after = 1 / s->length[i];
+    return (hair_dvec3){before, -before - after, after};
+}
+
+// Greatest stiffness at vertex i for which a substep of length h can still be solved in single precision.
+static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
+{
+    hair_dvec3 row   = row_of(s, i);
+    double     after = row.z * row.z / s->mass[i + 1], most = after;
+    if (i > 0) most = fmax(most, row.y * row.y / s->mass[i]);
+    if (i > 1 || (i == 1 && !s->held)) most = fmax(most, row.x * row.x / s->mass[i - 1]);
+    return MOST_STIFF / (h * h * most * implicit_ratio(s));
+}
+
+static void add_row(struct band* k, uint32_t i, hair_dvec3 row, double stiffness)
+{
+    if (i > 0) {
+        k[i - 1].x += stiffness * row.x * row.x;
+        k[i - 1].y += stiffness * row.x * row.y;
+        k[i - 1].z += stiffness * row.x * row.z;
+    }
+    k[i].x += stiffness * row.y * row.y;
+    k[i].y += stiffness * row.y * row.z;
+    k[i + 1].x += stiffness * row.z * row.z;
+}
+
+static void find_bands(const struct hair_rod_shape* s, const double* stiffness, struct band* k)
+{
+    double ratio = implicit_ratio(s);
+    for (uint32_t i = 0; i < s->count; ++i) k[i] = (struct band){0, 0, 0};
+    for (uint32_t i = 0; i + 1 < s->count; ++i) add_row(k, i, row_of(s, i), ratio * stiffness[i]);
+    // A root that is held moves by no force: what it does is known.
+    if (s->held) k[0] = (struct band){0, 0, 0};
+}
+
+// The highest frequency of bending, squared, is at most this: the greatest sum of a row of m^(-1/2) K m^(-1/2).
+static double most_frequency_squared(const struct hair_rod_shape* s, const struct band* k)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < s->count; ++i) {
+        double sum = k[i].x / sqrt(s->mass[i]);
+        if (i > 0) sum += fabs(k[i - 1].y) / sqrt(s->mass[i - 1]);
+        if (i > 1) sum += fabs(k[i - 2].z) / sqrt(s->mass[i - 2]);
+        if (i + 1 < s->count) sum += fabs(k[i].y) / sqrt(s->mass[i + 1]);
+        if (i + 2 < s->count) sum += fabs(k[i].z) / sqrt(s->mass[i + 2]);
+        most = fmax(most, sum / sqrt(s->mass[i]));
+    }
+    return most;
+}
+
+// Leapfrog is stable below 2 / w; that far with a margin, since curved strands are stiffer against their lengths.
+static double longest_explicit(const struct hair_rod_shape* s, const struct band* k)
+{
+    double most = most_frequency_squared(s, k);
+    return most > 0 ? 2 / (1.15 * sqrt(most)) : INFINITY;
+}
+
+// The rows of L D L^T above the next: the last, and the one before it. x: D, y: L(i+1,i), z: L(i+2,i).
+struct rows {
+    struct band one, two;
+};
+
+static hair_vec4 eliminate(struct rows* above, double diagonal, struct band beside, double b2)
+{
+    struct band one = above->one, two = above->two, row = {diagonal, b2 * beside.y, b2 * beside.z};
+    row.x += b2 * beside.x - one.x * one.y * one.y - two.x * two.z * two.z;
+    row.y  = (row.y - one.x * one.y * one.z) / row.x;
+    row.z  = row.z / row.x;
+    *above = (struct rows){row, one};
+    return (hair_vec4){(float)(1 / row.x), (float)row.y, (float)row.z, 0};
+}
+
+static double pull_squared(const hair_physics* physics, double share)
+{
+    double root = (double)physics->pull_root, frequency = root + share * ((double)physics->pull_tip - root);
+    return TWO_PI * TWO_PI * frequency * frequency;
+}
+
+static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double stiffness)
+{
+    if (i + 1 == s->count) return (hair_vec4){0, 0, 0, 0};
+    hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
+    if ((float)stiffness > 0) {
+        hair_dvec3 excess = hair_rod_excess(s, i, stiffness);
+        double     size   = hair_dlength(excess);
+        strain = hair_dadd(strain, hair_dscale(excess, -fmin(1, HAIR_ROD_MOST_STRAIN / fmax(size, 1e-30))));
+    }
+    return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
+}
+
+static void write_guide(const struct hair_rod_shape* s, double stiffen, const hair_physics* physics,
+                        hair_solver solver, double h, struct hair_rod* out)
+{
+    struct band k[HAIR_MAX_GUIDE_VERTICES];
+    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        stiffness[i] = fmin(hair_rod_stiffness(s, i, stiffen), most_stiffness(s, i, h));
+    find_bands(s, stiffness, k);
+    int    leapfrog = solver == HAIR_SOLVER_ACCURATE, direct = solver == HAIR_SOLVER_DIRECT;
+    int    implicit = leapfrog && longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
+    double damping = (double)physics->damping, b = direct ? 2 * h / 3 : h;
+
+    struct rows own = {0}, euler = {0};
+    for (uint32_t i = 0; i < s->count; ++i) {
+        int    fixed = i == 0 && s->held;
+        double pull  = pull_squared(physics, (double)i / (s->count - 1));
+        double of_b  = fixed ? 1 : s->mass[i] * (leapfrog ? 1 : 1 + damping * b + pull * b * b);
+        double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
+        out[i]       = (struct hair_rod){.strain  = rest_strain(s, i, stiffness[i]),
+                                         .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
+                                                     (float)pull, (float)implicit}};
+        if (direct || implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
+        out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
+    }
+}
+
+void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                     const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
+                     struct hair_rods_report* report)
+{
+    *report = (struct hair_rods_report){0, 1};
+    for (uint32_t i = 0; i < count; ++i) {
+        struct hair_rod_shape shape;
+        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
+        double stiffen = hair_rod_stiffen(&shape);
+        if (stiffen > 1) ++report->stiffened;
+        if (stiffen > (double)report->stiffest) report->stiffest = (float)stiffen;
+        write_guide(&shape, stiffen, physics, solver, substep, out + guides[i].first);
+    }
+}
+
+// Of one guide, in substeps a frame.
+static double least_explicit(const struct hair_rod_shape* s)
+{
+    struct band k[HAIR_MAX_GUIDE_VERTICES];
+    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, stiffen = hair_rod_stiffen(s);
+    for (uint32_t i = 0; i + 1 < s->count; ++i) stiffness[i] = hair_rod_stiffness(s, i, stiffen);
+    find_bands(s, stiffness, k);
+    return ceil(FRAME / longest_explicit(s, k));
+}
+
+double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                         const hair_physics* physics, hair_solver solver)
+{
+    if (solver == HAIR_SOLVER_DIRECT) return FRAME / 4;
+    if (solver != HAIR_SOLVER_ACCURATE) return FRAME / 2;
+    double most = FEWEST_A_FRAME;
+    for (uint32_t i = 0; i < count; ++i) {
+        struct hair_rod_shape shape;
+        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
+        double own = least_explicit(&shape);
+        if (own <= MOST_A_FRAME) most = fmax(most, own);
+    }
+    return FRAME / most;
+}
+
+int hair_rods_differ(const hair_physics* a, const hair_physics* b)
+{
+    for (int k = 0; k < 3; ++k)
+        if (a->gravity[k] != b->gravity[k]) return 1;
+    return a->damping != b->damping || a->pull_root != b->pull_root || a->pull_tip != b->pull_tip ||
+           a->young != b->young || a->poisson != b->poisson || a->fiber_radius != b->fiber_radius ||
+           a->fiber_density != b->fiber_density || a->flatness != b->flatness ||
+           a->stiffness_root != b->stiffness_root || a->stiffness_tip != b->stiffness_tip ||
+           a->hold != b->hold || a->root != b->root || a->tip_mass != b->tip_mass;
+}

@@ -1,0 +1,42 @@
+// rod.h - guides as rods: what the solvers of Kirchhoff's equations need to know of each vertex. No OpenGL.
+//
+// Everything is divided by the mass of a metre of hair, so that masses are lengths; arithmetic is in double. With
+// u_i = 2 Im(conj(q_(i-1)) q_i), q_i the frame of the segment after vertex i (of the scalp at i = -1), real part
+// positive, the energy of vertex i is
+//
+//   strain.w / 2 ((u - strain) . R (u - strain)),   R = diag(ratio)
+#ifndef HAIR_SIM_ROD_H
+#define HAIR_SIM_ROD_H
+
+#include <hair/hair.h>
+
+#include "glsl/shared.h"
+
+// R: bending about the frame's x, twist, bending about its z, all relative to bending of a round section of like
+// area. The section's long axis is x: about it it bends easily.
+void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
+
+struct hair_rods_report {
+    uint32_t stiffened; // guides
+    float    stiffest;  // greatest multiple; 1 when there are none
+};
+
+// One hair_rod per guide vertex, for substeps of that length.
+//
+// From a clamped root the rest strain bears `hold` of gravity: with 1 the groom is in equilibrium. Too soft a strand
+// would buckle out of it even so. Such a guide is made stiffer by the least multiple, up to 1e4, with which the
+// equilibrium is stable, with a margin of 5 % of gravity, and no vertex has a rest strain further than 0.5 from the
+// groom's own. What then still is further, or where there is no stiffness, is cut to that and does not hold.
+void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                     const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
+                     struct hair_rods_report* report);
+
+// The substep that a solver wants. s. Of accurate: 1/960, or as much shorter as bending needs to be stable without
+// being implicit, down to 1/3840; guides that need still shorter ones are left to be implicit.
+double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                         const hair_physics* physics, hair_solver solver);
+
+// Whether rods for `a` are others than for `b`.
+int hair_rods_differ(const hair_physics* a, const hair_physics* b);
+
+#endif

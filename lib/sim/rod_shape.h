@@ -1,0 +1,89 @@
+// rod_shape.h - one guide as a rod, in double precision: what the files of rod.h share.
+#ifndef HAIR_SIM_ROD_SHAPE_H
+#define HAIR_SIM_ROD_SHAPE_H
+
+#include "lib/sim/rod.h"
+
+#include <math.h>
+
+// Components x, y, z; of quaternions w after them.
+typedef struct hair_dvec3 {
+    double x, y, z;
+} hair_dvec3;
+typedef struct hair_dquat {
+    double x, y, z, w;
+} hair_dquat;
+
+static inline hair_dvec3 hair_dload(const float* p)
+{
+    return (hair_dvec3){(double)p[0], (double)p[1], (double)p[2]};
+}
+static inline hair_dvec3 hair_dadd(hair_dvec3 a, hair_dvec3 b)
+{
+    return (hair_dvec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline hair_dvec3 hair_dscale(hair_dvec3 a, double s)
+{
+    return (hair_dvec3){a.x * s, a.y * s, a.z * s};
+}
+static inline double hair_ddot(hair_dvec3 a, hair_dvec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline double hair_dlength(hair_dvec3 a)
+{
+    return sqrt(hair_ddot(a, a));
+}
+static inline hair_dvec3 hair_dcross(hair_dvec3 a, hair_dvec3 b)
+{
+    return (hair_dvec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline hair_dquat hair_dconjugate(hair_dquat q)
+{
+    return (hair_dquat){-q.x, -q.y, -q.z, q.w};
+}
+static inline hair_dquat hair_dmultiply(hair_dquat a, hair_dquat b)
+{
+    return (hair_dquat){
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+        a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+static inline hair_dvec3 hair_drotate(hair_dquat q, hair_dvec3 v)
+{
+    hair_dvec3 u = {q.x, q.y, q.z};
+    hair_dvec3 t = hair_dscale(hair_dcross(u, v), 2);
+    return hair_dadd(v, hair_dadd(hair_dscale(t, q.w), hair_dcross(u, t)));
+}
+
+struct hair_rod_shape {
+    double     ratio[3];
+    uint32_t   count;                           // of vertices
+    int        clamped, held;                   // at the root
+    double     weight;                          // of all but the root vertex
+    double     length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
+    double     mass[HAIR_MAX_GUIDE_VERTICES];
+    double     bend[HAIR_MAX_GUIDE_VERTICES];  // bending stiffness at vertex i, not stiffened
+    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // of segment i
+    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];  // from the frame of segment i-1 to that of i, w >= 0
+    // What gravity, as far as the rest strain is to bear it, does to the groom's own shape:
+    hair_dvec3 force[HAIR_MAX_GUIDE_VERTICES];  // on all beyond segment i, as its frame sees it
+    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of the energy of vertex i by its strain
+};
+
+// `rest` is that of the guide.
+void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
+                       const hair_physics* physics, struct hair_rod_shape* out);
+
+// Bending stiffness over the length it is for, with the whole guide `stiffen` times as stiff. 0 where vertex i
+// resists nothing.
+double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i, double stiffen);
+
+// From the rest strain that bears the stress to the strain of the groom, at a vertex of that stiffness, not 0.
+#define HAIR_ROD_MOST_STRAIN 0.5
+hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness);
+
+// hold.c: the least multiple of the stiffness with which the groom's shape is stable and the strain within the most.
+#define HAIR_ROD_MOST_STIFFEN 1e4
+double hair_rod_stiffen(const struct hair_rod_shape* shape);
+
+#endif
