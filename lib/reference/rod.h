@@ -2,16 +2,17 @@
 /// the solvers are compared with.
 ///
 /// Vertices 0 (root) to N-1 (tip); segment j, of fixed length l_j, from vertex j to j+1, with a frame q_j
-/// whose y is along it. A joint i, 0 to N-2, lies at vertex i, between segments i-1 and i; at joint 0 the scalp is
-/// segment -1, with the root frame. With (w, v) = conj(q_{i-1}) q_i, sign chosen so that w >= 0, the strain of
+/// whose y is along it. A joint i, 0 to N-2, lies at vertex i, between segments i-1 and i; at joint 0 the
+/// scalp is segment -1, with the root frame. With (w, v) = conj(q_{i-1}) q_i, sign chosen so that w >= 0, the strain of
 /// a joint is u = 2 v: by length 2 sin(half the angle), whose energy with rest strain U is
 ///
 ///   1 / (2 l_i) [B1 (u - U)_x^2 + C (u - U)_y^2 + B2 (u - U)_z^2],  l_i = (l_{i-1} + l_i) / 2,
 ///
-/// at the clamp 1 / (2 l_0) [k1 B1 (..)_x^2 + 2 C (..)_y^2 + k2 B2 (..)_z^2] with k of hair_reference_rod_clamp_factor().
-/// The angles of the frames about their segments have no inertia: they minimise the energy at every moment.
+/// at the clamp 1 / (2 l_0) [k1 B1 (..)_x^2 + 2 C (..)_y^2 + k2 B2 (..)_z^2], k1 and k2 being of
+/// hair_reference_rod_clamp_factor(). The angles of the frames about their segments have no inertia: they
+/// minimise the energy at every moment.
 ///
-/// Vectors are xyz, quaternions xyzw; SI units. Positions are in the world unless said to be in the head's frame.
+/// Vectors are xyz, quaternions xyzw; SI units. Positions are in the world where not in the head's frame.
 #ifndef HAIR_REFERENCE_ROD_H
 #define HAIR_REFERENCE_ROD_H
 
@@ -24,9 +25,9 @@ extern "C" {
 #define HAIR_REFERENCE_ROD_MOST_VERTICES 256
 
 enum hair_reference_rod_root {
-    HAIR_REFERENCE_ROD_CLAMPED, ///< Vertex 0 goes with the head, segment 0 is tied to the root frame by a spring.
-    HAIR_REFERENCE_ROD_HINGED, ///< Vertex 0 goes with the head, no spring.
-    HAIR_REFERENCE_ROD_FREE    ///< Nothing holds vertex 0.
+    HAIR_REFERENCE_ROD_CLAMPED, ///< Vertex 0 goes with the head, joint 0 ties segment 0 to the root frame.
+    HAIR_REFERENCE_ROD_HINGED,  ///< Vertex 0 goes with the head, there is no joint 0.
+    HAIR_REFERENCE_ROD_FREE     ///< Nothing holds vertex 0.
 };
 
 struct hair_reference_rod_pose {
@@ -108,8 +109,8 @@ double hair_reference_rod_clamp_factor(double length, double weight, double bend
 /// and turning the shortest way. Returns 0 when a substep was too long for the lengths to be kept.
 int hair_reference_rod_advance(struct hair_reference_rod* rod, const struct hair_reference_rod_pose* head,
                                double dt, uint32_t substeps);
-/// The longest substep for which bending and pull are sure to be stable in small motion, s; infinite without them.
-/// In large motion half of it is.
+/// The longest substep for which bending and pull are sure to be stable in small motion, s; infinite without
+/// them. In large motion half of it is.
 double hair_reference_rod_longest_substep(const struct hair_reference_rod* rod);
 
 struct hair_reference_rod_report {
@@ -127,6 +128,25 @@ struct hair_reference_rod_report hair_reference_rod_converge(struct hair_referen
                                                              double dt, uint32_t substeps, uint32_t most,
                                                              double tolerance, double* positions);
 
+// rod_statics.cpp -------------------------------------------------------------------------------------------
+
+struct hair_reference_rod_rested {
+    int      converged;
+    uint32_t iterations;
+    double   residual; ///< Largest torque left on a segment, over the largest of load times length and B / l.
+};
+
+/// To rest under gravity and pull, downhill in energy from the pose it has. Not of free rods.
+/// What is balanced on an edge stays there: hair_reference_rod_stability() tells.
+struct hair_reference_rod_rested hair_reference_rod_rest(struct hair_reference_rod* rod);
+/// At rest: the least of the second derivatives of the energy by turns b(s) of the segments over the integral
+/// of |b|^2 ds, N. Stable when positive. A straight rod without load has B (pi / 2 L)^2, or that of C if it is
+/// less. One that can turn about itself, for it is hinged or has no twist, has 0.
+double hair_reference_rod_stability(const struct hair_reference_rod* rod);
+/// The lowest angular frequencies of small motion about rest, rising, 1/s; negative: of the growth of what is
+/// unstable. Returns how many; of a free rod none.
+uint32_t hair_reference_rod_modes(const struct hair_reference_rod* rod, uint32_t count, double* frequencies);
+
 // rod_shape.cpp ---------------------------------------------------------------------------------------------
 
 /// The strain of the joints in the shape `positions`, in its frame, when frames are carried along it from
@@ -134,7 +154,8 @@ struct hair_reference_rod_report hair_reference_rod_converge(struct hair_referen
 void hair_reference_rod_strain(uint32_t vertices, const double* positions, const double root_frame[4],
                                double* strain);
 /// The rest strain with which `desc`, clamped and not straight, is at rest in its own pose, whatever rest
-/// strain it has: gravity and pull are in balance at every joint, stable or not. 0 when there is none.
+/// strain it has: gravity and pull are in balance at every joint, stable or not (hair_reference_rod_stability).
+/// 0 when there is none.
 int hair_reference_rod_hold(const struct hair_reference_rod_desc* desc, double* strain);
 
 #ifdef __cplusplus

@@ -157,6 +157,7 @@ bool advance(hair_reference_rod& rod, const journey& head, double dt, uint32_t s
 int hair_reference_rod_advance(hair_reference_rod* rod, const hair_reference_rod_pose* head, double dt,
                                uint32_t substeps)
 {
+    if (!(dt > 0) || substeps == 0) return 0;
     hair_reference_rod_place to = rod->head;
     if (head) to = {vector_of(head->position), quaternion_of(head->rotation).normalized()};
     if (!advance(*rod, journey_to(rod->head, to, dt), dt, substeps)) return 0;

@@ -141,7 +141,10 @@ void settle_twist(hair_reference_rod& rod)
     for (int iteration = 0; iteration < 100; ++iteration) {
         // A rod that no clamp keeps from turning about itself has a direction without stiffness.
         double shift = rod.root == HAIR_REFERENCE_ROD_CLAMPED ? 0 : 1e-9 * scale;
-        while (!solve(e, shift, angles)) shift = std::fmax(4 * shift, 1e-3 * scale);
+        while (!solve(e, shift, angles)) {
+            shift = std::fmax(4 * shift, 1e-3 * scale);
+            if (!(shift < 1e9 * scale)) return; // Nothing is finite.
+        }
         const double step  = largest(angles);
         double       share = std::fmin(1, 0.5 / step);
         for (const auto from = rod.frames;;) {

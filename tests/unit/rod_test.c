@@ -299,8 +299,8 @@ static void motion_converges_with_the_second_order(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-// 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t), leaving it 30 degrees below the horizontal. The
-// places of the tip are those of another program (explicit bending, k = 2, converged to 5e-8 of the length).
+// 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t), leaving it 30 degrees below the horizontal.
+// The places of the tip are another program's (explicit bending, k = 2, converged to 5e-8 of the length).
 static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
 {
     (void)state;

@@ -1,0 +1,214 @@
+// rod_rest_test.c - where the reference rod hangs, against the mathematics of continuous rods.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/reference/continuum.h"
+#include "tests/support/reference_rod.h"
+
+#define PI 3.141592653589793
+
+static double drop_over_reach(uint32_t segments, double gamma, int plain, int straight)
+{
+    struct hair_test_plane p;
+    hair_test_plane_make(&p, segments + 1, PI / 2, gamma);
+    p.desc.plain_clamp             = plain;
+    p.desc.straight                = straight;
+    struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+    double                     tip[3];
+    hair_test_rod_rest(rod);
+    hair_test_rod_tip(rod, tip);
+    hair_reference_rod_destroy(rod);
+    return -tip[1] / tip[0];
+}
+
+static void a_rod_hangs_as_the_elastica(void** state)
+{
+    (void)state;
+    static const double angles[] = {-1, 0, 1};
+    for (int k = 0; k < 3; ++k)
+        for (double gamma = 1; gamma <= 100; gamma *= 10) {
+            struct hair_reference_elastica e = hair_reference_elastica(gamma, 0, angles[k]);
+            double                         tip[2][3];
+            for (uint32_t fine = 0; fine < 2; ++fine) {
+                struct hair_test_plane p;
+                hair_test_plane_make(&p, (100u << fine) + 1, PI / 2 - angles[k], gamma);
+                struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+                hair_test_rod_rest(rod);
+                hair_test_rod_tip(rod, tip[fine]);
+                hair_reference_rod_destroy(rod);
+            }
+            double across = hair_test_extrapolate(tip[0][0], tip[1][0]),
+                   down   = -hair_test_extrapolate(tip[0][1], tip[1][1]);
+            hair_test_near("across", (size_t)gamma, across, e.across, 1e-5);
+            hair_test_near("down", (size_t)gamma, down, e.down, 1e-5);
+        }
+}
+
+static void a_load_at_the_tip_bends_a_rod_as_the_elastica(void** state)
+{
+    (void)state;
+    struct hair_reference_elastica e = hair_reference_elastica(0, 5, 0);
+    double                         tip[2][3];
+    for (uint32_t fine = 0; fine < 2; ++fine) {
+        struct hair_test_plane p;
+        hair_test_plane_make(&p, (64u << fine) + 1, PI / 2, 1e9);
+        p.desc.line_density            = 1e-15; // Weightless, but for
+        p.desc.tip_mass                = 5e-9;
+        struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+        hair_test_rod_rest(rod);
+        hair_test_rod_tip(rod, tip[fine]);
+        hair_reference_rod_destroy(rod);
+    }
+    hair_test_near("across", 0, hair_test_extrapolate(tip[0][0], tip[1][0]), e.across, 2e-6);
+    hair_test_near("down", 0, -hair_test_extrapolate(tip[0][1], tip[1][1]), e.down, 2e-6);
+}
+
+// With k = 2 the clamp of a long soft strand is far too soft.
+static void the_clamp_factor_holds_coarse_and_soft_strands(void** state)
+{
+    (void)state;
+    static const double expected[][3] = {
+        // weight, error in percent of drop over reach, k = 2 and as the weight asks
+        {1, 0.106, 0.054},
+        {10, 0.201, 0.037},
+        {100, 1.209, 0.144},
+        {1000, 10.8, -0.7}};
+    for (int k = 0; k < 4; ++k) {
+        struct hair_reference_elastica e = hair_reference_elastica(expected[k][0], 0, 0);
+        for (int plain = 0; plain < 2; ++plain) {
+            double error = 100 * (drop_over_reach(31, expected[k][0], plain, 0) * e.across / e.down - 1);
+            hair_test_near(plain ? "k = 2" : "k", (size_t)k, error, expected[k][plain ? 1 : 2], 0.05);
+        }
+    }
+}
+
+static void the_clamp_factor_is_that_of_a_chain_under_tension(void** state)
+{
+    (void)state;
+    for (double p = 0.01; p < 100; p *= 1.7) {
+        double r = 1 + p * p / 2 - sqrt(p * p + p * p * p * p / 4);
+        hair_test_near("k", 0,
+                       hair_reference_rod_clamp_factor(0.1, p * p * 100 * 3, 3) * (1 / p - 1 / (1 / r - 1)),
+                       1, 1e-9);
+    }
+    hair_test_near("k", 1, hair_reference_rod_clamp_factor(0.1, 0, 3), 2, 0);
+    hair_test_near("k", 2, hair_reference_rod_clamp_factor(0.1, 1, 0), 0, 0);
+}
+
+static void both_kinds_of_strain_hang_alike(void** state)
+{
+    (void)state;
+    for (double gamma = 1; gamma < 2000; gamma *= 10)
+        hair_test_near("ratio", (size_t)gamma, drop_over_reach(24, gamma, 0, 1),
+                       drop_over_reach(24, gamma, 0, 0), 1e-11 * gamma);
+}
+
+// A flat corkscrew of uneven segments, heavy at the tip.
+static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
+{
+    (void)state;
+    enum { N = 24 };
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
+    double                         x[3 * N], y[3 * N], strain[3 * N];
+    for (int i = 0; i < N; ++i) {
+        double t     = i + 0.3 * sin(3.0 * i);
+        x[3 * i]     = 0.02 * cos(0.6 * t);
+        x[3 * i + 1] = -0.01 * t;
+        x[3 * i + 2] = 0.02 * sin(0.6 * t);
+    }
+    desc.vertices      = N;
+    desc.positions     = x;
+    desc.line_density  = 1e-5;
+    desc.tip_mass      = 1e-6;
+    desc.bend[0]       = 2e-7;
+    desc.bend[1]       = 3e-7;
+    desc.twist         = 1.5e-7;
+    desc.gravity[1]    = -9.81;
+    desc.gravity[0]    = 3;
+    desc.root_frame[0] = sqrt(0.5);
+    desc.root_frame[3] = sqrt(0.5);
+    assert_true(hair_reference_rod_hold(&desc, strain));
+    desc.rest_strain               = strain;
+    struct hair_reference_rod* rod = hair_test_rod(&desc);
+    assert_true(hair_reference_rod_stability(rod) > 0);
+    hair_test_rod_rest(rod);
+    hair_reference_rod_positions(rod, y);
+    for (int i = 0; i < 3 * N; ++i) hair_test_near("rest", (size_t)i, y[i], x[i], 1e-12 * 0.25);
+    hair_reference_rod_set_state(rod, x, NULL);
+    assert_true(hair_reference_rod_advance(rod, NULL, 0.1, 400));
+    hair_reference_rod_positions(rod, y);
+    for (int i = 0; i < 3 * N; ++i) hair_test_near("still", (size_t)i, y[i], x[i], 1e-11);
+    hair_reference_rod_destroy(rod);
+    // Without being held it hangs elsewhere.
+    hair_reference_rod_strain(N, x, desc.root_frame, strain);
+    rod                                     = hair_test_rod(&desc);
+    struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
+    assert_true(rested.converged && rested.iterations < 12); // Newton needs all second derivatives for that.
+    hair_reference_rod_positions(rod, y);
+    assert_true(fabs(y[3 * N - 2] - x[3 * N - 2]) > 0.005);
+    hair_reference_rod_destroy(rod);
+}
+
+static void what_no_strain_can_hold_is_said(void** state)
+{
+    (void)state;
+    struct hair_test_plane p;
+    hair_test_plane_make(&p, 9, 1, 1);
+    p.desc.root = HAIR_REFERENCE_ROD_HINGED;
+    assert_false(hair_reference_rod_hold(&p.desc, p.strain));
+    p.desc.root     = HAIR_REFERENCE_ROD_CLAMPED;
+    p.desc.straight = 1;
+    assert_false(hair_reference_rod_hold(&p.desc, p.strain));
+}
+
+// The tip tied by a spring that the chain's pull stretches as far as puts the tip where it is to be.
+static void a_chain_tied_at_its_tip_is_a_catenary(void** state)
+{
+    (void)state;
+    for (uint32_t links = 32; links <= 64; links *= 2) {
+        struct hair_test_plane         p;
+        struct hair_reference_catenary expected             = hair_reference_catenary_of_links(0.5, links);
+        double                         pull[HAIR_TEST_MOST] = {0}, x[3 * HAIR_TEST_MOST], sag = 0;
+        double                         stiffness = 30;
+        hair_test_plane_make(&p, links + 1, PI / 2, 1);
+        for (uint32_t i = 0; i < links; ++i) { // Before, an arc.
+            double angle           = 1.2 * (1 - (2 * i + 1.0) / links);
+            p.positions[3 * i + 3] = p.positions[3 * i] + p.lengths[0] * cos(angle);
+            p.positions[3 * i + 4] = p.positions[3 * i + 1] - p.lengths[0] * sin(angle);
+        }
+        memcpy(x, p.positions, sizeof x);
+        x[3 * links]                   = 0.5 + expected.tension * cos(expected.slope) / stiffness;
+        x[3 * links + 1]               = 0.5 / stiffness; // Half of the weight.
+        pull[links]                    = sqrt(stiffness * 2 * links);
+        p.desc.pull                    = pull;
+        p.desc.pull_target             = x;
+        p.desc.straight                = 1;
+        p.desc.bend[0]                 = 0;
+        p.desc.root                    = HAIR_REFERENCE_ROD_HINGED;
+        struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+        hair_test_rod_rest(rod);
+        hair_reference_rod_positions(rod, x);
+        for (uint32_t i = 0; i <= links; ++i) sag = fmax(sag, -x[3 * i + 1]);
+        hair_test_near("across", links, x[3 * links], 0.5, 1e-11);
+        hair_test_near("level", links, x[3 * links + 1], 0, 1e-11);
+        hair_test_near("sag", links, sag, expected.sag, 1e-11);
+        hair_reference_rod_destroy(rod);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rod_hangs_as_the_elastica),
+        cmocka_unit_test(a_load_at_the_tip_bends_a_rod_as_the_elastica),
+        cmocka_unit_test(the_clamp_factor_holds_coarse_and_soft_strands),
+        cmocka_unit_test(the_clamp_factor_is_that_of_a_chain_under_tension),
+        cmocka_unit_test(both_kinds_of_strain_hang_alike),
+        cmocka_unit_test(a_held_curl_is_at_rest_in_its_own_shape),
+        cmocka_unit_test(what_no_strain_can_hold_is_said),
+        cmocka_unit_test(a_chain_tied_at_its_tip_is_a_catenary),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
