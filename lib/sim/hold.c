@@ -47,14 +47,13 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, uint32_t i, double 
     return h;
 }
 
+// To the lower half, which is what factor() reads.
 static void add_weight(const struct hair_rod_shape* s, uint32_t i, struct block* turn)
 {
     hair_dvec3 f = hair_dscale(s->force[i], MARGIN * s->length[i]);
     turn->m[0][0] += f.y;
     turn->m[2][2] += f.y;
-    turn->m[0][1] -= f.x / 2;
     turn->m[1][0] -= f.x / 2;
-    turn->m[1][2] -= f.z / 2;
     turn->m[2][1] -= f.z / 2;
 }
 

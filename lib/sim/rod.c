@@ -76,7 +76,7 @@ static double most_frequency_squared(const struct hair_rod_shape* s, const struc
     return most;
 }
 
-// Leapfrog is stable below 2 / w; that far with a margin, since curved strands are stiffer against their lengths.
+// Leapfrog is stable below 2 / w. The margin is for what K leaves out: curvature, twist, gravity.
 static double longest_explicit(const struct hair_rod_shape* s, const struct band* k)
 {
     double most = most_frequency_squared(s, k);

@@ -1,0 +1,28 @@
+// rods.h - one guide, its physics, and what is made of it for the solvers of rods.
+#ifndef HAIR_TESTS_SUPPORT_RODS_H
+#define HAIR_TESTS_SUPPORT_RODS_H
+
+#include "lib/sim/rod.h"
+
+struct hair_test_rod {
+    struct hair_guide       guide;
+    struct hair_rest        rest[HAIR_MAX_GUIDE_VERTICES];
+    hair_physics            physics;
+    struct hair_rod         rod[HAIR_MAX_GUIDE_VERTICES]; // from hair_test_rod_write
+    struct hair_rods_report report;
+};
+
+// Hair of the design's reference values: Young's modulus 3 GPa, radius 0.05 mm, Poisson's ratio 0.45. free() ends it.
+struct hair_test_rod* hair_test_rod_make(void);
+
+// Through those positions. Frames are carried along them, as the groom does it.
+void hair_test_rod_place(struct hair_test_rod* f, uint32_t count, const float* positions);
+// Straight, `angle` from down, in the plane of x and y.
+void hair_test_rod_straight(struct hair_test_rod* f, uint32_t count, double length, double angle);
+// A corkscrew about a slanting axis, with uneven segments of about that length.
+void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment);
+
+void   hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep);
+double hair_test_rod_bend(const hair_physics* physics); // bending stiffness over mass per length. m^4/s^2
+
+#endif

@@ -1,0 +1,250 @@
+// rods_implicit_test.c - the implicit systems of rods, and the substeps that do without.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tests/support/rods.h"
+
+#define PI 3.141592653589793
+#define MOST HAIR_MAX_GUIDE_VERTICES
+#define STEP (1.0 / 240) // s
+
+// diag(m A) + b^2 K of what was written, K the second derivatives of the energy k/2 |row x|^2 of every vertex.
+static void build(const struct hair_test_rod* f, double b, int accurate, double a[][MOST])
+{
+    uint32_t n     = f->guide.count;
+    int      fixed = f->physics.root != HAIR_ROOT_FREE;
+    double   ratio = 1 / (double)f->physics.flatness;
+    for (uint32_t i = 0; i < n; ++i)
+        for (uint32_t j = 0; j < n; ++j) a[i][j] = 0;
+    for (uint32_t i = 0; i + 1 < n; ++i) {
+        double row[3] = {i > 0 ? 1 / (double)f->rod[i - 1].segment.x : 0, 0, 1 / (double)f->rod[i].segment.x};
+        row[1]        = -row[0] - row[2];
+        for (uint32_t r = i > 0 ? 0 : 1; r < 3; ++r)
+            for (uint32_t c = i > 0 ? 0 : 1; c < 3; ++c)
+                a[i + r - 1][i + c - 1] += b * b * ratio * (double)f->rod[i].strain.w * row[r] * row[c];
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        double pull = (double)f->rod[i].segment.z, damping = (double)f->physics.damping;
+        if (i == 0 && fixed)
+            for (uint32_t j = 0; j < n; ++j) a[0][j] = a[j][0] = j == 0;
+        else
+            a[i][i] += (accurate ? 1 : 1 + damping * b + pull * b * b) / (double)f->rod[i].segment.y;
+    }
+}
+
+static void compare(const struct hair_test_rod* f, double a[][MOST], int euler)
+{
+    uint32_t n = f->guide.count;
+    for (uint32_t i = 0; i < n; ++i)
+        for (uint32_t j = 0; j < n; ++j) {
+            double sum = 0;
+            for (uint32_t k = 0; k <= i && k <= j; ++k) {
+                hair_vec4 r     = euler ? f->rod[k].factor_euler : f->rod[k].factor;
+                double    row[] = {1, (double)r.y, (double)r.z};
+                if (i - k < 3 && j - k < 3) sum += row[i - k] * row[j - k] / (double)r.x;
+            }
+            hair_test_near(euler ? "euler" : "own", i * n + j, sum, a[i][j], 2e-6 * sqrt(a[i][i] * a[j][j]));
+        }
+}
+
+static void the_factors_are_of_the_implicit_systems(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f         = hair_test_rod_make();
+    double(*a)[MOST]                = calloc(MOST, sizeof *a);
+    f->physics.flatness             = 0.5f;
+    f->physics.damping              = 100;
+    f->physics.tip_mass             = 0.1f;
+    static const uint32_t lengths[] = {2, 3, 20};
+    for (int k = 0; k < 3; ++k)
+        for (hair_root root = HAIR_ROOT_CLAMPED; root <= HAIR_ROOT_FREE; ++root) {
+            double h        = STEP;
+            f->physics.root = root;
+            hair_test_rod_curl(f, lengths[k], 0.005);
+            hair_test_rod_write(f, HAIR_SOLVER_DIRECT, h);
+            build(f, 2 * h / 3, 0, a);
+            compare(f, a, 0);
+            build(f, h, 0, a);
+            compare(f, a, 1);
+            hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h); // So long that bending is implicit.
+            if (f->rod[0].segment.w == 1) {
+                build(f, h, 1, a);
+                compare(f, a, 0);
+            }
+            assert_true(f->rod[0].segment.w == 1 || lengths[k] < 20);
+            build(f, h, 0, a);
+            compare(f, a, 1);
+            hair_test_rod_write(f, HAIR_SOLVER_FOLLOW, h);
+            assert_true(f->rod[1].factor.x == 0 && f->rod[1].factor_euler.x > 0 && f->rod[1].segment.w == 0);
+        }
+    free(a);
+    free(f);
+}
+
+// Of m^-1 K, by the power method.
+static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
+{
+    double   x[MOST], y[MOST], highest = 0;
+    uint32_t n = f->guide.count;
+    for (uint32_t i = 0; i < n; ++i) x[i] = sin(3.0 * i * i);
+    for (int k = 0; k < 2000; ++k) {
+        double size = 0;
+        for (uint32_t i = 1; i < n; ++i) {
+            y[i] = 0;
+            for (uint32_t j = 1; j < n; ++j) y[i] += a[i][j] * x[j] * (double)f->rod[i].segment.y;
+            size = fmax(size, fabs(y[i]));
+        }
+        for (uint32_t i = 1; i < n; ++i) x[i] = y[i] / size;
+        highest = sqrt(size);
+    }
+    return highest;
+}
+
+static double wanted(const struct hair_test_rod* f, hair_solver solver)
+{
+    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver);
+}
+
+// Leapfrog is stable where the substep times the highest frequency is below 2.
+static void the_substep_of_the_accurate_solver_is_stable(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    double(*a)[MOST]        = calloc(MOST, sizeof *a);
+    f->physics.hold = f->physics.damping = f->physics.pull_root = f->physics.pull_tip = 0;
+    for (uint32_t count = 4; count <= 100; count += 8) {
+        hair_test_rod_straight(f, count, 0.3, PI / 2);
+        double h       = wanted(f, HAIR_SOLVER_ACCURATE),
+               formula = 1.15 * pow(count - 1, 2) / 30 * sqrt(hair_test_rod_bend(&f->physics)) / 0.09;
+        hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h);
+        build(f, 1, 1, a);
+        for (uint32_t i = 1; i < count; ++i) a[i][i] -= 1 / (double)f->rod[i].segment.y;
+        double highest = highest_frequency(f, a);
+        printf("%u vertices: %.0f a frame, by the formula %.1f; h w / 2 = %.3f\n", count, 1 / (60 * h),
+               formula, h * highest / 2);
+        if (formula <= 60) {
+            hair_test_near("a frame", count, 1 / (60 * h), fmax(16, ceil(formula)), 1.01);
+            assert_true(f->rod[0].segment.w == 0 && f->rod[1].factor.x == 0);
+            assert_true(h * highest < 2);
+        }
+        if (formula > 70) {
+            assert_true(h == wanted(f, HAIR_SOLVER_ACCURATE) && f->rod[count - 1].segment.w == 1);
+            assert_true(f->rod[1].factor.x > 0);
+            hair_test_near("a frame", count, 1 / (60 * h), 16, 1e-9);
+        }
+    }
+    // What is stiffened to hold needs shorter ones still.
+    hair_test_rod_straight(f, 24, 0.3, PI / 2);
+    double before   = wanted(f, HAIR_SOLVER_ACCURATE);
+    f->physics.hold = 1;
+    assert_true(wanted(f, HAIR_SOLVER_ACCURATE) < before / 2);
+    hair_test_near("direct", 0, wanted(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
+    hair_test_near("follow", 0, wanted(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
+    hair_test_near("redblack", 0, wanted(f, HAIR_SOLVER_REDBLACK), 1.0 / 120, 1e-12);
+    free(a);
+    free(f);
+}
+
+// A x = b in single precision, as the shader does it, one way along the strand and one back.
+static void solve(const struct hair_test_rod* f, float* x)
+{
+    uint32_t n   = f->guide.count;
+    float    one = 0, two = 0, below = 0, below_two = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+        hair_vec4 r = f->rod[i].factor;
+        x[i] -= one;
+        one = two + r.y * x[i];
+        two = r.z * x[i];
+        x[i] *= r.x;
+    }
+    for (uint32_t i = n; i-- > 0;) {
+        x[i] -= f->rod[i].factor.y * below + f->rod[i].factor.z * below_two;
+        below_two = below;
+        below     = x[i];
+    }
+}
+
+// Straight, as stiff as can be asked for, and free of all else.
+static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, double length)
+{
+    f->physics.damping = f->physics.pull_root = f->physics.pull_tip = f->physics.hold = 0;
+    f->physics.root                                                                   = root;
+    f->physics.young                                                                  = 1e12f;
+    hair_test_rod_straight(f, count, length, PI / 2);
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+}
+
+// A push that turns the whole strand about its root does so, however stiff it is.
+static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f     = hair_test_rod_make();
+    double                worst = 0;
+    for (int e = 0; e < 6; ++e)
+        for (uint32_t count = 4; count <= 256; count *= 4) {
+            float x[MOST] = {0};
+            make_stiff(f, HAIR_ROOT_HINGED, count, pow(10, -e));
+            for (uint32_t i = 1; i < count; ++i) x[i] = (float)i / (float)(count - 1) / f->rod[i].segment.y;
+            solve(f, x);
+            for (uint32_t i = 0; i < count; ++i) worst = fmax(worst, fabs((double)x[i] - i / (count - 1.0)));
+        }
+    printf("off by %.1e\n", worst);
+    assert_true(worst < 3e-5);
+    free(f);
+}
+
+// Vertices half a radian from rest: forces that sum to nothing but for what rounding leaves, and move the middle of
+// a strand that nothing holds by little of a segment.
+static void stiffness_is_limited_to_what_single_precision_bears(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    double(*a)[MOST]        = calloc(MOST, sizeof *a);
+    double worst            = 0;
+    for (int e = 0; e < 6; ++e)
+        for (uint32_t count = 4; count <= 256; count *= 4) {
+            float lever[MOST + 1] = {0}, x[MOST];
+            make_stiff(f, HAIR_ROOT_FREE, count, pow(10, -e));
+            build(f, STEP, 0, a);
+            for (uint32_t i = 0; i < count; ++i) assert_true(a[i][i] * (double)f->rod[i].segment.y < 1.6e6);
+            if (e > 2) assert_true(a[1][1] * (double)f->rod[1].segment.y > 1e5); // No lower than it need be.
+            for (uint32_t i = 1; i + 1 < count; ++i)
+                lever[i] = f->rod[i].strain.w * 0.5f * (float)sin(9.0 * i * i);
+            double moved = 0, mass = 0;
+            for (uint32_t i = 0; i < count; ++i) {
+                float force = i + 1 < count ? (lever[i] - lever[i + 1]) / f->rod[i].segment.x : 0;
+                if (i > 0) force -= (lever[i - 1] - lever[i]) / f->rod[i - 1].segment.x;
+                x[i] = force * (float)(4 * STEP * STEP / 9);
+            }
+            solve(f, x);
+            for (uint32_t i = 0; i < count; ++i) {
+                moved += (double)(x[i] / f->rod[i].segment.y);
+                mass += 1 / (double)f->rod[i].segment.y;
+            }
+            worst = fmax(worst, fabs(moved / mass) / (double)f->rod[0].segment.x);
+        }
+    // A short segment at a free root has half of itself for a mass.
+    float bent[] = {0, 0, 0, 1e-4f, 0, 0, 2e-3f, 0, 0, 4e-3f, 0, 0};
+    hair_test_rod_place(f, 4, bent);
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+    build(f, STEP, 0, a);
+    assert_true(a[0][0] * (double)f->rod[0].segment.y < 1.6e6);
+    printf("moved by %.1e of a segment\n", worst);
+    assert_true(worst < 0.02);
+    free(a);
+    free(f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_factors_are_of_the_implicit_systems),
+        cmocka_unit_test(the_substep_of_the_accurate_solver_is_stable),
+        cmocka_unit_test(a_solve_in_single_precision_is_good_at_any_stiffness),
+        cmocka_unit_test(stiffness_is_limited_to_what_single_precision_bears),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

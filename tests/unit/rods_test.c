@@ -1,0 +1,243 @@
+// rods_test.c - guides as rods: masses, stiffness, sections; that all of it is finite, and made when it must be.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/base/math.h"
+#include "lib/reference/rod.h"
+#include "tests/support/rods.h"
+
+#define PI 3.141592653589793
+#define MOST HAIR_MAX_GUIDE_VERTICES
+#define STEP (1.0 / 240) // s
+
+static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    f->physics.tip_mass     = 2;
+    hair_test_rod_curl(f, 9, 0.01);
+    for (hair_root root = HAIR_ROOT_CLAMPED; root <= HAIR_ROOT_FREE; ++root) {
+        double all = 0, length = 0;
+        f->physics.root = root;
+        hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+        for (uint32_t i = 0; i < 9; ++i) {
+            double before = i > 0 ? (double)f->rest[i - 1].position.w : 0,
+                   after  = (double)f->rest[i].position.w;
+            length += after;
+            assert_true(f->rod[i].segment.x == f->rest[i].position.w);
+            if (i == 0 && root != HAIR_ROOT_FREE) {
+                assert_true(f->rod[0].segment.y == 0);
+                all += after / 2;
+                continue;
+            }
+            all += 1 / (double)f->rod[i].segment.y;
+            if (i < 8) hair_test_near("mass", i, 1 / (double)f->rod[i].segment.y, (before + after) / 2, 1e-8);
+        }
+        hair_test_near("all", 0, all, 3 * length, 1e-7);
+    }
+    free(f);
+}
+
+static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    hair_test_rod_straight(f, 5, 0.1, 0);
+    f->physics.pull_root = 5;
+    f->physics.pull_tip  = 1;
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+    for (uint32_t i = 0; i < 5; ++i)
+        hair_test_near("pull", i, (double)f->rod[i].segment.z, pow(2 * PI * (5 - i), 2), 1e-4);
+    free(f);
+}
+
+// An ellipse of half axes a >= b about its centre: second moments pi a b^3 / 4 and pi a^3 b / 4, torsion constant
+// pi a^3 b^3 / (a^2 + b^2), shear modulus E / (2 (1 + nu)).
+static void ratios_are_those_of_an_elliptic_section(void** state)
+{
+    (void)state;
+    hair_physics p = hair_physics_default();
+    double       ratio[3];
+    for (int i = 1; i <= 10; ++i) {
+        p.flatness = 0.1f * (float)i;
+        double a = 1 / sqrt((double)p.flatness), b = 1 / a;
+        hair_rods_ratios(&p, ratio);
+        hair_test_near("about x", i, ratio[0], a * b * b * b, 1e-12);
+        hair_test_near("about z", i, ratio[2], a * a * a * b, 1e-12);
+        hair_test_near("twist", i, ratio[1],
+                       4 * a * a * a * b * b * b / (a * a + b * b) / (2 * (1 + (double)p.poisson)), 1e-12);
+    }
+    hair_test_near("of hair", 0, ratio[1], 0.68966, 1e-5);
+}
+
+static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f   = hair_test_rod_make();
+    f->physics.stiffness_root = 2;
+    f->physics.stiffness_tip  = 0.5f;
+    f->physics.hold           = 0;
+    hair_test_rod_curl(f, 12, 0.01);
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+    double bend = hair_test_rod_bend(&f->physics), so_far = 0, weight = 0;
+    for (uint32_t i = 1; i < 12; ++i) weight += 9.81 / (double)f->rod[i].segment.y;
+    for (uint32_t i = 0; i + 1 < 12; ++i) {
+        double before = i > 0 ? (double)f->rest[i - 1].position.w : 0, after = (double)f->rest[i].position.w;
+        double own = bend * (2 - 1.5 * so_far / (double)f->guide.arc_length);
+        so_far += after;
+        double expected = i > 0 ? own / ((before + after) / 2)
+                                : hair_reference_rod_clamp_factor(after, weight, own) * own / after;
+        hair_test_near("stiffness", i, (double)f->rod[i].strain.w / expected, 1, 1e-6);
+    }
+    assert_true(f->rod[11].strain.w == 0);
+    f->physics.root = HAIR_ROOT_HINGED;
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+    assert_true(f->rod[0].strain.w == 0 && f->rod[1].strain.w > 0);
+    free(f);
+}
+
+static double wanted(const struct hair_test_rod* f, hair_solver solver)
+{
+    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver);
+}
+
+static float within(uint32_t* random, double least, double most)
+{
+    double t = (double)hair_random(random);
+    if (t < 0.2) return (float)least;
+    if (t > 0.8) return (float)most;
+    if (least > 0) return (float)(least * pow(most / least, (t - 0.2) / 0.6));
+    return (float)(least + (most - least) * pow((t - 0.2) / 0.6, 9));
+}
+
+static void whatever_the_fields_hold_rods_are_finite(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f      = hair_test_rod_make();
+    uint32_t              random = 7;
+    for (int run = 0; run < 3000; ++run) {
+        hair_physics* p   = &f->physics;
+        p->young          = within(&random, 0, 1e12);
+        p->poisson        = within(&random, 0, 0.5);
+        p->fiber_radius   = within(&random, 1e-6, 1e-3);
+        p->fiber_density  = within(&random, 1, 1e5);
+        p->flatness       = within(&random, 0.03, 1);
+        p->stiffness_root = within(&random, 0, 1e4);
+        p->stiffness_tip  = within(&random, 0, 1e4);
+        p->hold           = within(&random, 0, 1);
+        p->root           = (hair_root)(run % 3);
+        p->tip_mass       = within(&random, 0, 1e4);
+        p->damping        = within(&random, 0, 1000);
+        p->pull_root      = within(&random, 0, 30);
+        p->pull_tip       = within(&random, 0, 30);
+        for (int k = 0; k < 3; ++k)
+            p->gravity[k] = within(&random, 0, 1000) * (hair_random(&random) < 0.5f ? -1 : 1);
+        float    at[3 * MOST] = {0}, size = within(&random, 1e-9, 1e4);
+        uint32_t count = 2 + (uint32_t)(hair_random(&random) * 40);
+        for (uint32_t i = 0; i < 3 * count; ++i) {
+            float far     = run % 4 ? size : within(&random, 1e-9, 1e4);
+            float forward = (float)(i % 3 == 0) * (run % 2 ? 1 : 0); // Else to and fro, with folds.
+            at[i] = (i < 3 ? 0 : at[i - 3]) + far * (forward + (run % 5 ? hair_random(&random) - 0.5f : 0));
+        }
+        hair_test_rod_place(f, count, at);
+        if (run % 7 == 0) f->rest[count / 2].position = f->rest[0].position; // A segment without direction.
+        hair_solver solver = (hair_solver)(run % 4);
+        double      h = hair_random(&random) < 0.5f ? (double)within(&random, 1e-5, 0.1) : wanted(f, solver);
+        assert_true(h > 9.9e-6 && h < 0.101);
+        hair_test_rod_write(f, solver, h);
+        const float* number = &f->rod[0].strain.x;
+        for (uint32_t i = 0; i < count * 16; ++i)
+            if (!isfinite(number[i]))
+                fail_msg("run %d: number %u of vertex %u is %g", run, i % 16, i / 16, (double)number[i]);
+        for (uint32_t i = 0; i < count; ++i) {
+            hair_vec4 u = f->rod[i].strain;
+            assert_true(u.w >= 0 && u.x * u.x + u.y * u.y + u.z * u.z < 2.6f * 2.6f);
+            assert_true(f->rod[i].factor_euler.x > 0);
+        }
+        assert_true(f->report.stiffest >= 1 && f->report.stiffest <= 1e4f);
+    }
+    free(f);
+}
+
+static void guides_are_written_each_in_its_place_and_counted(void** state)
+{
+    (void)state;
+    struct hair_test_rod* short_one = hair_test_rod_make();
+    struct hair_test_rod* long_one  = hair_test_rod_make();
+    hair_test_rod_straight(short_one, 5, 0.01, PI / 2);
+    hair_test_rod_straight(long_one, 32, 0.3, PI / 2);
+    hair_test_rod_write(short_one, HAIR_SOLVER_ACCURATE, 1e-3);
+    hair_test_rod_write(long_one, HAIR_SOLVER_ACCURATE, 1e-3);
+    struct hair_guide       guides[3] = {short_one->guide, long_one->guide, short_one->guide};
+    struct hair_rest        rest[42];
+    struct hair_rod         rod[42];
+    struct hair_rods_report report;
+    guides[1].first = 5;
+    guides[2].first = 37;
+    memcpy(rest, short_one->rest, 5 * sizeof *rest);
+    memcpy(rest + 5, long_one->rest, 32 * sizeof *rest);
+    memcpy(rest + 37, short_one->rest, 5 * sizeof *rest);
+    hair_rods_write(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 1e-3, rod, &report);
+    assert_memory_equal(rod, short_one->rod, 5 * sizeof *rod);
+    assert_memory_equal(rod + 5, long_one->rod, 32 * sizeof *rod);
+    assert_memory_equal(rod + 37, short_one->rod, 5 * sizeof *rod);
+    assert_int_equal(report.stiffened, 1);
+    assert_true(report.stiffest == long_one->report.stiffest && report.stiffest > 10);
+    // The stiff, short ones go implicit rather than have all wait for them.
+    double h = hair_rods_substep(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE);
+    assert_true(wanted(long_one, HAIR_SOLVER_ACCURATE) == h);
+    free(short_one);
+    free(long_one);
+}
+
+static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f    = hair_test_rod_make();
+    const hair_physics    d    = hair_physics_default();
+    float*                in[] = {&f->physics.gravity[0],    &f->physics.gravity[1], &f->physics.gravity[2],
+                                  &f->physics.damping,       &f->physics.pull_root,  &f->physics.pull_tip,
+                                  &f->physics.young,         &f->physics.poisson,    &f->physics.fiber_radius,
+                                  &f->physics.fiber_density, &f->physics.flatness,   &f->physics.stiffness_root,
+                                  &f->physics.stiffness_tip, &f->physics.hold,       &f->physics.tip_mass};
+    float* out[] = {&f->physics.angular, &f->physics.bend,    &f->physics.margin,  &f->physics.wind[0],
+                    &f->physics.wind[1], &f->physics.wind[2], &f->physics.friction};
+    hair_test_rod_curl(f, 20, 0.01);
+    f->physics = d;
+    assert_false(hair_rods_differ(&f->physics, &d));
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+    struct hair_rod before[20];
+    memcpy(before, f->rod, sizeof before);
+    for (size_t i = 0; i < sizeof in / sizeof *in + sizeof out / sizeof *out; ++i) {
+        int    inside = i < sizeof in / sizeof *in;
+        float* field  = inside ? in[i] : out[i - sizeof in / sizeof *in];
+        f->physics    = d;
+        *field        = *field * 0.7f + 0.01f;
+        hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
+        assert_int_equal(hair_rods_differ(&f->physics, &d), inside);
+        assert_int_equal(hair_rods_differ(&d, &f->physics), inside);
+        assert_int_equal(memcmp(before, f->rod, sizeof before) != 0, inside);
+    }
+    f->physics      = d;
+    f->physics.root = HAIR_ROOT_FREE;
+    assert_true(hair_rods_differ(&f->physics, &d));
+    free(f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it),
+        cmocka_unit_test(the_pull_goes_evenly_in_frequency_from_root_to_tip),
+        cmocka_unit_test(ratios_are_those_of_an_elliptic_section),
+        cmocka_unit_test(stiffness_is_over_the_length_it_is_for_and_tapers),
+        cmocka_unit_test(whatever_the_fields_hold_rods_are_finite),
+        cmocka_unit_test(guides_are_written_each_in_its_place_and_counted),
+        cmocka_unit_test(rods_are_made_again_when_a_number_in_them_changes_and_only_then),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
