@@ -25,7 +25,7 @@ struct hair_rods_report {
 //
 // From a clamped root the rest strain bears `hold` of gravity: with 1 the groom is in equilibrium. Too soft a strand
 // would buckle out of it even so. Such a guide is made stiffer by the least multiple, up to 1e4, with which the
-// equilibrium is stable, with a margin of 5 % of gravity, and no vertex has a rest strain further than 0.5 from the
+// equilibrium is stable, with a margin of 5 % of gravity, and no vertex has a rest strain further than 1 from the
 // groom's own. What then still is further, or where there is no stiffness, is cut to that and does not hold.
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                      const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,

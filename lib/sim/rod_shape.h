@@ -79,10 +79,10 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
 double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i, double stiffen);
 
 // From the rest strain that bears the stress to the strain of the groom, at a vertex of that stiffness, not 0.
-#define HAIR_ROD_MOST_STRAIN 0.5
+#define HAIR_ROD_MOST_STRAIN 1.0
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness);
 
-// hold.c: the least multiple of the stiffness with which the groom's shape is stable and the strain within the most.
+// hold.c: 1, or the least multiple of the stiffness with which the groom's shape is stable and the strain within the most.
 #define HAIR_ROD_MOST_STIFFEN 1e4
 double hair_rod_stiffen(const struct hair_rod_shape* shape);
 

@@ -277,25 +277,25 @@ static double most_strain(const struct hair_test_rod* f)
     return most;
 }
 
-static void no_rest_strain_is_further_than_half_from_the_grooms(void** state)
+static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     // Of three segments: it would be stable as it is, but turned too far at each vertex.
-    hair_test_rod_straight(f, 4, 0.11, PI / 2);
+    hair_test_rod_straight(f, 4, 0.15, PI / 4);
     struct hair_rod_shape shape = shape_of(f);
-    assert_true(hair_dlength(hair_rod_excess(&shape, 1, hair_rod_stiffness(&shape, 1, 1))) > 0.5);
+    assert_true(hair_dlength(hair_rod_excess(&shape, 1, hair_rod_stiffness(&shape, 1, 1))) > 1);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 1);
     assert_true(f->report.stiffest > 1 && f->report.stiffest < 2);
-    hair_test_near("of few segments", 0, most_strain(f), 0.4975, 0.0025);
+    hair_test_near("of few segments", 0, most_strain(f), 0.995, 0.005);
     // Thread, for which no multiple is enough.
     f->physics.young = 1;
     hair_test_rod_straight(f, 32, 0.3, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 1);
     assert_true(f->report.stiffest == 1e4f);
-    hair_test_near("thread", 0, most_strain(f), 0.5, 1e-6);
+    hair_test_near("thread", 0, most_strain(f), 1, 1e-6);
     // What does not resist at all is not asked to hold, nor made to.
     for (int k = 0; k < 2; ++k) {
         f->physics.young          = k == 0 ? 0 : 4e9f;
@@ -316,7 +316,7 @@ int main(void)
         cmocka_unit_test(a_held_groom_is_in_equilibrium),
         cmocka_unit_test(a_guide_is_made_just_so_stiff_that_its_groom_is_stable),
         cmocka_unit_test(straight_grooms_buckle_at_the_lengths_of_the_continuous_rod),
-        cmocka_unit_test(no_rest_strain_is_further_than_half_from_the_grooms),
+        cmocka_unit_test(no_rest_strain_is_further_than_one_from_the_grooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
