@@ -10,8 +10,8 @@
 // Of all segments' turns that is a matrix of 3 x 3 blocks on three diagonals; it is positive when all its pivots are.
 // Twist is among the turns: this is all that buckles of a rod, in and out of plane.
 //
-// Left out is the pull to the rest pose, which ties every segment to every other. With the default pull, half of the
-// guides of the built-in haircuts would do with a multiple smaller by a sixth to a third.
+// Left out is the pull to the rest pose, which ties every segment to every other. With the default pull the median
+// multiple of the built-in haircuts would be smaller by a seventh to a third.
 #include "lib/sim/rod_shape.h"
 
 #define MARGIN 1.05   // of gravity
