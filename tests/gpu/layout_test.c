@@ -39,10 +39,13 @@ static const struct member members[] = {
     VEC4(hair_rod, factor_euler),
     VEC4(hair_state, position),
     VEC4(hair_state, displacement),
+    VEC4(hair_history, rate),
+    VEC4(hair_history, rate_before),
     VEC4(hair_capsule, start[0]),
     VEC4(hair_capsule, start[1]),
     VEC4(hair_capsule, end[0]),
     VEC4(hair_capsule, end[1]),
+    VEC4(hair_capsule, spin),
     VEC4(hair_substep, rotation),
     VEC4(hair_substep, displacement),
     VEC4(hair_step_params, gravity),
@@ -62,6 +65,17 @@ static const struct member members[] = {
     VEC4(hair_step_params, rotation_after),
     VEC4(hair_step_params, rotation_now),
     VEC4(hair_step_params, last_displacement),
+    VEC4(hair_step_params, rotation_start),
+    VEC4(hair_step_params, wind),
+    VEC4(hair_step_params, ratio),
+    FLOAT(hair_step_params, kick),
+    FLOAT(hair_step_params, damping),
+    FLOAT(hair_step_params, friction),
+    FLOAT(hair_step_params, share_start),
+    FLOAT(hair_step_params, rescale),
+    UINT(hair_step_params, unused0),
+    UINT(hair_step_params, unused1),
+    UINT(hair_step_params, unused2),
     VEC4(hair_step_params, substep[0].rotation),
     VEC4(hair_step_params, substep[0].displacement),
     VEC4(hair_step_params, substep[1].rotation),
@@ -69,6 +83,7 @@ static const struct member members[] = {
     VEC4(hair_step_params, solid[0].start[0]),
     VEC4(hair_step_params, solid[0].end[1]),
     VEC4(hair_step_params, solid[63].end[1]),
+    VEC4(hair_step_params, solid[63].spin),
     UINT(hair_follower, guide0),
     UINT(hair_follower, guide1),
     UINT(hair_follower, guide2),
@@ -113,9 +128,9 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),   STRUCT(hair_rest),        STRUCT(hair_rod),         STRUCT(hair_state),
-    STRUCT(hair_capsule), STRUCT(hair_substep),     STRUCT(hair_step_params), STRUCT(hair_follower),
-    STRUCT(hair_patch),   STRUCT(hair_draw_params),
+    STRUCT(hair_guide),    STRUCT(hair_rest),    STRUCT(hair_rod),         STRUCT(hair_state),
+    STRUCT(hair_history),  STRUCT(hair_capsule), STRUCT(hair_substep),     STRUCT(hair_step_params),
+    STRUCT(hair_follower), STRUCT(hair_patch),   STRUCT(hair_draw_params),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)
