@@ -38,9 +38,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_TANGENT 4  // hair_vec4[]     per smooth vertex: unit tangent, stretch of the segment
 #define HAIR_BIND_FRAME 5    // hair_vec4[]     per smooth vertex: unit quaternion, y along the strand
 // The solvers of rods read and write no smooth vertices; they have, in their place:
-#define HAIR_BIND_ROD 3      // hair_rod[]      per guide vertex, never written
-#define HAIR_BIND_HISTORY 4  // hair_history[]  per guide vertex
-#define HAIR_BIND_MATERIAL 5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
+#define HAIR_BIND_ROD 3     // hair_rod[]      per guide vertex, never written
+#define HAIR_BIND_HISTORY 4 // hair_history[]  per guide vertex
+#define HAIR_BIND_MATERIAL                                                                                   \
+    5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
 #define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT]
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
@@ -62,6 +63,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 
 #define HAIR_GROUP_SIZE 64           // threads of a work group, but for those of a guide: lib/gl/passes.inl
+#define HAIR_MAX_GUIDES 262144       // of a groom
 #define HAIR_MAX_GUIDE_VERTICES 256  // one thread per vertex of a guide
 #define HAIR_MAX_SMOOTH_VERTICES 511 // two samples per segment of the longest guide
 #define HAIR_MAX_ISOLINES 64         // per patch, and
@@ -86,7 +88,7 @@ struct hair_rest {
     // xyz: unit direction to the next vertex, in the frame carried here along the strand from the segment before
     // (at the root: in the root frame); w: distance to the vertex after the next, m
     hair_vec4 direction;
-    hair_vec4 frame; // unit quaternion of the segment to the next vertex, y along it, carried so from the root frame
+    hair_vec4 frame; // of the segment to the next vertex: unit quaternion, y along it, carried so from the root's
 };
 HAIR_SIZE(hair_rest, 48)
 

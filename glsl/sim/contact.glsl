@@ -5,9 +5,13 @@
 // all: a strand at rest does not creep.
 #define FREE 0.0
 #define SLIDES 1.0
-#define STICKS 2.0
+#define GLIDES 2.0 // between two solids, along both
+#define STICKS 3.0
+#ifndef STICK_PASS
+#define STICK_PASS 0.1
+#endif
 
-#define touch row_next // xyz: normal, w: FREE, SLIDES or STICKS. Written anew before lengths are fitted.
+#define touch row_next // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS. Written before lengths are fitted.
 
 #ifdef HAIR_THREAD_PER_GUIDE
 vec4 row_next[MOST];
@@ -15,7 +19,8 @@ uint near[2];
 #else
 shared uint near[2];
 #endif
-OWN(uvec2, reachable); // solids, one bit each
+OWN(uvec2, reachable); // solids, one bit each,
+OWN(uvec2, met);       // and those met in this substep
 float share_then, share_now; // of the step that is done at the substep's start and end
 
 struct capsule { // a solid at one moment
@@ -62,7 +67,7 @@ void find_solids(vec3 head_moved)
     }
     MEET;
     EACH(guide_count) {
-        own(reachable) = uvec2(0u);
+        own(reachable) = own(met) = uvec2(0u);
         if (slack[i] > 0.0) {
             vec3  position = root_now + place[i] + own(wanted) - root_moved;
             float reach    = 0.02 + length(own(wanted) - head_moved);
@@ -78,37 +83,39 @@ void find_solids(vec3 head_moved)
     }
 }
 
-// One solid: normal and depth of the displacement d from `start`, both from the head's origin; and what the surface
-// there does. Depth 0: no contact. A vertex that goes right through is stopped where it goes in.
+// How deep in one solid the displacement d from `start`, both from the head's origin, leads; below 0: how far off it
+// stays. And the normal there, and what the surface does. A vertex that goes right through is stopped where it goes in.
 float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out vec3 surface)
 {
-    capsule now   = solid_at(k, share_now);
-    vec3    end   = start + d - head_moved;
-    vec3    out_b = from_axis(end, now);
+    capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
+    vec3    end = start + d - head_moved;
+    vec3    out_a = from_axis(start, then), out_b = from_axis(end, now), pass = out_b - out_a;
     float   away  = length(out_b);
-    normal        = away > 1e-9 ? out_b / away : vec3(0.0, 1.0, 0.0);
-    surface       = vec3(0.0);
-    capsule then  = solid_at(k, share_then);
-    vec3    out_a = from_axis(start, then);
-    vec3    pass  = out_b - out_a;
     float   depth = now.radius - away;
-    float   c     = dot(out_a, out_a) - now.radius * now.radius;
-    if (c > 0.0 && dot(out_b, out_a) < 0.0) {
-        float a = dot(pass, pass), b = dot(out_a, pass), root = b * b - a * c;
-        if (root > 0.0 && b < 0.0) {
-            normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
-            depth  = now.radius - dot(normal, out_b);
-        }
+    normal        = away > 1e-9 ? out_b / away : vec3(0.0, 1.0, 0.0);
+    float a = dot(pass, pass), b = dot(out_a, pass), c = dot(out_a, out_a) - now.radius * now.radius, root = b * b - a * c;
+    if (c > 0.0 && b < 0.0 && root > 0.0 && dot(out_b, out_a) < 0.0) {
+        normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
+        depth  = now.radius - dot(normal, out_b);
     }
-    if (depth <= 0.0) return 0.0;
     float along = nearest_share(end, now);
-    surface = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
+    surface     = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
               cross(params.solid[k].spin.xyz * (share_now - share_then), normal * now.radius);
     return depth;
 }
 
-// What solids make of what is wanted, and what freedom they leave.
-vec3 allowed(uint i, vec3 want, uvec2 solids, vec3 head_moved, out vec4 freedom)
+// The freedom that a further contact leaves of what others do.
+vec4 left_of(vec4 freedom, vec3 normal)
+{
+    if (freedom.w == FREE) return vec4(normal, SLIDES);
+    vec3  way = freedom.w == SLIDES ? cross(freedom.xyz, normal) : freedom.xyz;
+    float l   = length(way);
+    return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
+}
+
+// What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
+// would have to pull.
+vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
 {
     vec3 d     = want;
     vec3 start = root_now - root_moved + head_moved + place[i];
@@ -116,21 +123,25 @@ vec3 allowed(uint i, vec3 want, uvec2 solids, vec3 head_moved, out vec4 freedom)
     for (int word = 0; word < 2; ++word)
         for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {
             vec3  normal, surface;
+            uint  bit   = bits & -bits;
             float depth = depth_in(32u * uint(word) + uint(findLSB(bits)), start, d, head_moved, normal, surface);
-            if (depth > 0.0) {
-                vec3  slip  = d - surface;
+            if (depth > 0.0 || (kept[word] & bit) != 0u) {
+                vec3 slip = d - surface;
                 slip -= dot(slip, normal) * normal;
-                float speed = length(slip), grip = params.friction * depth;
+                float speed = length(slip), grip = params.friction * max(depth, 0.0);
                 bool  stuck = speed <= grip;
                 d += depth * normal - (stuck ? slip : slip * (grip / speed));
-                freedom = vec4(normal, stuck || freedom.w != FREE ? STICKS : SLIDES);
+                freedom = stuck ? vec4(normal, STICKS) : left_of(freedom, normal);
+                met[word] |= bit;
             }
         }
     return d;
 }
 
-// The part of a displacement that a contact lets pass.
+// The part of a displacement that a contact lets pass. What sticks passes on a little, so that lengths between what
+// sticks can be found: by a tension that grows until something slips.
 vec3 pass_on(vec4 freedom, vec3 d)
 {
-    return freedom.w == FREE ? d : freedom.w == STICKS ? vec3(0.0) : d - dot(d, freedom.xyz) * freedom.xyz;
+    vec3 part = dot(d, freedom.xyz) * freedom.xyz;
+    return freedom.w == FREE ? d : freedom.w == SLIDES ? d - part : freedom.w == GLIDES ? part : STICK_PASS * (d - part);
 }

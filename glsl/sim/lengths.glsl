@@ -3,15 +3,19 @@
 // sides, pass its contact: that makes its inverse mass an operator.
 #include "sim/contact.glsl"
 
+#ifndef KEEP_FROM
+#define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
+#endif
+
 // Which displacement is allowed of what is wanted; and how long that leaves the segments.
-void try_wanted(vec3 head_moved, uint slot)
+void try_wanted(vec3 head_moved, bool keep, uint slot)
 {
     EACH(guide_count) {
         vec4 freedom = vec4(0.0);
         moved[i]     = own(wanted);
         if (SOLIDS) {
             if ((own(reachable).x | own(reachable).y) != 0u)
-                moved[i] = allowed(i, own(wanted), own(reachable), head_moved, freedom);
+                moved[i] = allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, freedom, own(met));
             touch[i] = freedom;
         }
     }
@@ -47,7 +51,7 @@ uint fit_lengths(bool of_start, float tolerance, uint most, vec3 head_moved, ino
     find_solids(head_moved);
     for (uint n = 0u;; ++n) {
         slot = slot == 2u ? 0u : slot + 1u;
-        try_wanted(head_moved, slot);
+        try_wanted(head_moved, n >= KEEP_FROM, slot);
         uint left = worst[slot];
         if (left <= floatBitsToUint(tolerance) || left >= 0x7f800000u || n >= most) return left;
         correct_lengths(of_start);

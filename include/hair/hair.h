@@ -126,7 +126,7 @@ typedef struct hair_groom_desc {
     uint32_t           strand_count;    ///< [1, 4194304].
     const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
     hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
-    uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 65535.
+    uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 262144.
     uint32_t        guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
     uint32_t        follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
     float           clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.

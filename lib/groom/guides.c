@@ -127,7 +127,7 @@ static uint32_t count_guides(const struct hair_draft* draft)
     uint32_t wanted  = draft->desc->guide_count;
     if (draft->desc->strands_are == HAIR_STRANDS_GUIDES) return strands;
     if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
-    if (wanted > UINT16_MAX) wanted = UINT16_MAX;
+    if (wanted > HAIR_MAX_GUIDES) wanted = HAIR_MAX_GUIDES;
     return wanted < strands ? wanted : strands;
 }
 

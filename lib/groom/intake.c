@@ -45,10 +45,10 @@ static hair_result clean(struct hair_draft* draft)
             "left, %u are too short; %u vertices were not finite, %u repeated",
             draft->desc->strand_count, repairs->dropped_single, repairs->dropped_short,
             repairs->removed_nonfinite, repairs->removed_repeated);
-    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES && draft->strands.strand_count > UINT16_MAX)
+    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES && draft->strands.strand_count > HAIR_MAX_GUIDES)
         return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
                          "hair_groom_desc.strand_count: %u guides, not in [1, %u]",
-                         draft->strands.strand_count, UINT16_MAX);
+                         draft->strands.strand_count, HAIR_MAX_GUIDES);
     return HAIR_OK;
 }
 

@@ -116,7 +116,7 @@ hair_result hair_draft_rest(struct hair_draft* draft)
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         uint32_t count   = count_vertices(draft, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
-        info->guide_vertex_count += count; // At most 65,535 times 256.
+        info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
         if (count > groom->most_vertices) groom->most_vertices = count;
     }
     groom->rest = hair_alloc(draft->host, info->guide_vertex_count, sizeof *groom->rest);

@@ -110,6 +110,23 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
     params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
 }
 
+// How many substeps a dispatch does. llvmpipe leaves every loop of a shader once it has gone round 65,535 times in
+// all its loops together, and says nothing: there they are so few that even the worst stays below that.
+static uint32_t substeps_at_once(const struct hair_sim* sim)
+{
+    if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
+    uint32_t solids = sim->solids.count < 8 ? sim->solids.count : 8; // that one vertex may meet
+    uint32_t rounds;
+    if (!sim->rods)
+        rounds = sim->physics.iterations * (4 + solids) + 2 * sim->solids.count + 20;
+    else if (sim->by_thread)
+        rounds = sim->most_vertices * (170 + (solids ? 20 * (2 + solids) : 0)) + sim->solids.count;
+    else
+        rounds = 400 + 6 * sim->most_vertices + 60 * (2 + solids);
+    uint32_t most = 65000 / rounds;
+    return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
+}
+
 static void upload(struct hair_sim* sim, const struct hair_step_params* params)
 {
     hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
@@ -158,7 +175,8 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     if (sim->rods) hair_sim_bind_rods(sim);
     params.share_start = (float)fmax(-(sim->substep - first) / dt, -1);
     for (uint32_t done = 0; done < total;) {
-        uint32_t count        = total - done < HAIR_STEP_SUBSTEPS ? total - done : HAIR_STEP_SUBSTEPS;
+        uint32_t most         = substeps_at_once(sim);
+        uint32_t count        = total - done < most ? total - done : most;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
         write_now(sim, &params);

@@ -98,13 +98,13 @@ static void vertices_beyond_counting_are_refused(void** state)
     assert_refused(&desc, "hair_groom_desc.strand_vertices add up to 4294967296");
 }
 
-static void more_guides_than_65535_are_refused(void** state)
+static void more_guides_than_262144_are_refused(void** state)
 {
     (void)state;
-    struct hair_test_strands strands = hair_test_fur(65536);
+    struct hair_test_strands strands = hair_test_fur(HAIR_MAX_GUIDES + 1);
     hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
     desc.strands_are                 = HAIR_STRANDS_GUIDES;
-    assert_refused(&desc, "65536 guides, not in [1, 65535]");
+    assert_refused(&desc, "262145 guides, not in [1, 262144]");
     hair_test_strands_free(&strands);
 }
 
@@ -400,7 +400,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(strands_of_which_none_can_be_used_are_refused),
         TEST(vertices_beyond_counting_are_refused),
-        TEST(more_guides_than_65535_are_refused),
+        TEST(more_guides_than_262144_are_refused),
         TEST(a_scalp_is_refused_by_index_value_and_range),
         TEST(a_scalp_where_nothing_can_grow_is_refused),
         TEST(patches_cover_every_follower_once_and_none_is_too_large),
