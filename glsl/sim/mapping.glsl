@@ -8,8 +8,6 @@
 //   ONCE(n)  n jobs j that each go over the whole guide, as recurrences do
 #include "workgroup.glsl"
 
-#define MOST HAIR_GUIDE_THREADS // vertices
-
 // What a program leaves out. Constants, for software rasterisers run both sides of a branch.
 #ifdef HAIR_CURVED
 #define CURVED true
@@ -24,6 +22,8 @@
 
 #ifdef HAIR_THREAD_PER_GUIDE
 
+// Vertices, and one more: Mesa unrolls a loop over an array of 32, and then takes 16 s to compile it.
+#define MOST (HAIR_GUIDE_THREADS + 1)
 #define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
 #define EACH(n) for (uint i = 0u; i < (n); ++i)
 #define ONCE(n) for (uint j = 0u; j < (n); ++j)
@@ -37,6 +37,7 @@ uint hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocat
 
 #else
 
+#define MOST HAIR_GUIDE_THREADS // vertices
 #define GROUP_THREADS MOST
 #define EACH(n) for (uint i = gl_LocalInvocationID.x; i < (n); i += MOST)
 #define ONCE(n) for (uint j = gl_LocalInvocationID.x; j < (n); j += MOST)
