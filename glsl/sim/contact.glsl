@@ -7,9 +7,8 @@
 #define SLIDES 1.0
 #define GLIDES 2.0 // between two solids, along both
 #define STICKS 3.0
-#ifndef STICK_PASS
-#define STICK_PASS 0.1
-#endif
+#define STICK_PASS 0.1 // see pass_on
+#define EMERGE 1.0     // m/s
 
 #define touch row_next // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS. Written before lengths are fitted.
 
@@ -98,6 +97,8 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out
         normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
         depth  = now.radius - dot(normal, out_b);
     }
+    // What was inside already comes out no faster than this.
+    depth -= max(then.radius - length(out_a) - EMERGE * params.gravity.w, 0.0);
     float along = nearest_share(end, now);
     surface     = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
               cross(params.solid[k].spin.xyz * (share_now - share_then), normal * now.radius);

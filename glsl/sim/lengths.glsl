@@ -3,9 +3,7 @@
 // sides, pass its contact: that makes its inverse mass an operator.
 #include "sim/contact.glsl"
 
-#ifndef KEEP_FROM
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
-#endif
 
 // Which displacement is allowed of what is wanted; and how long that leaves the segments.
 void try_wanted(vec3 head_moved, bool keep, uint slot)
@@ -58,17 +56,25 @@ uint fit_lengths(bool of_start, float tolerance, uint most, vec3 head_moved, ino
     }
 }
 
-// Each segment drawn after the one above it (Müller et al. 2012). The leader's own place is right already.
-void follow_leader()
+// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already, and turned out of
+// solids as far as two tries do it.
+void follow_leader(vec3 head_moved)
 {
     MEET;
     ONCE(1u) {
         vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
         for (uint k = 1u; k < guide_count; ++k) {
-            vec3  to = (place[k] - place[k - 1u]) + (moved[k] - moved[k - 1u]);
-            float l  = length(to);
-            if (bits_of(l) < 0x7f800000u && l > 1e-3 * rest_length[k - 1u]) last = to / l;
-            moved[k] = moved[k - 1u] + (place[k - 1u] - place[k]) + rest_length[k - 1u] * last;
+            vec3  leader = moved[k - 1u] + (place[k - 1u] - place[k]), want = moved[k];
+            float l      = rest_length[k - 1u];
+            uvec2 met    = uvec2(0u);
+            vec4  freedom;
+            for (uint n = 0u; n < (SOLIDS ? 3u : 1u); ++n) {
+                float away = length(want - leader);
+                if (bits_of(away) < 0x7f800000u && away > 1e-3 * l) last = (want - leader) / away;
+                want = leader + l * last;
+                if (SOLIDS && n < 2u) want = allowed(k, want, uvec2(near[0], near[1]), uvec2(0u), head_moved, freedom, met);
+            }
+            moved[k] = want;
         }
     }
     MEET;

@@ -141,7 +141,8 @@ void main()
                     moved[i] = own(wanted);
                     if (SOLIDS) touch[i] = vec4(0.0);
                 }
-                follow_leader();
+                find_solids(head_moved);
+                follow_leader(head_moved);
                 break;
             }
             uint left = fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, 8u, head_moved, slot);
