@@ -17,7 +17,6 @@ OWN(vec4, aim);         // rest position from the root, in groom space; w^2
 float     known;     // 0: at rest, just begun; 1: `rate` is known; 2: `rate_before` too
 bool      stiff;     // SHAKE takes bending implicitly
 vec4      turn_then; // turn_now, of the substep before
-bool      edges_stand; // edge[] is of the substep's start already
 
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
@@ -53,11 +52,9 @@ void predict(int method, uint slot)
     bool now     = method != SHAKE || stiff; // forces are of the end
     vec4 turn    = now ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
-    if (now || !edges_stand) {
-        EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
-        MEET;
-        measure(slot);
-    }
+    EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
+    MEET;
+    measure(slot);
     find_bending();
 
     vec3 wind = params.wind.xyz * params.gravity.w;

@@ -70,7 +70,10 @@ void accept(int method, vec3 head_moved, uint slot)
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     EACH(guide_count) {
         vec3 d = moved[i];
-        place[i] += d - root_moved;
+        // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
+        precise vec3 from_head = root_now + (place[i] + (d - root_moved));
+        precise vec3 from_root = from_head - root_now;
+        place[i]               = from_root;
 #if HAIR_SOLVER != SHAKE
         own(rate_before) = own(rate);
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : d;
@@ -82,12 +85,10 @@ void accept(int method, vec3 head_moved, uint slot)
         if (SOLIDS && touch[i].w != FREE) own(rate) = own(rate_before) = d; // An impact ends what was.
 #endif
         own(displacement) = d;
-        vec3 from_head    = root_now + place[i];
         raise(slot, max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))));
         if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u;
     }
     known       = method == BACK || method == EULER ? 2.0 : 1.0;
-    edges_stand = method == SHAKE;
     MEET;
     if (worst[slot] <= floatBitsToUint(FARTHEST * FARTHEST)) return;
 
@@ -101,7 +102,6 @@ void accept(int method, vec3 head_moved, uint slot)
 #endif
     }
     known       = 1.0;
-    edges_stand = false;
     count_in(HAIR_HEALTH_RESET);
     MEET;
 }
@@ -121,7 +121,6 @@ void main()
     load();
 
     uint slot   = 0u;
-    edges_stand = false;
     for (uint s = 0u; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
         turn_then       = turn_now;
@@ -147,7 +146,6 @@ void main()
             }
             uint left = fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, 8u, head_moved, slot);
             if (left <= floatBitsToUint(TOO_LONG)) break;
-            edges_stand = false;
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
