@@ -8,6 +8,7 @@
 #include "lib/api/api.h"
 #include "lib/base/math.h"
 #include "tests/support/handmade.h"
+#include "tests/support/ways.h"
 
 #define MOST 1024
 
@@ -16,10 +17,10 @@ struct strands {
     uint32_t guide_vertices, smooth_vertices;
 };
 
-static hair_instance* make(struct hair_test* test, hair_groom* groom)
+static hair_instance* make(struct hair_test* test, hair_groom* groom, int way)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_desc_default();
+    hair_desc      desc = hair_test_way(way);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     return hair;
 }
@@ -32,135 +33,124 @@ static void read(struct hair_test* test, hair_instance* hair, struct strands* ou
     assert_in_range(out->smooth_vertices, 1, 2 * MOST);
 }
 
-// Half a second from rest, under gravity, in portions of `dt`, the last one as long as is left.
-static void run(struct hair_test* test, hair_groom* groom, float (*portion)(uint32_t i), double time,
+// From rest, under gravity, in portions, the last one as long as is left: all in substeps.
+static void run(struct hair_test* test, hair_groom* groom, int way, float (*portion)(uint32_t i), double time,
                 struct strands* out)
 {
-    hair_instance* hair = make(test, groom);
-    double         left = time;
-    for (uint32_t i = 0; left > 1e-9; ++i) {
-        float dt = fminf(portion(i), (float)left);
+    hair_instance* hair    = make(test, groom, way);
+    double         substep = hair->sim.substep, left = time;
+    for (uint32_t i = 0; left > 1e-7; ++i) {
+        float dt = (float)(fmin((double)portion(i), left) * substep);
         hair_test_ok(test, hair_step(hair, dt));
-        left -= (double)dt;
+        left -= (double)dt / substep;
     }
     read(test, hair, out);
     hair_destroy(hair);
 }
 
-static float thirtieth(uint32_t i)
+static float one(uint32_t i)
 {
-    return (void)i, 1.0f / 30;
+    return (void)i, 1;
 }
-static float sixtieth(uint32_t i)
+static float two(uint32_t i)
 {
-    return (void)i, 1.0f / 60;
+    return (void)i, 2;
 }
-static float substep(uint32_t i)
+static float four(uint32_t i)
 {
-    return (void)i, 1.0f / 120;
+    return (void)i, 4;
 }
-static float millisecond(uint32_t i)
+static float an_eighth(uint32_t i)
 {
-    return (void)i, 0.001f;
+    return (void)i, 0.12f;
 }
-static float tenth(uint32_t i)
+static float twelve(uint32_t i)
 {
-    return (void)i, 0.1f;
+    return (void)i, 12;
 }
 static float irregular(uint32_t i)
 {
     uint32_t seed = i;
-    return 0.0001f + 0.05f * hair_random(&seed);
+    return 0.01f + 6 * hair_random(&seed);
 }
 
 // The same substeps are made of all of them. Where in the next substep time stands is a sum of rounded
 // portions: the drawn strands agree as the times do, to a millionth of a second at a few metres a second.
-static void strands_are_the_same_at_every_frame_rate(void** state)
+static void strands_are_the_same(struct hair_test* test, hair_groom* groom, int way)
 {
-    static float (*const portions[])(uint32_t) = {thirtieth, sixtieth, millisecond, tenth, irregular};
+    static float (*const portions[])(uint32_t) = {two, four, twelve, an_eighth, irregular};
     static struct strands expected, got;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     // Between two ends of substeps, so that no rounding of the sum decides how many there are.
-    static const double times[] = {60.5 / 120, 30.25 / 120, 7.75 / 120};
+    static const double times[] = {60.5, 30.25, 7.75};
     for (size_t t = 0; t < sizeof times / sizeof *times; ++t) {
-        run(test, groom, substep, times[t], &expected);
+        run(test, groom, way, one, times[t], &expected);
         for (size_t i = 0; i < sizeof portions / sizeof *portions; ++i) {
-            run(test, groom, portions[i], times[t], &got);
+            run(test, groom, way, portions[i], times[t], &got);
             assert_int_equal(got.guide_vertices, expected.guide_vertices);
             assert_memory_equal(got.guides, expected.guides, 12 * got.guide_vertices);
             for (uint32_t k = 0; k < 3 * got.smooth_vertices; ++k)
                 hair_test_near("smooth", k, got.smooth[k], expected.smooth[k], 1e-5);
         }
     }
-    hair_groom_destroy(groom);
 }
 
-// Five floats of 1/120 s are a little more than one of 1/24 s, and still it holds five substeps.
-static void whole_portions_are_whole_substeps(void** state)
+// Five floats of 1/120 s are a little more than one of 1/24 s, and still that holds five substeps.
+static void portions_are_substeps(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands fine, coarse;
     static const uint32_t each[] = {2, 3, 4, 5, 6, 8};
-    struct hair_test*     test   = *state;
-    hair_groom*           groom  = hair_test_groom(&test->host.host, hair_test_handmade_default());
     for (int k = 0; k < 6; ++k) {
-        hair_instance* at_once = make(test, groom);
-        hair_instance* by_one  = make(test, groom);
-        for (uint32_t i = 0; i < 20; ++i) hair_test_ok(test, hair_step(at_once, (float)(each[k] / 120.0)));
-        for (uint32_t i = 0; i < 20 * each[k]; ++i) hair_test_ok(test, hair_step(by_one, (float)(1 / 120.0)));
+        hair_instance* at_once = make(test, groom, way);
+        hair_instance* by_one  = make(test, groom, way);
+        double         substep = at_once->sim.substep;
+        for (uint32_t i = 0; i < 20; ++i) hair_test_ok(test, hair_step(at_once, (float)(each[k] * substep)));
+        for (uint32_t i = 0; i < 20 * each[k]; ++i) hair_test_ok(test, hair_step(by_one, (float)substep));
         read(test, at_once, &coarse);
         read(test, by_one, &fine);
         assert_memory_equal(coarse.guides, fine.guides, 12 * fine.guide_vertices);
         hair_destroy(at_once);
         hair_destroy(by_one);
     }
-    hair_groom_destroy(groom);
 }
 
-static void the_same_steps_give_the_same_bits(void** state)
+static void steps_give_the_same_bits(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands first, second;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    run(test, groom, irregular, 0.7, &first);
-    run(test, groom, irregular, 0.7, &second);
+    run(test, groom, way, irregular, 84, &first);
+    run(test, groom, way, irregular, 84, &second);
     assert_memory_equal(first.guides, second.guides, 12 * first.guide_vertices);
     assert_memory_equal(first.smooth, second.smooth, 12 * first.smooth_vertices);
-    hair_groom_destroy(groom);
 }
 
 // With a head that moves evenly the substeps still lie where they lay: only what is between them is rounded.
-static void a_moving_head_is_followed_alike_at_every_frame_rate(void** state)
+static void a_moving_head_is_followed(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands fine, coarse;
-    struct hair_test*     test    = *state;
-    hair_groom*           groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_instance*        hair[2] = {make(test, groom), make(test, groom)};
+    hair_instance*        hair[2] = {make(test, groom, way), make(test, groom, way)};
     for (int rate = 0; rate < 2; ++rate) {
         int each = rate ? 4 : 1; // substeps in a step
         for (int i = 1; i <= 40 / each; ++i) {
-            float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.01f * (float)(i * each), 0, 0, 1};
+            float time          = (float)(i * each * hair[rate]->sim.substep); // at 1.2 m/s
+            float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.2f * time, 0, 0, 1};
             hair_test_ok(test, hair_set_transform(hair[rate], transform));
-            hair_test_ok(test, hair_step(hair[rate], (float)each / 120));
+            hair_test_ok(test, hair_step(hair[rate], (float)(each * hair[rate]->sim.substep)));
         }
     }
     read(test, hair[0], &fine);
     read(test, hair[1], &coarse);
-    assert_true(fabsf(fine.guides[0] - 0.4f) < 0.2f);
+    hair_test_near("root", 0, fine.guides[0], (double)groom->rest[0].position.x + 48 * hair[0]->sim.substep,
+                   1e-6);
     for (uint32_t k = 0; k < 3 * fine.guide_vertices; ++k)
         hair_test_near("guides", k, coarse.guides[k], fine.guides[k], 1e-5);
     hair_destroy(hair[0]);
     hair_destroy(hair[1]);
-    hair_groom_destroy(groom);
 }
 
-static void no_time_changes_nothing(void** state)
+static void nothing_changes(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands before, after;
     static const float    nothing[] = {0, -0.0f, NAN, -1, -INFINITY};
-    struct hair_test*     test      = *state;
-    hair_groom*           groom     = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_instance*        hair      = make(test, groom);
+    hair_instance*        hair      = make(test, groom, way);
     hair_test_ok(test, hair_step(hair, 0.0123f));
     read(test, hair, &before);
     for (int i = 0; i < 5; ++i) {
@@ -171,16 +161,13 @@ static void no_time_changes_nothing(void** state)
     }
     assert_int_equal(hair_test_forgive(test), 3);
     hair_destroy(hair);
-    hair_groom_destroy(groom);
 }
 
-static void beyond_the_longest_step_time_slows_and_the_log_says_so_once(void** state)
+static void time_slows(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands slowed, whole;
-    struct hair_test*     test        = *state;
-    hair_groom*           groom       = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_instance*        hair        = make(test, groom);
-    hair_instance*        other       = make(test, groom);
+    hair_instance*        hair        = make(test, groom, way);
+    hair_instance*        other       = make(test, groom, way);
     uint32_t              warnings    = test->host.warnings;
     static const float    long_ones[] = {0.2f, 1e30f, INFINITY};
     for (int i = 0; i < 3; ++i) {
@@ -193,16 +180,13 @@ static void beyond_the_longest_step_time_slows_and_the_log_says_so_once(void** s
     assert_memory_equal(slowed.guides, whole.guides, 12 * whole.guide_vertices);
     hair_destroy(hair);
     hair_destroy(other);
-    hair_groom_destroy(groom);
 }
 
 // More substeps than one dispatch takes.
-static void a_step_of_very_many_substeps_is_like_many_steps(void** state)
+static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands one, many;
-    struct hair_test*     test    = *state;
-    hair_groom*           groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_desc             desc    = hair_desc_default();
+    hair_desc             desc    = hair_test_way(way);
     hair_instance*        hair[2] = {NULL, NULL};
     desc.substep                  = 0.001f;
     desc.max_dt                   = 1;
@@ -214,7 +198,46 @@ static void a_step_of_very_many_substeps_is_like_many_steps(void** state)
     assert_memory_equal(one.guides, many.guides, 12 * one.guide_vertices);
     hair_destroy(hair[0]);
     hair_destroy(hair[1]);
+}
+
+static void in_every_way(void** state, void (*check)(struct hair_test* test, hair_groom* groom, int way))
+{
+    struct hair_test* test  = *state;
+    hair_groom*       groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
+        print_message("    %s\n", hair_test_way_name(way));
+        check(test, groom, way);
+    }
     hair_groom_destroy(groom);
+}
+
+static void strands_are_the_same_at_every_frame_rate(void** state)
+{
+    in_every_way(state, strands_are_the_same);
+}
+static void whole_portions_are_whole_substeps(void** state)
+{
+    in_every_way(state, portions_are_substeps);
+}
+static void the_same_steps_give_the_same_bits(void** state)
+{
+    in_every_way(state, steps_give_the_same_bits);
+}
+static void a_moving_head_is_followed_alike_at_every_frame_rate(void** state)
+{
+    in_every_way(state, a_moving_head_is_followed);
+}
+static void no_time_changes_nothing(void** state)
+{
+    in_every_way(state, nothing_changes);
+}
+static void beyond_the_longest_step_time_slows_and_the_log_says_so_once(void** state)
+{
+    in_every_way(state, time_slows);
+}
+static void a_step_of_very_many_substeps_is_like_many_steps(void** state)
+{
+    in_every_way(state, a_long_step_is_many_steps);
 }
 
 int main(void)

@@ -6,9 +6,9 @@
 
 #include "lib/api/api.h"
 #include "tests/support/handmade.h"
+#include "tests/support/ways.h"
 
-#define HAIR_TEST_SUBJECTS 3                         // kinds
-#define HAIR_TEST_SOLVERS (HAIR_SOLVER_REDBLACK + 1) // the last one and all before
+#define HAIR_TEST_SUBJECTS 3 // kinds
 #define HAIR_TEST_SEEN 65536
 
 // One head of hair and what happens to it: every event follows from `seed` and its number.

@@ -1,0 +1,23 @@
+// ways.c - every way in which guides are simulated.
+#include "tests/support/ways.h"
+
+hair_desc hair_test_way(int way)
+{
+    hair_desc desc = hair_desc_default();
+    desc.solver    = (hair_solver)(way / 2);
+    desc.mapping   = way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+    desc.substep   = desc.solver == HAIR_SOLVER_ACCURATE ? 1.0f / 960 : 1.0f / 120;
+    return desc;
+}
+
+const char* hair_test_way_name(int way)
+{
+    static const char* const names[HAIR_TEST_WAYS] = {"direct, a work group per guide",
+                                                      "direct, a thread per guide",
+                                                      "accurate, a work group per guide",
+                                                      "accurate, a thread per guide",
+                                                      "follow, a work group per guide",
+                                                      "follow, a thread per guide",
+                                                      "redblack"};
+    return names[way];
+}

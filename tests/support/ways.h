@@ -1,0 +1,14 @@
+// ways.h - every way in which guides are simulated: each solver in each mapping that it has.
+#ifndef HAIR_TESTS_SUPPORT_WAYS_H
+#define HAIR_TESTS_SUPPORT_WAYS_H
+
+#include <hair/hair.h>
+
+#define HAIR_TEST_SOLVERS (HAIR_SOLVER_REDBLACK + 1) // the last one and all before
+#define HAIR_TEST_WAYS (2 * HAIR_TEST_SOLVERS - 1)   // redblack has one mapping
+
+// The `way`-th: solver, mapping and a substep that suits them.
+hair_desc   hair_test_way(int way);
+const char* hair_test_way_name(int way); // "direct, a thread per guide"
+
+#endif
