@@ -25,13 +25,14 @@ vec3 offset_of(uint i, int method, vec3 last)
     return method == BACK ? last / 3.0 : vec3(0.0);
 }
 
-// SHAKE: d' = keep d + kick (g + f/m), a force of the start; where bending is stiff, of the end as well:
+// SHAKE: d' = keep d + kick (g + f/m), forces of the start. Where bending is stiff it is kept stable:
 // (m + h^2 K) (d' - d) = m ((keep - 1) d + kick g) + kick f.
 void leap(uint i, vec3 force, vec3 wind, vec3 bending)
 {
-    float kick = params.kick * (known == 0.0 ? 0.5 : 1.0); // The first leap is half a step.
+    float part = known == 0.0 ? 0.5 : 1.0; // The first leap is half a step.
+    float kick = part * params.kick;
     vec3  d    = own(displacement);
-    vec3  gain = (params.keep - 1.0) * (d - wind) + kick * force;
+    vec3  gain = part * (params.keep - 1.0) * (d - wind) + kick * force;
     own(wanted) = d;
     if (stiff) moved[i] = gain / slack[i] + kick * bending;
     else own(wanted) += gain + kick * slack[i] * bending;
@@ -42,15 +43,15 @@ void leap(uint i, vec3 force, vec3 wind, vec3 bending)
 void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
 {
     float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
-    vec3  hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : own(rate);
+    vec3  hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : HAIR_SOLVER == SHAKE ? own(displacement) : own(rate);
     own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
     moved[i]        = (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending;
 }
 
 void predict(int method, uint slot)
 {
-    bool now     = method != SHAKE || stiff; // forces are of the end
-    vec4 turn    = now ? turn_now : turn_then;
+    bool at_end  = method != SHAKE; // is where forces are of
+    vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
     MEET;
@@ -62,7 +63,7 @@ void predict(int method, uint slot)
         own(wanted)  = root_moved;
         vec3 bending = bending_force(i);
         vec3 force   = params.gravity.xyz;
-        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (now ? root_moved - moved[i] : vec3(0.0)) - place[i]);
+        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - moved[i] : vec3(0.0)) - place[i]);
         moved[i] = vec3(0.0);
         if (slack[i] > 0.0) {
             if (method == SHAKE) leap(i, force, wind, bending);
@@ -75,7 +76,7 @@ void predict(int method, uint slot)
         EACH(guide_count - 1u) { lever[i] = edge[i]; }
         MEET;
     }
-    if (now) {
+    if (at_end || stiff) {
         solve_implicit(method >= EULER);
         EACH(guide_count) {
             if (slack[i] > 0.0) own(wanted) += moved[i];

@@ -69,22 +69,22 @@ void accept(int method, vec3 head_moved, uint slot)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     EACH(guide_count) {
-        vec3 d = moved[i];
+        vec3 d = moved[i], kept = d;
+        if (method == LEADER) { // What was drawn along may not keep that speed.
+            vec3  relative = d - root_moved;
+            float speed    = length(relative);
+            kept           = root_moved + relative * (speed > fastest ? fastest / speed : 1.0);
+        }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
         precise vec3 from_head = root_now + (place[i] + (d - root_moved));
         precise vec3 from_root = from_head - root_now;
         place[i]               = from_root;
 #if HAIR_SOLVER != SHAKE
         own(rate_before) = own(rate);
-        own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : d;
-        if (method == LEADER) { // What was drawn along may not keep that speed.
-            vec3  relative = d - root_moved;
-            float speed    = length(relative);
-            own(rate)      = root_moved + relative * (speed > fastest ? fastest / speed : 1.0);
-        }
+        own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
         if (SOLIDS && touch[i].w != FREE) own(rate) = own(rate_before) = d; // An impact ends what was.
 #endif
-        own(displacement) = d;
+        own(displacement) = HAIR_SOLVER == SHAKE ? kept : d;
         raise(slot, max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))));
         if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u;
     }
