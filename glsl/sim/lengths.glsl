@@ -51,7 +51,9 @@ uint fit_lengths(bool of_start, float tolerance, uint most, vec3 head_moved, ino
         slot = slot == 2u ? 0u : slot + 1u;
         try_wanted(head_moved, n >= KEEP_FROM, slot);
         uint left = worst[slot];
-        if (left <= floatBitsToUint(tolerance) || left >= 0x7f800000u || n >= most) return left;
+        // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
+        bool good = n > 0u && left <= floatBitsToUint(tolerance);
+        if (good || left >= 0x7f800000u || n >= most) return left;
         correct_lengths(of_start);
     }
 }
