@@ -241,45 +241,93 @@ static void no_member_is_forgotten(void** state)
     }
 }
 
+// Of a storage buffer the size is that of one element.
 static void the_passes_have_the_buffers_of_shared_h(void** state)
 {
     struct hair_test* test = *state;
     static const struct {
         hair_gl_pass pass;
+        GLenum       interface;
         const char*  block;
         GLint        binding, size;
-    } uses[] = {{HAIR_GL_REDBLACK_32, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_REDBLACK_64, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_REDBLACK_128, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_REDBLACK_256, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_SMOOTH_32, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_SMOOTH_256, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)},
-                {HAIR_GL_EXPAND, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)},
-                {HAIR_GL_RIBBONS, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)}};
+    } uses[] = {
+#define STEP(pass)                                                                                           \
+    {HAIR_GL_##pass, GL_UNIFORM_BLOCK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)}
+#define DRAW(pass)                                                                                           \
+    {                                                                                                        \
+        HAIR_GL_##pass, GL_UNIFORM_BLOCK, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)     \
+    }
+#define STORAGE(pass, block, slot, size)                                                                     \
+    {                                                                                                        \
+        HAIR_GL_##pass, GL_SHADER_STORAGE_BLOCK, block, HAIR_BIND_##slot, size                               \
+    }
+#define ROD(pass)                                                                                            \
+    STEP(pass), STORAGE(pass, "guide_buffer", GUIDE, sizeof(struct hair_guide)),                             \
+        STORAGE(pass, "rest_buffer", REST, sizeof(struct hair_rest)),                                        \
+        STORAGE(pass, "state_buffer", STATE, sizeof(struct hair_state)),                                     \
+        STORAGE(pass, "rod_buffer", ROD, sizeof(struct hair_rod)),                                           \
+        STORAGE(pass, "history_buffer", HISTORY, sizeof(struct hair_history)),                               \
+        STORAGE(pass, "material_buffer", MATERIAL, sizeof(hair_vec4)),                                       \
+        STORAGE(pass, "health_buffer", HEALTH, sizeof(hair_uint))
+        STEP(REDBLACK_32),
+        STEP(REDBLACK_64),
+        STEP(REDBLACK_128),
+        STEP(REDBLACK_256),
+        ROD(DIRECT_CURVED_32),
+        ROD(DIRECT_CURVED_SOLIDS_256),
+        ROD(DIRECT_THREAD_CURVED_64),
+        ROD(FOLLOW_CURVED_128),
+        STEP(ACCURATE_32),
+        STEP(ACCURATE_THREAD_SOLIDS_32),
+        STEP(SMOOTH_32),
+        STEP(SMOOTH_256),
+        DRAW(EXPAND),
+        DRAW(RIBBONS)};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));
         GLuint program = test->context->gl.program[uses[i].pass];
-        GLuint block   = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, uses[i].block);
-        assert_int_not_equal(block, GL_INVALID_INDEX);
-        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_BINDING), uses[i].binding);
-        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), uses[i].size);
+        GLuint block   = glGetProgramResourceIndex(program, uses[i].interface, uses[i].block);
+        if (block == GL_INVALID_INDEX)
+            fail_msg("%s has no %s", hair_gl_pass_label(uses[i].pass), uses[i].block);
+        assert_int_equal(ask(program, uses[i].interface, block, GL_BUFFER_BINDING), uses[i].binding);
+        // Some drivers round up to a vec4.
+        assert_in_range(ask(program, uses[i].interface, block, GL_BUFFER_DATA_SIZE), uses[i].size,
+                        (uses[i].size + 15) / 16 * 16);
     }
+}
+
+static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
+{
+    GLint size[3] = {0};
+    hair_test_ok(test, hair_gl_need(&test->context->gl, pass));
+    glGetProgramiv(test->context->gl.program[pass], GL_COMPUTE_WORK_GROUP_SIZE, size);
+    assert_int_equal(size[1] * size[2], 1);
+    return size[0];
 }
 
 // A guide's work group has a thread for each of its vertices, in the smallest group of the four that has.
 static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 {
-    struct hair_test* test     = *state;
-    hair_gl_pass      groups[] = {HAIR_GL_REDBLACK_32, HAIR_GL_SMOOTH_32};
-    for (int i = 0; i < 2; ++i)
+    static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK_32,      HAIR_GL_SMOOTH_32,
+                                          HAIR_GL_DIRECT_32,        HAIR_GL_ACCURATE_CURVED_32,
+                                          HAIR_GL_FOLLOW_SOLIDS_32, HAIR_GL_DIRECT_CURVED_SOLIDS_32};
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (uint32_t vertices = 2; vertices <= HAIR_MAX_GUIDE_VERTICES; ++vertices) {
-            hair_gl_pass pass    = hair_gl_pass_for(groups[i], vertices);
-            GLint        size[3] = {0};
-            hair_test_ok(test, hair_gl_need(&test->context->gl, pass));
-            glGetProgramiv(test->context->gl.program[pass], GL_COMPUTE_WORK_GROUP_SIZE, size);
-            assert_in_range(size[0], vertices, vertices <= 32 ? 32 : 2 * vertices - 2);
+            hair_gl_pass pass = hair_gl_pass_for(groups[i], vertices);
+            assert_in_range(threads_of(*state, pass), vertices, vertices <= 32 ? 32 : 2 * vertices - 2);
             assert_in_range(pass, groups[i], groups[i] + 3);
         }
+}
+
+// As many in a work group as sim.c counts on, whatever their length.
+static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
+{
+    static const hair_gl_pass groups[] = {HAIR_GL_DIRECT_THREAD_32, HAIR_GL_ACCURATE_THREAD_CURVED_32,
+                                          HAIR_GL_FOLLOW_THREAD_SOLIDS_32,
+                                          HAIR_GL_DIRECT_THREAD_CURVED_SOLIDS_32};
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
+        for (int size = 0; size < 4; ++size)
+            assert_int_equal(threads_of(*state, groups[i] + (hair_gl_pass)size), 8);
 }
 
 int main(void)
@@ -291,6 +339,7 @@ int main(void)
         HAIR_TEST(no_member_is_forgotten),
         HAIR_TEST(the_passes_have_the_buffers_of_shared_h),
         HAIR_TEST(a_guide_has_a_thread_for_each_of_its_vertices),
+        HAIR_TEST(where_a_thread_has_a_whole_guide_eight_share_a_work_group),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
