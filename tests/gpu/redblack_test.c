@@ -44,6 +44,7 @@ static struct fixture start_with(void** state, struct hair_test_handmade wanted)
 {
     struct fixture f    = {.test = *state, .random = 12345};
     hair_desc      desc = hair_desc_default();
+    desc.solver         = HAIR_SOLVER_REDBLACK;
     f.groom             = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     f.params.gravity.w = 1.0f / 120;
@@ -86,14 +87,16 @@ static void move_head(struct fixture* f)
 
 static void put_solids(struct fixture* f)
 {
-    f->params.margin = 0.001f;
-    f->params.solids = 3;
-    f->params.solid[0] =
-        (struct hair_capsule){{{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}, {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
-    f->params.solid[1] = (struct hair_capsule){{{-0.2f, 0.2f, 0, 0.05f}, {0.2f, 0.25f, 0, 0.05f}},
-                                               {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
-    f->params.solid[2] = (struct hair_capsule){{{0.1f, 0.3f, 0.1f, 0.04f}, {0.1f, 0.3f, 0.1f, 0.04f}},
-                                               {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
+    f->params.margin   = 0.001f;
+    f->params.solids   = 3;
+    f->params.solid[0] = (struct hair_capsule){.start = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}},
+                                               .end   = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
+    f->params.solid[1] =
+        (struct hair_capsule){.start = {{-0.2f, 0.2f, 0, 0.05f}, {0.2f, 0.25f, 0, 0.05f}},
+                              .end   = {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
+    f->params.solid[2] =
+        (struct hair_capsule){.start = {{0.1f, 0.3f, 0.1f, 0.04f}, {0.1f, 0.3f, 0.1f, 0.04f}},
+                              .end   = {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
 }
 
 static void switch_all_on(struct fixture* f)
