@@ -43,6 +43,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_MATERIAL                                                                                   \
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
 #define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT]
+#define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
@@ -166,7 +167,8 @@ struct hair_step_params {
     float     friction;
     float     share_start; // of the step done before this dispatch
     float     rescale;     // of displacements, where the substep's length has changed; else 1
-    hair_uint unused0, unused1, unused2;
+    hair_uint vertices; // of all guides
+    hair_uint unused0, unused1;
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
 };

@@ -1,14 +1,13 @@
-// implicit.glsl - A q = r for r in moved[], in place: A = L D L^T has five diagonals and was factored on the CPU.
+// implicit.glsl - A q = r for r in moved[], in place. A has five diagonals and was made ready on the CPU, for the
+// solver's own method and for implicit Euler.
 
-vec4 factor_of(uint i, bool euler) { return euler ? rod[guide_first + i].factor_euler : rod[guide_first + i].factor; }
-
-void solve_implicit(bool euler)
+// Elimination and substitution by A = L D L^T: two recurrences over the strand.
+void substitute(bool euler)
 {
-    MEET;
     ONCE(3u) { // each component by itself
         float one = 0.0, two = 0.0; // what the rows one and two above hand down
         for (uint k = 0u; k < guide_count; ++k) {
-            vec4  f     = factor_of(k, euler);
+            vec4  f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
             float value = moved[k][j] - one;
             one         = two + f.y * value;
             two         = f.z * value;
@@ -16,7 +15,7 @@ void solve_implicit(bool euler)
         }
         float below = 0.0, below_two = 0.0;
         for (uint k = guide_count; k-- > 0u;) {
-            vec4  f     = factor_of(k, euler);
+            vec4  f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
             float value = moved[k][j] - f.y * below - f.z * below_two;
             below_two   = below;
             below       = value;
@@ -25,3 +24,52 @@ void solve_implicit(bool euler)
     }
     MEET;
 }
+
+#ifdef HAIR_THREAD_PER_GUIDE
+
+void solve_implicit(bool euler) { substitute(euler); }
+
+#else
+
+vec3 reduced_from(vec4 m, uint block, uint reach)
+{
+    uint i = gl_LocalInvocationID.x;
+    vec3 r = moved[i];
+    if (block >= reach) {
+        uint k = 2u * (block - reach);
+        r += m.x * moved[k] + m.y * moved[k + 1u];
+    }
+    uint k = 2u * (block + reach);
+    if (k < guide_count) r += m.z * moved[k] + m.w * (k + 1u < guide_count ? moved[k + 1u] : vec3(0.0));
+    return r;
+}
+
+// Of a work group: parallel cyclic reduction of pairs of vertices, the matrix's part of it done (lib/sim/reduce.c).
+// Implicit Euler is rare, and substitutes.
+void solve_implicit(bool euler)
+{
+    MEET;
+    if (euler) {
+        substitute(true);
+        return;
+    }
+    uint i = gl_LocalInvocationID.x, block = i / 2u, at = guide_first + i, blocks = (guide_count + 1u) / 2u;
+    for (uint reach = 1u; reach < blocks; reach *= 2u, at += params.vertices) {
+        vec3 r = i < guide_count ? reduced_from(reduction[at], block, reach) : vec3(0.0);
+        MEET;
+        if (i < guide_count) moved[i] = r;
+        MEET;
+    }
+    vec3 q = vec3(0.0);
+    if (i < guide_count) {
+        vec4 m    = reduction[at];
+        uint k    = 2u * block;
+        vec3 odd  = k + 1u < guide_count ? moved[k + 1u] : vec3(0.0);
+        q         = m.x * moved[k] + m.y * odd;
+    }
+    MEET;
+    if (i < guide_count) moved[i] = q;
+    MEET;
+}
+
+#endif

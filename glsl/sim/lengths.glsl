@@ -3,10 +3,11 @@
 // sides, pass its contact: that makes its inverse mass an operator.
 #include "sim/contact.glsl"
 
+#define MOST_STEPS 8u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
 // Which displacement is allowed of what is wanted; and how long that leaves the segments.
-void try_wanted(vec3 head_moved, bool keep, uint slot)
+void try_wanted(vec3 head_moved, bool keep, float tolerance)
 {
     EACH(guide_count) {
         vec4 freedom = vec4(0.0);
@@ -18,7 +19,7 @@ void try_wanted(vec3 head_moved, bool keep, uint slot)
         }
     }
     MEET;
-    measure(slot);
+    measure(tolerance);
 }
 
 vec3 direction_of(uint i, bool of_start) { return of_start ? lever[i] : edge[i]; }
@@ -43,17 +44,14 @@ void correct_lengths(bool of_start)
     }
 }
 
-// The worst relative error of length that is left, by its bits.
-uint fit_lengths(bool of_start, float tolerance, uint most, vec3 head_moved, inout uint slot)
+// False: some length is broken even so.
+bool fit_lengths(bool of_start, float tolerance, vec3 head_moved)
 {
     find_solids(head_moved);
     for (uint n = 0u;; ++n) {
-        slot = slot == 2u ? 0u : slot + 1u;
-        try_wanted(head_moved, n >= KEEP_FROM, slot);
-        uint left = worst[slot];
+        try_wanted(head_moved, n >= KEEP_FROM, tolerance);
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-        bool good = n > 0u && left <= floatBitsToUint(tolerance);
-        if (good || left >= 0x7f800000u || n >= most) return left;
+        if ((n > 0u && loose[slot] == 0u) || n == MOST_STEPS) return broken[slot] == 0u;
         correct_lengths(of_start);
     }
 }

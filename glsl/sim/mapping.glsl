@@ -31,22 +31,20 @@
 #define OWN(T, name) T name[MOST]
 #define own(name) name[i]
 #define MEET
-uint worst[3];
-void raise(uint slot, uint bits) { worst[slot] = max(worst[slot], bits); }
+uint loose[3], broken[3];
 uint hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocationID.x; }
 
 #else
 
 #define MOST HAIR_GUIDE_THREADS // vertices
 #define GROUP_THREADS MOST
-#define EACH(n) for (uint i = gl_LocalInvocationID.x; i < (n); i += MOST)
-#define ONCE(n) for (uint j = gl_LocalInvocationID.x; j < (n); j += MOST)
+#define EACH(n) for (uint i = gl_LocalInvocationID.x; i < (n); i = 0xffffffffu)
+#define ONCE(n) for (uint j = gl_LocalInvocationID.x; j < (n); j = 0xffffffffu)
 #define SHARED(T, name) shared T name[MOST]
 #define OWN(T, name) T name
 #define own(name) name
 #define MEET synchronise()
-shared uint worst[3];
-void raise(uint slot, uint bits) { atomicMax(worst[slot], bits); }
+shared uint loose[3], broken[3];
 uint hair_guide_number() { return hair_group(); }
 
 #endif

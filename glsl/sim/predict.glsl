@@ -48,14 +48,14 @@ void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
     moved[i]        = (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending;
 }
 
-void predict(int method, uint slot)
+void predict(int method)
 {
     bool at_end  = method != SHAKE; // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
     MEET;
-    measure(slot);
+    measure(1.0);
     find_bending();
 
     vec3 wind = params.wind.xyz * params.gravity.w;

@@ -10,8 +10,7 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
 
-#define TOO_LONG 0.01   // relative error of length at which a method has failed
-#define FARTHEST 1e4    // m from the head's origin, or in a substep: no hair is there
+#define FARTHEST 1e4 // m from the head's origin, or in a substep: no hair is there
 
 vec3 root_at_rest, root_then;
 
@@ -33,7 +32,7 @@ void load()
         own(rate)            = history[at].rate.xyz * rescale;
         own(rate_before)     = history[at].rate_before.xyz * rescale;
 #endif
-        if (i == 0u) worst[0] = worst[1] = worst[2] = 0u;
+        if (i == 0u) loose[0] = loose[1] = loose[2] = broken[0] = broken[1] = broken[2] = 0u;
     }
     known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
     stiff = rod[guide_first].segment.w != 0.0;
@@ -65,7 +64,7 @@ void count_in(uint what)
 
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
-void accept(int method, vec3 head_moved, uint slot)
+void accept(int method, vec3 head_moved)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     EACH(guide_count) {
@@ -85,12 +84,13 @@ void accept(int method, vec3 head_moved, uint slot)
         if (SOLIDS && touch[i].w != FREE) own(rate) = own(rate_before) = d; // An impact ends what was.
 #endif
         own(displacement) = HAIR_SOLVER == SHAKE ? kept : d;
-        raise(slot, max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))));
-        if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u;
+        if (max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST))
+            broken[slot] = 1u;
+        clear_next(i);
     }
     known       = method == BACK || method == EULER ? 2.0 : 1.0;
     MEET;
-    if (worst[slot] <= floatBitsToUint(FARTHEST * FARTHEST)) return;
+    if (broken[slot] == 0u) return;
 
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
     EACH(guide_count) {
@@ -118,9 +118,9 @@ void main()
     root_then    = rotate(turn_now, root_at_rest);
     root_now     = root_then;
     share_now    = params.share_start;
+    slot         = 0u;
     load();
 
-    uint slot   = 0u;
     for (uint s = 0u; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
         turn_then       = turn_now;
@@ -133,8 +133,7 @@ void main()
 
         int method = HAIR_SOLVER == BACK && known < 2.0 ? EULER : HAIR_SOLVER;
         for (;; ++method) {
-            slot = slot == 2u ? 0u : slot + 1u;
-            predict(method, slot);
+            predict(method);
             if (method == LEADER) {
                 EACH(guide_count) {
                     moved[i] = own(wanted);
@@ -144,13 +143,12 @@ void main()
                 follow_leader(head_moved);
                 break;
             }
-            uint left = fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, 8u, head_moved, slot);
-            if (left <= floatBitsToUint(TOO_LONG)) break;
+            if (fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, head_moved)) break;
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
-        slot = slot == 2u ? 0u : slot + 1u;
-        accept(method, head_moved, slot);
+        next_slot();
+        accept(method, head_moved);
     }
     store();
 }

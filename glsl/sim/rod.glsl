@@ -29,16 +29,29 @@ vec4 scalp;      // frame that clamps the first segment
 // By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
 uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 
-// Unit edges where `moved` leads; the greatest relative error of length is raised into worst[slot].
-void measure(uint slot)
+#define TOO_LONG 0.01 // relative error of length with which a method has failed
+
+// One of three pairs of flags, taken in turn, so that one can be cleared while another is read.
+uint slot;
+void next_slot() { slot = slot == 2u ? 0u : slot + 1u; }
+void clear_next(uint i)
 {
+    if (i == 0u) loose[slot == 2u ? 0u : slot + 1u] = broken[slot == 2u ? 0u : slot + 1u] = 0u;
+}
+
+// Unit edges where `moved` leads; whether some length is loose, wrong by more than the relative `tolerance`, or broken.
+void measure(float tolerance)
+{
+    next_slot();
     EACH(guide_count - 1u) {
         vec3  to = (place[i + 1u] - place[i]) + (moved[i + 1u] - moved[i]);
         float l  = length(to);
         edge[i]     = to / l;
         own(excess) = l - rest_length[i];
-        raise(slot, bits_of(own(excess) / rest_length[i]));
-        if (i == 0u) worst[slot == 2u ? 0u : slot + 1u] = 0u; // For the next.
+        uint error = bits_of(own(excess) / rest_length[i]);
+        if (error > floatBitsToUint(tolerance)) loose[slot] = 1u;
+        if (error > floatBitsToUint(TOO_LONG)) broken[slot] = 1u;
+        clear_next(i);
     }
     MEET;
 }

@@ -162,7 +162,7 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
-    HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-6,
+    HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-7,
                     ///< uniform buffers 0-1, buffer textures of units 0-4, 2D texture, sampler of unit 5.
 } hair_gl_state;
 

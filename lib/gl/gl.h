@@ -26,9 +26,9 @@ struct hair_gl_timer {
 struct hair_gl_saved {
     GLint      program, vertex_array, patch_vertices, active_texture, cull;
     GLint      texture[HAIR_UNIT_SHADOW + 1], sampler;
-    GLuint     storage[HAIR_BIND_EXPANDED + 1], uniform[HAIR_BIND_DRAW + 1];
-    GLintptr   storage_first[HAIR_BIND_EXPANDED + 1], uniform_first[HAIR_BIND_DRAW + 1];
-    GLsizeiptr storage_size[HAIR_BIND_EXPANDED + 1], uniform_size[HAIR_BIND_DRAW + 1];
+    GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_DRAW + 1];
+    GLintptr   storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_DRAW + 1];
+    GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_DRAW + 1];
 };
 
 struct hair_gl {

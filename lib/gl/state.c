@@ -43,7 +43,7 @@ void hair_gl_enter(struct hair_gl* gl)
     }
     gl->GetIntegeri_v(GL_SAMPLER_BINDING, HAIR_UNIT_SHADOW, &saved->sampler);
     save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
-                 GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_EXPANDED + 1, saved->storage, saved->storage_first,
+                 GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_REDUCTION + 1, saved->storage, saved->storage_first,
                  saved->storage_size);
     save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
                  HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
@@ -55,7 +55,7 @@ void hair_gl_enter(struct hair_gl* gl)
 static void unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_EXPANDED + 1, NULL);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_DRAW + 1, NULL);
 }
 
@@ -78,7 +78,7 @@ void hair_gl_leave(struct hair_gl* gl)
     }
     gl->ActiveTexture((GLenum)saved->active_texture);
     gl->BindSampler(HAIR_UNIT_SHADOW, (GLuint)saved->sampler);
-    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED + 1, saved->storage,
+    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_REDUCTION + 1, saved->storage,
                     saved->storage_first, saved->storage_size);
     restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first,
                     saved->uniform_size);

@@ -24,6 +24,23 @@ static int is_curved(const struct hair_rod* rod, uint32_t vertices, const hair_p
     return 0;
 }
 
+// For work groups only, and of methods that have such systems.
+static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, GLuint* buffer)
+{
+    const hair_host* host  = &sim->gl->host;
+    int              there = 0;
+    for (uint32_t i = 0; i < sim->guides && !there; ++i) there = rod[sim->rods->guides[i].first].factor.x > 0;
+    if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
+    uint32_t   rounds = hair_rods_rounds(sim->most_vertices);
+    size_t     count  = (size_t)rounds * sim->guide_vertices;
+    hair_vec4* out    = hair_alloc(host, count, sizeof *out);
+    if (!out) return hair_fail_memory(host, "the implicit systems of guides");
+    hair_rods_reduce(sim->rods->guides, sim->guides, rod, sim->guide_vertices, out);
+    hair_result result = hair_gl_storage(sim->gl, "hair reduction", count * sizeof *out, out, buffer);
+    hair_free(host, out);
+    return result;
+}
+
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
 static hair_result make(struct hair_sim* sim)
 {
@@ -36,12 +53,17 @@ static hair_result make(struct hair_sim* sim)
         substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver);
     hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
                     &rods->report);
-    GLuint      buffer = 0;
-    hair_result result =
-        hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
-    if (!result) {
+    GLuint      buffer = 0, reduction = 0;
+    hair_result result = make_reduction(sim, rod, &reduction);
+    if (!result)
+        result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
+    if (result) {
+        hair_gl_free_buffer(sim->gl, &reduction);
+    } else {
         hair_gl_free_buffer(sim->gl, &sim->rod);
+        hair_gl_free_buffer(sim->gl, &sim->reduction);
         sim->rod       = buffer;
+        sim->reduction = reduction;
         rods->made_for = sim->physics;
         rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
         if (sim->substep > 0) sim->rescale *= substep / sim->substep;
@@ -97,6 +119,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->history);
     hair_gl_free_buffer(sim->gl, &sim->material);
     hair_gl_free_buffer(sim->gl, &sim->health);
+    hair_gl_free_buffer(sim->gl, &sim->reduction);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
     hair_free(host, sim->rods);
@@ -104,8 +127,8 @@ void hair_sim_free_rods(struct hair_sim* sim)
 
 void hair_sim_bind_rods(struct hair_sim* sim)
 {
-    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 4, storage);
+    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health, sim->reduction};
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
 }
 
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
@@ -120,6 +143,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->damping  = physics->damping;
     params->friction = physics->friction;
     params->rescale  = (float)sim->rescale;
+    params->vertices = sim->guide_vertices;
 }
 
 int hair_sim_is_curved(const struct hair_sim* sim)

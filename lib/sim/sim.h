@@ -12,12 +12,12 @@ struct hair_sim {
     struct hair_gl*   gl;
     hair_solver       solver;
     hair_physics      physics;
-    double            asked_substep;                  // s; 0: as the solver wants
-    double            substep;                        // s
-    GLuint            guide, rest, state, step;       // buffers, as in shared.h
-    GLuint            rod, history, material, health; // the same; 0 under redblack
-    struct hair_rods* rods;                           // under redblack NULL
-    int               by_thread;                      // a thread per guide, not a work group
+    double            asked_substep;                             // s; 0: as the solver wants
+    double            substep;                                   // s
+    GLuint            guide, rest, state, step;                  // buffers, as in shared.h
+    GLuint            rod, history, material, health, reduction; // the same; 0 under redblack
+    struct hair_rods* rods;                                      // under redblack NULL
+    int               by_thread;                                 // a thread per guide, not a work group
     double            rescale; // of displacements before the next substep, which is of another length: else 1
     uint32_t          guides, guide_vertices, smooth_vertices;
     uint32_t          most_vertices; // of a guide

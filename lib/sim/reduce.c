@@ -1,0 +1,114 @@
+// reduce.c - the implicit systems made ready for a work group: what parallel cyclic reduction (Hockney 1965) does to
+// the right side only, for the matrix is always the same.
+//
+// Pairs of vertices make the five diagonals of a system three of 2x2 blocks. In round n the block B is freed of the
+// blocks B - 2^n and B + 2^n, r += a r_(B-2^n) + c r_(B+2^n); after the last x = D^-1 r. Per vertex and round a row
+// of a and one of c.
+#include "lib/sim/rod.h"
+
+#define MOST_BLOCKS (HAIR_MAX_GUIDE_VERTICES / 2)
+
+struct block { // of 2x2, row by row
+    double m[4];
+};
+struct block_row {
+    struct block before, own, after;
+};
+
+static struct block times(struct block a, struct block b)
+{
+    return (struct block){{a.m[0] * b.m[0] + a.m[1] * b.m[2], a.m[0] * b.m[1] + a.m[1] * b.m[3],
+                           a.m[2] * b.m[0] + a.m[3] * b.m[2], a.m[2] * b.m[1] + a.m[3] * b.m[3]}};
+}
+
+static struct block plus(struct block a, struct block b)
+{
+    return (struct block){{a.m[0] + b.m[0], a.m[1] + b.m[1], a.m[2] + b.m[2], a.m[3] + b.m[3]}};
+}
+
+static struct block inverse(struct block a)
+{
+    double d = 1 / (a.m[0] * a.m[3] - a.m[1] * a.m[2]);
+    return (struct block){{a.m[3] * d, -a.m[1] * d, -a.m[2] * d, a.m[0] * d}};
+}
+
+static struct block minus_times_inverse(struct block a, struct block b)
+{
+    struct block c = times(a, inverse(b));
+    return (struct block){{-c.m[0], -c.m[1], -c.m[2], -c.m[3]}};
+}
+
+// Entry (i, j) of L D L^T, j <= i <= j + 2; beyond the last vertex of the identity.
+static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint32_t j)
+{
+    if (i >= count) return i == j;
+    double sum = 0;
+    for (uint32_t k = i < 2 ? 0 : i - 2; k <= j; ++k) {
+        const hair_vec4* f    = &rod[k].factor;
+        double           l[3] = {1, (double)f->y, (double)f->z};
+        sum += l[i - k] * l[j - k] / (double)f->x;
+    }
+    return sum;
+}
+
+static struct block_row row_of(const struct hair_rod* rod, uint32_t count, uint32_t block)
+{
+    uint32_t         i   = 2 * block;
+    double           off = entry(rod, count, i + 1, i);
+    struct block_row row = {.own = {{entry(rod, count, i, i), off, off, entry(rod, count, i + 1, i + 1)}}};
+    if (i > 0)
+        row.before = (struct block){
+            {entry(rod, count, i, i - 2), entry(rod, count, i, i - 1), 0, entry(rod, count, i + 1, i - 1)}};
+    if (i + 2 < count)
+        row.after = (struct block){{entry(rod, count, i + 2, i), 0, entry(rod, count, i + 2, i + 1),
+                                    entry(rod, count, i + 3, i + 1)}};
+    return row;
+}
+
+static void write_round(const struct hair_guide* guide, uint32_t block, struct block a, struct block c,
+                        hair_vec4* out)
+{
+    for (uint32_t r = 0; r < 2 && 2 * block + r < guide->count; ++r)
+        out[guide->first + 2 * block + r] =
+            (hair_vec4){(float)a.m[2 * r], (float)a.m[2 * r + 1], (float)c.m[2 * r], (float)c.m[2 * r + 1]};
+}
+
+static void reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
+                         hair_vec4* out)
+{
+    static const struct block none  = {{0, 0, 0, 0}};
+    uint32_t                  count = (guide->count + 1) / 2, round = 0;
+    struct block_row          row[2][MOST_BLOCKS];
+    for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of(rod, guide->count, b);
+    for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
+        const struct block_row* from = row[round % 2];
+        struct block_row*       to   = row[(round + 1) % 2];
+        for (uint32_t b = 0; b < count; ++b) {
+            const struct block_row* up   = b >= reach ? &from[b - reach] : NULL;
+            const struct block_row* down = b + reach < count ? &from[b + reach] : NULL;
+            struct block            a    = up ? minus_times_inverse(from[b].before, up->own) : none;
+            struct block            c    = down ? minus_times_inverse(from[b].after, down->own) : none;
+            to[b].before                 = up ? times(a, up->before) : none;
+            to[b].after                  = down ? times(c, down->after) : none;
+            to[b].own                    = plus(from[b].own,
+                                                plus(up ? times(a, up->after) : none, down ? times(c, down->before) : none));
+            write_round(guide, b, a, c, out + (size_t)round * vertices);
+        }
+    }
+    for (uint32_t b = 0; b < count; ++b)
+        write_round(guide, b, inverse(row[round % 2][b].own), none, out + (size_t)round * vertices);
+}
+
+uint32_t hair_rods_rounds(uint32_t most_vertices)
+{
+    uint32_t rounds = 1;
+    for (uint32_t reach = 1; reach < (most_vertices + 1) / 2; reach *= 2) ++rounds;
+    return rounds;
+}
+
+void hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const struct hair_rod* rod,
+                      uint32_t vertices, hair_vec4* out)
+{
+    for (uint32_t i = 0; i < count; ++i)
+        if (rod[guides[i].first].factor.x > 0) reduce_guide(&guides[i], rod + guides[i].first, vertices, out);
+}
