@@ -1,5 +1,4 @@
-// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others,
-// destroyed.
+// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -10,8 +9,11 @@
 #include "lib/base/math.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
+#include "tests/support/ways.h"
 
 #define MOST 4096
+
+static int way; // in which hair is simulated: main goes through all
 
 struct strands {
     float    positions[3 * MOST];
@@ -40,7 +42,7 @@ static hair_groom* make_groom(struct hair_test* test)
 static hair_instance* make(struct hair_test* test, const hair_groom* groom)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_desc_default();
+    hair_desc      desc = hair_test_way(way);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     return hair;
 }
@@ -261,7 +263,7 @@ static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
     size_t                   size  = groom->info.guide_vertex_count * sizeof *near;
     for (int out = 0; out < 2; ++out) {
         hair_instance* hair  = NULL;
-        hair_desc      desc  = hair_desc_default();
+        hair_desc      desc  = hair_test_way(way);
         hair_solid     solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0}};
         desc.transform[12]   = out ? 1e5f : 0;
         hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
@@ -347,94 +349,6 @@ static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
     assert_memory_equal(kept.positions, gone.positions, 12 * kept.vertices);
     hair_destroy(hair);
     hair_destroy(other);
-}
-
-// Objects of OpenGL that are alive, by trying names.
-static uint32_t count_objects(void)
-{
-    uint32_t count = 0;
-    for (GLuint name = 1; name < 1024; ++name)
-        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
-                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
-                 glIsTransformFeedback(name) + glIsQuery(name);
-    return count;
-}
-
-static void two_hundred_lives_leave_nothing(void** state)
-{
-    struct hair_test*      test  = *state;
-    hair_groom*            groom = make_groom(test);
-    static struct strands  strands;
-    struct hair_test_frame frame;
-    hair_look              look = hair_look_default();
-    look.segments               = 4;
-    hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
-    uint32_t objects = count_objects(), blocks = test->host.blocks;
-    for (int life = 0; life < 200; ++life) {
-        hair_instance* hair = make(test, groom);
-        hair_view      view = hair_view_default();
-        hair_test_ok(test, hair_set_look(hair, &look));
-        hair_test_ok(test, hair_step(hair, 1.0f / 60));
-        hair_test_ok(test, hair_draw(hair, &view));
-        if (life % 10 == 0) read(test, hair, HAIR_READ_FOLLOWERS, &strands);
-        hair_destroy(hair);
-    }
-    assert_int_equal(count_objects(), objects);
-    assert_int_equal(test->host.blocks, blocks);
-    hair_test_frame_free(&frame);
-    hair_groom_destroy(groom);
-}
-
-static void a_context_leaves_nothing_either(void** state)
-{
-    struct hair_test* test    = *state;
-    uint32_t          objects = count_objects(), blocks = test->host.blocks;
-    for (int life = 0; life < 5; ++life) {
-        hair_context*     context = NULL;
-        hair_context_desc desc    = hair_context_desc_default();
-        desc.host                 = &test->host.host;
-        desc.get_proc             = hair_egl_get_proc;
-        desc.timings              = 1;
-        hair_test_ok(test, hair_context_create(&desc, &context));
-        hair_groom*    groom = make_groom(test);
-        hair_instance* hair  = NULL;
-        hair_desc      of    = hair_desc_default();
-        hair_test_ok(test, hair_create(context, groom, &of, &hair));
-        hair_test_ok(test, hair_step(hair, 1.0f / 60));
-        hair_test_ok(test, hair_context_reload(context));
-        hair_destroy(hair);
-        hair_context_destroy(context);
-        hair_groom_destroy(groom);
-    }
-    assert_int_equal(count_objects(), objects);
-    assert_int_equal(test->host.blocks, blocks);
-}
-
-static void timings_count_the_runs_of_every_pass(void** state)
-{
-    struct hair_test* test    = *state;
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_egl_get_proc;
-    desc.timings              = 1;
-    hair_test_ok(test, hair_context_create(&desc, &context));
-    hair_groom*    groom = make_groom(test);
-    hair_instance* hair  = NULL;
-    hair_desc      of    = hair_desc_default();
-    hair_test_ok(test, hair_create(context, groom, &of, &hair));
-    for (int i = 0; i < 9; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 120));
-    glFinish();
-    hair_timing timings[HAIR_GL_PASS_COUNT];
-    assert_int_equal(hair_timings(context, timings, HAIR_GL_PASS_COUNT), HAIR_GL_PASS_COUNT);
-    assert_string_equal(timings[HAIR_GL_REDBLACK_32].pass, "sim/redblack_32");
-    assert_int_equal(timings[HAIR_GL_REDBLACK_32].runs, 9);
-    assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 10); // once for the rest pose
-    assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
-    for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
-    hair_destroy(hair);
-    hair_context_destroy(context);
-    hair_groom_destroy(groom);
 }
 
 // Whatever the application does, every vertex is a number.
@@ -530,12 +444,13 @@ int main(void)
         HAIR_TEST(far_from_the_origin_a_still_head_gives_the_same_bits),
         HAIR_TEST(instances_beside_each_other_are_as_if_alone),
         HAIR_TEST(the_groom_may_be_destroyed_while_instances_use_it),
-        HAIR_TEST(two_hundred_lives_leave_nothing),
-        HAIR_TEST(a_context_leaves_nothing_either),
-        HAIR_TEST(timings_count_the_runs_of_every_pass),
         HAIR_TEST(a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along),
         HAIR_TEST(a_step_shorter_than_rounding_moves_no_solid_too_far),
         HAIR_TEST(no_abuse_makes_a_strand_that_is_not_finite),
     };
-    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+    int failed = 0;
+    for (way = 0; way < HAIR_TEST_WAYS; ++way)
+        failed +=
+            cmocka_run_group_tests_name(hair_test_way_name(way), tests, hair_test_start, hair_test_finish);
+    return failed;
 }

@@ -1,0 +1,182 @@
+// lives_test.c - what contexts and instances make, count and leave.
+#include "tests/support/support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+#include "tests/support/ways.h"
+
+#define MOST 4096
+
+// Objects of OpenGL that are alive, by trying names.
+static uint32_t count_objects(void)
+{
+    uint32_t count = 0;
+    for (GLuint name = 1; name < 1024; ++name)
+        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
+                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
+                 glIsTransformFeedback(name) + glIsQuery(name);
+    return count;
+}
+
+static void live_once(struct hair_test* test, const hair_groom* groom, int way, int reads)
+{
+    static float   positions[3 * MOST];
+    hair_instance* hair  = NULL;
+    hair_desc      desc  = hair_test_way(way);
+    hair_solid     solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_view      view  = hair_view_default();
+    hair_look      look  = hair_look_default();
+    hair_physics   other = hair_physics_default();
+    uint32_t       count;
+    look.segments = 4;
+    other.damping = 5;
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+    hair_test_ok(test, hair_set_look(hair, &look));
+    hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    hair_test_ok(test, hair_set_physics(hair, &other)); // which makes rods anew
+    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    hair_test_ok(test, hair_draw(hair, &view));
+    if (reads) hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, positions, MOST, &count));
+    hair_destroy(hair);
+}
+
+static void two_hundred_lives_leave_nothing(void** state)
+{
+    struct hair_test*      test  = *state;
+    hair_groom*            groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
+    for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
+        live_once(test, groom, way, 1); // Programs are compiled when first needed, and stay.
+        uint32_t objects = count_objects(), blocks = test->host.blocks;
+        for (int life = 0; life < 200 / HAIR_TEST_WAYS + 1; ++life)
+            live_once(test, groom, way, life % 10 == 0);
+        assert_int_equal(count_objects(), objects);
+        assert_int_equal(test->host.blocks, blocks);
+    }
+    hair_test_frame_free(&frame);
+    hair_groom_destroy(groom);
+}
+
+static hair_context* make_context(struct hair_test* test)
+{
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &test->host.host;
+    desc.get_proc             = hair_egl_get_proc;
+    desc.timings              = 1;
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    return context;
+}
+
+static void a_context_leaves_nothing_either(void** state)
+{
+    struct hair_test* test    = *state;
+    uint32_t          objects = count_objects(), blocks = test->host.blocks;
+    for (int life = 0; life < 5; ++life) {
+        hair_context*  context = make_context(test);
+        hair_groom*    groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
+        hair_instance* hair    = NULL;
+        hair_desc      of      = hair_desc_default();
+        hair_test_ok(test, hair_create(context, groom, &of, &hair));
+        hair_test_ok(test, hair_step(hair, 1.0f / 60));
+        hair_test_ok(test, hair_context_reload(context));
+        hair_destroy(hair);
+        hair_context_destroy(context);
+        hair_groom_destroy(groom);
+    }
+    assert_int_equal(count_objects(), objects);
+    assert_int_equal(test->host.blocks, blocks);
+}
+
+static void timings_count_the_runs_of_every_pass(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = make_context(test);
+    hair_groom*       groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance*    hair    = NULL;
+    hair_desc         of      = hair_test_way(0);
+    hair_test_ok(test, hair_create(context, groom, &of, &hair));
+    for (int i = 0; i < 9; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 120));
+    glFinish();
+    hair_timing timings[HAIR_GL_PASS_COUNT];
+    assert_int_equal(hair_timings(context, timings, HAIR_GL_PASS_COUNT), HAIR_GL_PASS_COUNT);
+    assert_string_equal(timings[HAIR_GL_DIRECT_CURVED_32].pass, "sim/direct_curved_32");
+    assert_int_equal(timings[HAIR_GL_DIRECT_CURVED_32].runs, 9);
+    assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 10); // once for the rest pose
+    assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
+    for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
+    hair_destroy(hair);
+    hair_context_destroy(context);
+    hair_groom_destroy(groom);
+}
+
+static uint32_t count_solvers(const hair_context* context)
+{
+    uint32_t count = 0;
+    for (int pass = HAIR_GL_DIRECT_32; pass <= HAIR_GL_REDBLACK_256; ++pass)
+        count += context->gl.program[pass] != 0;
+    return count;
+}
+
+// Of the many programs that solvers have: straight hair needs not what curls, and what meets no solid no contact.
+static void check_compiled(struct hair_test* test, int way)
+{
+    static const char* const names[HAIR_TEST_WAYS] = {
+        "direct", "direct_thread", "accurate", "accurate_thread", "follow", "follow_thread", "redblack"};
+    hair_context* context  = make_context(test);
+    hair_solid    solid    = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_physics  limp     = hair_physics_default();
+    uint32_t      compiled = 0;
+    limp.hold              = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
+    for (int kind = 0; kind < 4; ++kind) {
+        struct hair_test_handmade wanted = hair_test_handmade_default();
+        hair_instance*            hair   = NULL;
+        hair_desc                 desc   = hair_test_way(way);
+        int                       curved = kind & 1, solids = kind / 2;
+        char                      label[64];
+        if (!curved) wanted.turn = 0;
+        desc.physics      = &limp;
+        hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+        hair_test_ok(test, hair_create(context, groom, &desc, &hair));
+        hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)solids, sizeof solid));
+        hair_test_ok(test, hair_step(hair, 1e-6f)); // It runs no substep.
+        compiled += kind == 0 || desc.solver != HAIR_SOLVER_REDBLACK;
+        assert_int_equal(count_solvers(context), compiled);
+
+        if (desc.solver == HAIR_SOLVER_REDBLACK)
+            snprintf(label, sizeof label, "sim/%s_32", names[way]);
+        else
+            snprintf(label, sizeof label, "sim/%s%s%s_32", names[way], curved ? "_curved" : "",
+                     solids ? "_solids" : "");
+        int pass = 0;
+        while (pass < HAIR_GL_PASS_COUNT && strcmp(hair_gl_pass_label((hair_gl_pass)pass), label)) ++pass;
+        if (pass == HAIR_GL_PASS_COUNT) fail_msg("there is no %s", label);
+        if (!context->gl.program[pass]) fail_msg("%s is not compiled", label);
+        hair_destroy(hair);
+        hair_groom_destroy(groom);
+    }
+    hair_context_destroy(context);
+}
+
+static void the_one_solver_that_hair_needs_is_compiled(void** state)
+{
+    for (int way = 0; way < HAIR_TEST_WAYS; ++way) check_compiled(*state, way);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(two_hundred_lives_leave_nothing),
+        HAIR_TEST(a_context_leaves_nothing_either),
+        HAIR_TEST(timings_count_the_runs_of_every_pass),
+        HAIR_TEST(the_one_solver_that_hair_needs_is_compiled),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
