@@ -1,4 +1,4 @@
-// rod_swing_test.c - how the reference rod swings, against linkages, chains and beams.
+// rod_swing_test.c - how the reference rod swings, against linkages, chains and beams, and with a head.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -178,6 +178,77 @@ static void a_hanging_chain_swings_as_the_linkage_that_it_is(void** state)
     hair_reference_rod_destroy(rod);
 }
 
+// 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t), leaving it 30 degrees below the horizontal.
+// The places of the tip are another program's (explicit bending, k = 2, converged to 5e-8 of the length).
+static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
+{
+    (void)state;
+    enum { N = 32, FRAMES = 1920 };
+    static const double tip[3][3] = {
+        {0.00174, -0.29152, 0.00082}, {-0.18453, -0.22581, -0.09356}, {0.16098, -0.23919, 0.06972}};
+    double                         x[3 * N], lengths[N - 1];
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
+    for (int j = 0; j < N - 1; ++j) lengths[j] = 0.3 / (N - 1);
+    for (int i = 0; i < N; ++i) {
+        x[3 * i]     = 0.1 + i * 0.3 / (N - 1) * cos(PI / 6);
+        x[3 * i + 1] = -i * 0.3 / (N - 1) * sin(PI / 6);
+        x[3 * i + 2] = 0;
+    }
+    desc.vertices                  = N;
+    desc.positions                 = x;
+    desc.lengths                   = lengths;
+    desc.line_density              = 1.021018e-5;
+    desc.bend[0]                   = 1.472622e-8;
+    desc.straight                  = 1;
+    desc.plain_clamp               = 1;
+    desc.root_frame[2]             = -sin(PI / 3);
+    desc.root_frame[3]             = cos(PI / 3);
+    desc.gravity[1]                = -9.81;
+    desc.damping                   = 1;
+    desc.head.position[0]          = -0.1;
+    struct hair_reference_rod* rod = hair_test_rod(&desc);
+    for (int k = 1; k <= FRAMES; ++k) {
+        double                         angle = 0.6 * sin(PI * k / FRAMES) * sin(PI * k / FRAMES);
+        struct hair_reference_rod_pose head  = {{-0.1, 0, 0}, {0, sin(angle / 2), 0, cos(angle / 2)}};
+        assert_true(hair_reference_rod_advance(rod, &head, 1.0 / FRAMES, 8));
+        int at = k == FRAMES / 4 ? 0 : k == FRAMES / 2 ? 1 : k == FRAMES ? 2 : -1;
+        if (at < 0) continue;
+        hair_reference_rod_positions(rod, x);
+        for (int i = 0; i < 3; ++i)
+            hair_test_near("tip", (size_t)(3 * at + i), x[3 * N - 3 + i], tip[at][i], 5.1e-6);
+    }
+    hair_reference_rod_destroy(rod);
+}
+
+// The head turns evenly: half of the way in half of the time. A quaternion and its opposite are one rotation.
+static void the_head_goes_evenly_and_the_shortest_way(void** state)
+{
+    (void)state;
+    struct hair_test_plane p;
+    hair_test_plane_make(&p, 8, 1, 9.81);
+    p.desc.bend[1]                       = 1e-3;
+    p.positions[2]                       = 0.1; // Off the head's origin.
+    p.desc.lengths                       = NULL;
+    struct hair_reference_rod_pose half  = {{0.1, 0, 0.2}, {sin(0.35), 0, 0, cos(0.35)}};
+    struct hair_reference_rod_pose whole = {{0.2, 0, 0.4}, {-sin(0.7), 0, 0, -cos(0.7)}};
+    struct hair_reference_rod*     once  = hair_test_rod(&p.desc);
+    struct hair_reference_rod*     twice = hair_reference_rod_copy(once);
+    double                         a[24], b[24];
+    assert_true(hair_reference_rod_advance(once, &whole, 0.1, 2000));
+    assert_true(hair_reference_rod_advance(twice, &half, 0.05, 1000));
+    assert_true(hair_reference_rod_advance(twice, &whole, 0.05, 1000));
+    hair_reference_rod_positions(once, a);
+    hair_reference_rod_positions(twice, b);
+    for (int i = 0; i < 24; ++i) hair_test_near("place", (size_t)i, a[i], b[i], 1e-11);
+    // The root, at (0, 0, 0.1) in the head's frame, about x.
+    hair_test_near("root", 1, a[1], -0.1 * sin(1.4), 1e-15);
+    hair_test_near("root", 2, a[2], 0.4 + 0.1 * cos(1.4), 1e-15);
+    hair_reference_rod_velocities(once, a);
+    hair_test_near("root", 3, a[1], -0.1 * cos(1.4) * 14, 1e-12);
+    hair_reference_rod_destroy(once);
+    hair_reference_rod_destroy(twice);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +257,8 @@ int main(void)
         cmocka_unit_test(chains_released_from_the_horizontal_fall_as_linkages),
         cmocka_unit_test(a_clamped_beam_swings_as_mathematics_says),
         cmocka_unit_test(a_hanging_chain_swings_as_the_linkage_that_it_is),
+        cmocka_unit_test(the_shaken_head_leaves_the_tip_where_it_is_known_to_be),
+        cmocka_unit_test(the_head_goes_evenly_and_the_shortest_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -231,7 +231,12 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
         pull[i] = 8;
         for (int k = 0; k < 3; ++k) target[3 * i + k] = c.positions[3 * i + k] - (k == 2 ? 0.01 : 0);
     }
-    c.desc.root    = HAIR_REFERENCE_ROD_FREE;
+    // The head, off the origin and turned about z, carries the target.
+    c.desc.head.position[0] = 0.3;
+    c.desc.head.position[2] = -0.2;
+    c.desc.head.rotation[2] = sin(0.4);
+    c.desc.head.rotation[3] = cos(0.4);
+    c.desc.root             = HAIR_REFERENCE_ROD_FREE;
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
     c.desc.gravity[1]                              = 0;
     c.desc.pull                                    = pull;
@@ -241,7 +246,7 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
         hair_reference_rod_converge(rod, 1, NULL, 0.3, 64, 1 << 16, 1e-9, x);
     assert_true(report.converged);
     for (int i = 0; i < CURL; ++i)
-        hair_test_near("z", (size_t)i, x[3 * i + 2] - target[3 * i + 2], 0.01 * cos(8 * 0.3), 1e-9);
+        hair_test_near("z", (size_t)i, x[3 * i + 2] - target[3 * i + 2] + 0.2, 0.01 * cos(8 * 0.3), 1e-9);
     hair_reference_rod_destroy(rod);
 }
 
@@ -256,7 +261,7 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
         struct hair_reference_rod* rod   = rod_of(&c.desc);
         double                     start = hair_reference_rod_energy(rod).total;
         most[run]                        = 0;
-        for (int k = 0; k < 2000; ++k) {
+        for (int k = 0; k < 1000; ++k) {
             assert_true(hair_reference_rod_advance(rod, NULL, 1e-3, run ? 8 : 4));
             most[run] = fmax(most[run], fabs(hair_reference_rod_energy(rod).total - start));
         }
@@ -296,48 +301,6 @@ static void motion_converges_with_the_second_order(void** state)
     rotate(heads[5].rotation, c.positions, root);
     for (int k = 0; k < 3; ++k)
         hair_test_near("root", (size_t)k, x[k], heads[5].position[k] + root[k], 1e-15);
-    hair_reference_rod_destroy(rod);
-}
-
-// 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t), leaving it 30 degrees below the horizontal.
-// The places of the tip are another program's (explicit bending, k = 2, converged to 5e-8 of the length).
-static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
-{
-    (void)state;
-    enum { N = 32, FRAMES = 1920 };
-    static const double tip[3][3] = {
-        {0.00174, -0.29152, 0.00082}, {-0.18453, -0.22581, -0.09356}, {0.16098, -0.23919, 0.06972}};
-    double                         x[3 * N], lengths[N - 1];
-    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
-    for (int j = 0; j < N - 1; ++j) lengths[j] = 0.3 / (N - 1);
-    for (int i = 0; i < N; ++i) {
-        x[3 * i]     = 0.1 + i * 0.3 / (N - 1) * cos(PI / 6);
-        x[3 * i + 1] = -i * 0.3 / (N - 1) * sin(PI / 6);
-        x[3 * i + 2] = 0;
-    }
-    desc.vertices                  = N;
-    desc.positions                 = x;
-    desc.lengths                   = lengths;
-    desc.line_density              = 1.021018e-5;
-    desc.bend[0]                   = 1.472622e-8;
-    desc.straight                  = 1;
-    desc.plain_clamp               = 1;
-    desc.root_frame[2]             = -sin(PI / 3);
-    desc.root_frame[3]             = cos(PI / 3);
-    desc.gravity[1]                = -9.81;
-    desc.damping                   = 1;
-    desc.head.position[0]          = -0.1;
-    struct hair_reference_rod* rod = rod_of(&desc);
-    for (int k = 1; k <= FRAMES; ++k) {
-        double                         angle = 0.6 * sin(PI * k / FRAMES) * sin(PI * k / FRAMES);
-        struct hair_reference_rod_pose head  = {{-0.1, 0, 0}, {0, sin(angle / 2), 0, cos(angle / 2)}};
-        assert_true(hair_reference_rod_advance(rod, &head, 1.0 / FRAMES, 8));
-        int at = k == FRAMES / 4 ? 0 : k == FRAMES / 2 ? 1 : k == FRAMES ? 2 : -1;
-        if (at < 0) continue;
-        hair_reference_rod_positions(rod, x);
-        for (int i = 0; i < 3; ++i)
-            hair_test_near("tip", (size_t)(3 * at + i), x[3 * N - 3 + i], tip[at][i], 5.1e-6);
-    }
     hair_reference_rod_destroy(rod);
 }
 
@@ -385,7 +348,6 @@ int main(void)
         cmocka_unit_test(a_pull_makes_the_whole_rod_swing_about_its_target),
         cmocka_unit_test(energy_stays_within_the_square_of_the_substep),
         cmocka_unit_test(motion_converges_with_the_second_order),
-        cmocka_unit_test(the_shaken_head_leaves_the_tip_where_it_is_known_to_be),
         cmocka_unit_test(half_the_longest_substep_is_calm_and_three_times_it_is_not),
         cmocka_unit_test(what_makes_no_rod_is_refused),
     };
