@@ -4,10 +4,12 @@
 // Elimination and substitution by A = L D L^T: two recurrences over the strand.
 void substitute(bool euler)
 {
+    EACH(guide_count) { row[i] = euler ? rod[guide_first + i].factor_euler : rod[guide_first + i].factor; }
+    MEET;
     ONCE(3u) { // each component by itself
         float one = 0.0, two = 0.0; // what the rows one and two above hand down
         for (uint k = 0u; k < guide_count; ++k) {
-            vec4  f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
+            vec4  f     = row[k];
             float value = moved[k][j] - one;
             one         = two + f.y * value;
             two         = f.z * value;
@@ -15,7 +17,7 @@ void substitute(bool euler)
         }
         float below = 0.0, below_two = 0.0;
         for (uint k = guide_count; k-- > 0u;) {
-            vec4  f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
+            vec4  f     = row[k];
             float value = moved[k][j] - f.y * below - f.z * below_two;
             below_two   = below;
             below       = value;

@@ -56,26 +56,31 @@ bool fit_lengths(bool of_start, float tolerance, vec3 head_moved)
     }
 }
 
-// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already, and turned out of
-// solids as far as two tries do it.
+// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already. What that draws into
+// solids is turned out of them, once.
 void follow_leader(vec3 head_moved)
 {
-    MEET;
-    ONCE(1u) {
-        vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
-        for (uint k = 1u; k < guide_count; ++k) {
-            vec3  leader = moved[k - 1u] + (place[k - 1u] - place[k]), want = moved[k];
-            float l      = rest_length[k - 1u];
-            uvec2 met    = uvec2(0u);
-            vec4  freedom;
-            for (uint n = 0u; n < (SOLIDS ? 3u : 1u); ++n) {
-                float away = length(want - leader);
-                if (bits_of(away) < 0x7f800000u && away > 1e-3 * l) last = (want - leader) / away;
-                want = leader + l * last;
-                if (SOLIDS && n < 2u) want = allowed(k, want, uvec2(near[0], near[1]), uvec2(0u), head_moved, freedom, met);
+    find_solids(head_moved);
+    for (uint n = 0u; n < (SOLIDS ? 2u : 1u); ++n) {
+        EACH(guide_count) {
+            vec4 freedom = vec4(0.0);
+            moved[i]     = n == 0u ? own(wanted) : moved[i];
+            if (SOLIDS) {
+                if ((own(reachable).x | own(reachable).y) != 0u)
+                    moved[i] = allowed(i, moved[i], own(reachable), uvec2(0u), head_moved, freedom, own(met));
+                touch[i] = vec4(0.0);
             }
-            moved[k] = want;
         }
+        MEET;
+        ONCE(1u) {
+            vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
+            for (uint k = 1u; k < guide_count; ++k) {
+                vec3  to = (place[k] - place[k - 1u]) + (moved[k] - moved[k - 1u]);
+                float l  = length(to);
+                if (bits_of(l) < 0x7f800000u && l > 1e-3 * rest_length[k - 1u]) last = to / l;
+                moved[k] = moved[k - 1u] + (place[k - 1u] - place[k]) + rest_length[k - 1u] * last;
+            }
+        }
+        MEET;
     }
-    MEET;
 }

@@ -135,11 +135,6 @@ void main()
         for (;; ++method) {
             predict(method);
             if (method == LEADER) {
-                EACH(guide_count) {
-                    moved[i] = own(wanted);
-                    if (SOLIDS) touch[i] = vec4(0.0);
-                }
-                find_solids(head_moved);
                 follow_leader(head_moved);
                 break;
             }

@@ -27,33 +27,34 @@ shared vec4  row[MOST];
 shared vec4  row_next[MOST];
 shared float solution[MOST];
 
-vec4 reduced(vec4 above, vec4 own_row, vec4 below)
+// Rows whose diagonal is 1: it need not be handed on.
+vec4 reduced(vec4 own_row, vec4 above, vec4 below)
 {
-    float up   = above.y != 0.0 ? -own_row.x / above.y : 0.0;
-    float down = below.y != 0.0 ? -own_row.z / below.y : 0.0;
-    return vec4(up * above.x, own_row.y + up * above.z + down * below.x, down * below.z,
-                own_row.w + up * above.w + down * below.w);
+    float scale = 1.0 / (1.0 - own_row.x * above.z - own_row.z * below.x);
+    return scale * vec4(-own_row.x * above.x, 0.0, -own_row.z * below.z,
+                        own_row.w - own_row.x * above.w - own_row.z * below.w);
 }
 
 // Parallel cyclic reduction (Hockney 1965): every row is freed of its neighbours at distance 1, 2, 4, ...
 void solve_rows(uint n)
 {
-    uint i     = gl_LocalInvocationID.x;
+    uint i    = gl_LocalInvocationID.x;
+    vec4 mine = vec4(0.0);
+    if (i < n) row[i] = mine = row[i] / row[i].y;
     bool there = false;
     for (uint reach = 1u; reach < n; reach *= 2u) {
         synchronise();
         if (i < n) {
-            vec4 none = vec4(0.0);
-            if (there)
-                row[i] = reduced(i >= reach ? row_next[i - reach] : none, row_next[i],
-                                 i + reach < n ? row_next[i + reach] : none);
-            else
-                row_next[i] = reduced(i >= reach ? row[i - reach] : none, row[i],
-                                      i + reach < n ? row[i + reach] : none);
+            vec4 none  = vec4(0.0);
+            vec4 above = i >= reach ? (there ? row_next[i - reach] : row[i - reach]) : none;
+            vec4 below = i + reach < n ? (there ? row_next[i + reach] : row[i + reach]) : none;
+            mine       = reduced(mine, above, below);
+            if (there) row[i] = mine;
+            else row_next[i] = mine;
         }
         there = !there;
     }
-    if (i < n) solution[i] = there ? row_next[i].w / row_next[i].y : row[i].w / row[i].y;
+    if (i < n) solution[i] = mine.w;
     synchronise();
 }
 
