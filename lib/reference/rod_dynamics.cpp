@@ -85,10 +85,11 @@ bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
     const std::vector<Vector3d> start = rod.x, along = directions(rod.x);
     double                      previous = INFINITY;
     for (int iteration = 0; iteration < 50; ++iteration) {
-        double farthest = 0, error = 0;
+        double farthest = 0, sum = 0, error = 0;
         for (uint32_t i = 0; i < rod.vertices; ++i) {
             rod.x[i] = start[i] + step[i];
             farthest = std::fmax(farthest, rod.x[i].cwiseAbs().maxCoeff());
+            sum += rod.x[i].sum(); // Which is not finite if one of them is not; a maximum may be.
         }
         std::vector<Vector3d> now      = directions(rod.x);
         double                rounding = 0;
@@ -97,7 +98,7 @@ bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
             error      = std::fmax(error, std::fabs(t.right[j]) / rod.lengths[j]);
             rounding   = std::fmax(rounding, 4e-16 * farthest / rod.lengths[j]);
         }
-        if (!(error < 1e3)) return false;
+        if (!std::isfinite(sum) || error > 1e3) return false;
         if (error < 1e-14 + rounding || (error < 1e-10 && error >= previous / 2)) return true;
         previous = error;
         fill(rod, now, along, t);

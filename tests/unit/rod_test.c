@@ -320,6 +320,21 @@ static void half_the_longest_substep_is_calm_and_three_times_it_is_not(void** st
     }
 }
 
+static void motion_that_is_none_is_said(void** state)
+{
+    (void)state;
+    struct curl c;
+    make_curl(&c);
+    struct hair_reference_rod* rod         = rod_of(&c.desc);
+    double                     v[3 * CURL] = {0};
+    v[3 * CURL - 1]                        = NAN;
+    assert_false(hair_reference_rod_advance(rod, NULL, 0, 1));
+    assert_false(hair_reference_rod_advance(rod, NULL, 0.01, 0));
+    hair_reference_rod_set_state(rod, NULL, v);
+    assert_false(hair_reference_rod_advance(rod, NULL, 0.01, 100));
+    hair_reference_rod_destroy(rod);
+}
+
 static void what_makes_no_rod_is_refused(void** state)
 {
     (void)state;
@@ -349,6 +364,7 @@ int main(void)
         cmocka_unit_test(energy_stays_within_the_square_of_the_substep),
         cmocka_unit_test(motion_converges_with_the_second_order),
         cmocka_unit_test(half_the_longest_substep_is_calm_and_three_times_it_is_not),
+        cmocka_unit_test(motion_that_is_none_is_said),
         cmocka_unit_test(what_makes_no_rod_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
