@@ -12,6 +12,10 @@ layout(local_size_x = GROUP_THREADS) in;
 
 #define FARTHEST 1e4 // m from the head's origin, or in a substep: no hair is there
 
+// Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
+// the method of its solver fails again, for ever.
+#define LEADER_KEEPS (HAIR_SOLVER == LEADER ? 1.0 : 0.5)
+
 vec3 root_at_rest, root_then;
 
 void load()
@@ -72,7 +76,7 @@ void accept(int method, vec3 head_moved)
         if (method == LEADER) { // What was drawn along may not keep that speed.
             vec3  relative = d - root_moved;
             float speed    = length(relative);
-            kept           = root_moved + relative * (speed > fastest ? fastest / speed : 1.0);
+            kept           = root_moved + LEADER_KEEPS * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
         precise vec3 from_head = root_now + (place[i] + (d - root_moved));
