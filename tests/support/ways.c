@@ -3,10 +3,12 @@
 
 hair_desc hair_test_way(int way)
 {
+    static const float substeps[HAIR_TEST_SOLVERS] = {1.0f / 240, 1.0f / 960, 1.0f / 120, 1.0f / 120};
+
     hair_desc desc = hair_desc_default();
     desc.solver    = (hair_solver)(way / 2);
     desc.mapping   = way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
-    desc.substep   = desc.solver == HAIR_SOLVER_ACCURATE ? 1.0f / 960 : 1.0f / 120;
+    desc.substep   = substeps[desc.solver];
     return desc;
 }
 
