@@ -13,8 +13,8 @@ void bend_straight()
 {
     vec3 root_edge = rotate(scalp, vec3(0.0, 1.0, 0.0));
     EACH(guide_count) {
-        vec3 before = i > 0u ? edge[i - 1u] : root_edge;
-        lever[i]    = i + 1u < guide_count ? own(strain).w * (edge[i] - before) : vec3(0.0);
+        vec3 before = i > 0u ? GET(edge, i - 1u) : root_edge;
+        PUT(lever, i, i + 1u < guide_count ? own(strain).w * (GET(edge, i) - before) : vec3(0.0));
     }
     MEET;
 }
@@ -23,12 +23,12 @@ void bend_curved()
 {
     EACH(guide_count - 1u) { // Frames follow their segments by the least rotation. Neighbours find them in row[].
         vec4 q       = own(section);
-        own(section) = normalize(quat_multiply(quat_between(rotate(q, vec3(0.0, 1.0, 0.0)), edge[i]), q));
+        own(section) = normalize(quat_multiply(quat_between(rotate(q, vec3(0.0, 1.0, 0.0)), GET(edge, i)), q));
         row[i]       = own(section);
     }
     MEET;
     EACH(guide_count) {
-        lever[i]       = vec3(0.0); // The moment.
+        PUT(lever, i, vec3(0.0)); // The moment.
         twist_hinge[i] = vec2(0.0);
         if (i + 1u < guide_count) {
             vec4 a = i > 0u ? row[i - 1u] : scalp;
@@ -36,7 +36,7 @@ void bend_curved()
             if (r.w < 0.0) r = -r;
             float k     = own(strain).w;
             vec3  g     = k * params.ratio.xyz * (2.0 * r.xyz - own(strain).xyz);
-            lever[i]    = rotate(a, r.w * g + cross(r.xyz, g));
+            PUT(lever, i, rotate(a, r.w * g + cross(r.xyz, g)));
             float twist = k * params.ratio.y;
             float bend  = 0.5 * k * max(dot(r.xz, own(strain).xz), 0.0);
             twist_hinge[i] = vec2(twist + bend, bend - twist);
@@ -53,13 +53,13 @@ void relax_twist()
         vec2  a = twist_hinge[i], b = twist_hinge[i + 1u];
         float diagonal = (a.x + b.x) * 1.0001; // What nothing holds about its axis may turn as one.
         row[i] = vec4(i > 0u ? a.y : 0.0, diagonal > 0.0 ? diagonal : 1.0, b.y,
-                      dot(lever[i + 1u] - lever[i], edge[i]));
+                      dot(GET(lever, i + 1u) - GET(lever, i), GET(edge, i)));
     }
     MEET;
     solve_rows(segments);
     EACH(segments) {
         float half_angle = 0.5 * clamp(solution[i], -0.5, 0.5);
-        own(section) = quat_multiply(vec4(sin(half_angle) * edge[i], cos(half_angle)), own(section));
+        own(section) = quat_multiply(vec4(sin(half_angle) * GET(edge, i), cos(half_angle)), own(section));
     }
     MEET;
 }
@@ -76,12 +76,12 @@ vec3 bending_force(uint i)
 {
     vec3 force = vec3(0.0);
     if (i + 1u < guide_count) {
-        vec3 d = lever[i] - lever[i + 1u];
-        force  = (CURVED ? cross(d, edge[i]) : d) / rest_length[i];
+        vec3 d = GET(lever, i) - GET(lever, i + 1u);
+        force  = (CURVED ? cross(d, GET(edge, i)) : d) / rest_length[i];
     }
     if (i > 0u) {
-        vec3 d = lever[i - 1u] - lever[i];
-        force -= (CURVED ? cross(d, edge[i - 1u]) : d) / rest_length[i - 1u];
+        vec3 d = GET(lever, i - 1u) - GET(lever, i);
+        force -= (CURVED ? cross(d, GET(edge, i - 1u)) : d) / rest_length[i - 1u];
     }
     return force;
 }

@@ -68,7 +68,7 @@ void find_solids(vec3 head_moved)
     EACH(guide_count) {
         own(reachable) = own(met) = uvec2(0u);
         if (slack[i] > 0.0) {
-            vec3  position = root_now + place[i] + own(wanted) - root_moved;
+            vec3  position = root_now + GET(place, i) + own(wanted) - root_moved;
             float reach    = 0.02 + length(own(wanted) - head_moved);
             for (int word = 0; word < 2; ++word)
                 for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
@@ -119,7 +119,7 @@ vec4 left_of(vec4 freedom, vec3 normal)
 vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
 {
     vec3 d     = want;
-    vec3 start = root_now - root_moved + head_moved + place[i];
+    vec3 start = root_now - root_moved + head_moved + GET(place, i);
     freedom    = vec4(0.0, 0.0, 0.0, FREE);
     for (int word = 0; word < 2; ++word)
         for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {

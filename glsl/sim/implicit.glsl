@@ -10,18 +10,18 @@ void substitute(bool euler)
         float one = 0.0, two = 0.0; // what the rows one and two above hand down
         for (uint k = 0u; k < guide_count; ++k) {
             vec4  f     = row[k];
-            float value = moved[k][j] - one;
+            float value = COMPONENT(moved, k, j) - one;
             one         = two + f.y * value;
             two         = f.z * value;
-            moved[k][j] = value * f.x;
+            COMPONENT(moved, k, j) = value * f.x;
         }
         float below = 0.0, below_two = 0.0;
         for (uint k = guide_count; k-- > 0u;) {
             vec4  f     = row[k];
-            float value = moved[k][j] - f.y * below - f.z * below_two;
+            float value = COMPONENT(moved, k, j) - f.y * below - f.z * below_two;
             below_two   = below;
             below       = value;
-            moved[k][j] = value;
+            COMPONENT(moved, k, j) = value;
         }
     }
     MEET;
@@ -36,13 +36,13 @@ void solve_implicit(bool euler) { substitute(euler); }
 vec3 reduced_from(vec4 m, uint block, uint reach)
 {
     uint i = gl_LocalInvocationID.x;
-    vec3 r = moved[i];
+    vec3 r = GET(moved, i);
     if (block >= reach) {
         uint k = 2u * (block - reach);
-        r += m.x * moved[k] + m.y * moved[k + 1u];
+        r += m.x * GET(moved, k) + m.y * GET(moved, k + 1u);
     }
     uint k = 2u * (block + reach);
-    if (k < guide_count) r += m.z * moved[k] + m.w * (k + 1u < guide_count ? moved[k + 1u] : vec3(0.0));
+    if (k < guide_count) r += m.z * GET(moved, k) + m.w * (k + 1u < guide_count ? GET(moved, k + 1u) : vec3(0.0));
     return r;
 }
 
@@ -59,18 +59,18 @@ void solve_implicit(bool euler)
     for (uint reach = 1u; reach < blocks; reach *= 2u, at += params.vertices) {
         vec3 r = i < guide_count ? reduced_from(reduction[at], block, reach) : vec3(0.0);
         MEET;
-        if (i < guide_count) moved[i] = r;
+        if (i < guide_count) PUT(moved, i, r);
         MEET;
     }
     vec3 q = vec3(0.0);
     if (i < guide_count) {
         vec4 m    = reduction[at];
         uint k    = 2u * block;
-        vec3 odd  = k + 1u < guide_count ? moved[k + 1u] : vec3(0.0);
-        q         = m.x * moved[k] + m.y * odd;
+        vec3 odd  = k + 1u < guide_count ? GET(moved, k + 1u) : vec3(0.0);
+        q         = m.x * GET(moved, k) + m.y * odd;
     }
     MEET;
-    if (i < guide_count) moved[i] = q;
+    if (i < guide_count) PUT(moved, i, q);
     MEET;
 }
 

@@ -11,10 +11,10 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
 {
     EACH(guide_count) {
         vec4 freedom = vec4(0.0);
-        moved[i]     = own(wanted);
+        PUT(moved, i, own(wanted));
         if (SOLIDS) {
             if ((own(reachable).x | own(reachable).y) != 0u)
-                moved[i] = allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, freedom, own(met));
+                PUT(moved, i, allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, freedom, own(met)));
             touch[i] = freedom;
         }
     }
@@ -22,14 +22,14 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
     measure(tolerance);
 }
 
-vec3 direction_of(uint i, bool of_start) { return of_start ? lever[i] : edge[i]; }
+vec3 direction_of(uint i, bool of_start) { return of_start ? GET(lever, i) : GET(edge, i); }
 
 void correct_lengths(bool of_start)
 {
     uint segments = guide_count - 1u;
     EACH(segments) {
-        vec3  below = slack[i] * (SOLIDS ? pass_on(touch[i], edge[i]) : edge[i]);
-        vec3  above = slack[i + 1u] * (SOLIDS ? pass_on(touch[i + 1u], edge[i]) : edge[i]);
+        vec3  below = slack[i] * (SOLIDS ? pass_on(touch[i], GET(edge, i)) : GET(edge, i));
+        vec3  above = slack[i + 1u] * (SOLIDS ? pass_on(touch[i + 1u], GET(edge, i)) : GET(edge, i));
         float b     = dot(below + above, direction_of(i, of_start));
         row[i]     = vec4(i > 0u ? -dot(below, direction_of(i - 1u, of_start)) : 0.0, b,
                           i + 1u < segments ? -dot(above, direction_of(i + 1u, of_start)) : 0.0,
@@ -64,10 +64,10 @@ void follow_leader(vec3 head_moved)
     for (uint n = 0u; n < (SOLIDS ? 2u : 1u); ++n) {
         EACH(guide_count) {
             vec4 freedom = vec4(0.0);
-            moved[i]     = n == 0u ? own(wanted) : moved[i];
+            PUT(moved, i, n == 0u ? own(wanted) : GET(moved, i));
             if (SOLIDS) {
                 if ((own(reachable).x | own(reachable).y) != 0u)
-                    moved[i] = allowed(i, moved[i], own(reachable), uvec2(0u), head_moved, freedom, own(met));
+                    PUT(moved, i, allowed(i, GET(moved, i), own(reachable), uvec2(0u), head_moved, freedom, own(met)));
                 touch[i] = vec4(0.0);
             }
         }
@@ -75,10 +75,10 @@ void follow_leader(vec3 head_moved)
         ONCE(1u) {
             vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
             for (uint k = 1u; k < guide_count; ++k) {
-                vec3  to = (place[k] - place[k - 1u]) + (moved[k] - moved[k - 1u]);
+                vec3  to = (GET(place, k) - GET(place, k - 1u)) + (GET(moved, k) - GET(moved, k - 1u));
                 float l  = length(to);
                 if (bits_of(l) < 0x7f800000u && l > 1e-3 * rest_length[k - 1u]) last = to / l;
-                moved[k] = moved[k - 1u] + (place[k - 1u] - place[k]) + rest_length[k - 1u] * last;
+                PUT(moved, k, GET(moved, k - 1u) + (GET(place, k - 1u) - GET(place, k)) + rest_length[k - 1u] * last);
             }
         }
         MEET;

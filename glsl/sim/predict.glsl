@@ -34,7 +34,7 @@ void leap(uint i, vec3 force, vec3 wind, vec3 bending)
     vec3  d    = own(displacement);
     vec3  gain = part * (params.keep - 1.0) * (d - wind) + kick * force;
     own(wanted) = d;
-    if (stiff) moved[i] = gain / slack[i] + kick * bending;
+    if (stiff) { PUT(moved, i, gain / slack[i] + kick * bending); }
     else own(wanted) += gain + kick * slack[i] * bending;
 }
 
@@ -45,7 +45,7 @@ void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
     float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
     vec3  hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : HAIR_SOLVER == SHAKE ? own(displacement) : own(rate);
     own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
-    moved[i]        = (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending;
+    PUT(moved, i, (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending);
 }
 
 void predict(int method)
@@ -53,7 +53,7 @@ void predict(int method)
     bool at_end  = method != SHAKE; // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
-    EACH(guide_count) { moved[i] = offset_of(i, method, own(displacement)); }
+    EACH(guide_count) { PUT(moved, i, offset_of(i, method, own(displacement))); }
     MEET;
     measure(1.0);
     find_bending();
@@ -63,8 +63,8 @@ void predict(int method)
         own(wanted)  = root_moved;
         vec3 bending = bending_force(i);
         vec3 force   = params.gravity.xyz;
-        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - moved[i] : vec3(0.0)) - place[i]);
-        moved[i] = vec3(0.0);
+        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved, i) : vec3(0.0)) - GET(place, i));
+        PUT(moved, i, vec3(0.0));
         if (slack[i] > 0.0) {
             if (method == SHAKE) leap(i, force, wind, bending);
             else step_back(i, method == BACK, force, wind, bending);
@@ -73,13 +73,13 @@ void predict(int method)
     MEET;
     if (CURVED) relax_twist();
     if (method == SHAKE) {
-        EACH(guide_count - 1u) { lever[i] = edge[i]; }
+        EACH(guide_count - 1u) { PUT(lever, i, GET(edge, i)); }
         MEET;
     }
     if (at_end || stiff) {
         solve_implicit(method >= EULER);
         EACH(guide_count) {
-            if (slack[i] > 0.0) own(wanted) += moved[i];
+            if (slack[i] > 0.0) own(wanted) += GET(moved, i);
         }
         MEET;
     }

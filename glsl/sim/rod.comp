@@ -25,7 +25,7 @@ void load()
         uint      at         = guide_first + i;
         vec3      from_root  = rest[at].position.xyz - root_at_rest;
         float     share      = float(i) / float(guide_count - 1u);
-        place[i]             = state[at].position.xyz - root_then;
+        PUT(place, i, state[at].position.xyz - root_then);
         own(displacement)    = state[at].displacement.xyz * rescale;
         rest_length[i]       = rod[at].segment.x;
         slack[i]             = rod[at].segment.y;
@@ -47,7 +47,7 @@ void store()
 {
     EACH(guide_count) {
         uint at                = guide_first + i;
-        state[at].position     = vec4(root_now + place[i], known);
+        state[at].position     = vec4(root_now + GET(place, i), known);
         state[at].displacement = vec4(own(displacement), 0.0);
         if (CURVED) material[at] = own(section);
 #if HAIR_SOLVER != SHAKE
@@ -72,16 +72,16 @@ void accept(int method, vec3 head_moved)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     EACH(guide_count) {
-        vec3 d = moved[i], kept = d;
+        vec3 d = GET(moved, i), kept = d;
         if (method == LEADER) { // What was drawn along may not keep that speed.
             vec3  relative = d - root_moved;
             float speed    = length(relative);
             kept           = root_moved + LEADER_KEEPS * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
-        precise vec3 from_head = root_now + (place[i] + (d - root_moved));
+        precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));
         precise vec3 from_root = from_head - root_now;
-        place[i]               = from_root;
+        PUT(place, i, from_root);
 #if HAIR_SOLVER != SHAKE
         own(rate_before) = own(rate);
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
@@ -98,7 +98,7 @@ void accept(int method, vec3 head_moved)
 
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
     EACH(guide_count) {
-        place[i]          = rotate(turn_now, own(aim).xyz);
+        PUT(place, i, rotate(turn_now, own(aim).xyz));
         own(displacement) = still;
         if (CURVED) own(section) = quat_multiply(turn_now, rest[guide_first + i].frame);
 #if HAIR_SOLVER != SHAKE

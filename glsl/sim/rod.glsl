@@ -8,10 +8,10 @@
 #include "sim/mapping.glsl"
 #include "sim/tridiagonal.glsl"
 
-SHARED(vec3, place);        // at the start of the substep
-SHARED(vec3, moved);        // displacement that is tried
-SHARED(vec3, edge);         // unit, of segment i, where `moved` leads
-SHARED(vec3, lever);        // bending: what a hinge does; then: directions in which lengths are corrected
+SHARED_VEC3(place);        // at the start of the substep
+SHARED_VEC3(moved);        // displacement that is tried
+SHARED_VEC3(edge);         // unit, of segment i, where `moved` leads
+SHARED_VEC3(lever);        // bending: what a hinge does; then: directions in which lengths are corrected
 SHARED(float, rest_length); // of segment i; 0 for the tip
 SHARED(float, slack);       // 1 / mass; 0: held
 OWN(vec3, wanted);          // displacement if no solid were in the way
@@ -44,9 +44,9 @@ void measure(float tolerance)
 {
     next_slot();
     EACH(guide_count - 1u) {
-        vec3  to = (place[i + 1u] - place[i]) + (moved[i + 1u] - moved[i]);
+        vec3  to = (GET(place, i + 1u) - GET(place, i)) + (GET(moved, i + 1u) - GET(moved, i));
         float l  = length(to);
-        edge[i]     = to / l;
+        PUT(edge, i, to / l);
         own(excess) = l - rest_length[i];
         uint error = bits_of(own(excess) / rest_length[i]);
         if (error > floatBitsToUint(tolerance)) loose[slot] = 1u;
