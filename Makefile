@@ -36,7 +36,7 @@ LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
 EGL   := $(call objects,lib/egl/*.c)
 REF   := $(call objects,lib/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
-TOOLS := $(B)/hair-capture $(B)/hair-groom
+TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/*_test.c tests/gpu/*_test.c tests/golden/*_test.c))
 
 # Deferred, so that they are asked after `make setup` has installed the packages.
@@ -48,7 +48,7 @@ EIGEN       = $(call packages,--cflags,eigen3)
 
 all: libraries tools ## Libraries and tools, in build/$(config)
 libraries: $(B)/libhair.a $(B)/libhair.so $(B)/libhair_egl.a $(B)/libhair_egl.so ## libhair and libhair_egl, static and shared
-tools: $(TOOLS) ## hair-capture, hair-groom
+tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) tools
@@ -117,6 +117,9 @@ COMMON := $(call objects,tools/common/*.c)
 $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+$(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
 
 SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a

@@ -1,0 +1,252 @@
+// living.c - a scene brought to life, stepped, read and timed.
+#include "tools/bench/living.h"
+#include "tools/common/stats.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_PASSES 64
+
+static hair_result make_groom(struct bench_living* living)
+{
+    const struct bench_scene* scene = living->scene;
+    size_t                    count = scene->strands, floats = 3 * (size_t)scene->vertices;
+    float*                    positions = malloc(count * floats * sizeof *positions);
+    uint32_t*                 vertices  = malloc(count * sizeof *vertices);
+    hair_result               result    = HAIR_ERROR_MEMORY;
+    if (positions && vertices) {
+        for (size_t i = 0; i < count; ++i) {
+            memcpy(positions + i * floats, scene->positions, floats * sizeof *positions);
+            vertices[i] = scene->vertices;
+        }
+        hair_groom_desc desc = hair_groom_desc_default();
+        desc.host            = &living->bench->host;
+        desc.positions       = positions;
+        desc.strand_vertices = vertices;
+        desc.strand_count    = scene->strands;
+        desc.strands_are     = HAIR_STRANDS_GUIDES;
+        desc.guide_vertices  = scene->vertices;
+        desc.follower_count  = 0;
+        result               = hair_groom_create(&desc, &living->groom);
+    }
+    free(positions);
+    free(vertices);
+    return result;
+}
+
+// A strand that the groom repaired, or thinned out, is not the one to be measured.
+static hair_result check_groom(struct bench_living* living)
+{
+    hair_groom_info info   = hair_groom_info_default();
+    hair_result     result = hair_groom_describe(living->groom, &info);
+    if (result) return result;
+    const struct bench_scene* scene = living->scene;
+    if (info.guide_vertex_count == scene->strands * scene->vertices) return HAIR_OK;
+    snprintf(living->bench->sentence, sizeof living->bench->sentence,
+             "the groom has %u vertices in %u guides, not %u in %u", info.guide_vertex_count,
+             info.guide_count, scene->strands * scene->vertices, scene->strands);
+    return HAIR_ERROR_ARGUMENT;
+}
+
+static hair_result make_instance(struct bench_living* living)
+{
+    const struct bench_scene* scene = living->scene;
+    hair_desc                 desc  = hair_desc_default();
+    desc.label                      = bench_solver_name(scene->solver);
+    desc.solver                     = scene->solver;
+    desc.mapping                    = scene->mapping;
+    desc.substep                    = (float)scene->substep;
+    desc.max_dt                     = (float)scene->max_dt;
+    desc.physics                    = &scene->physics;
+    bench_matrix(&scene->head, desc.transform);
+    hair_result result = hair_create(living->bench->context, living->groom, &desc, &living->hair);
+    if (result) return result;
+    hair_health health = hair_health_default();
+    result             = hair_get_health(living->hair, &health);
+    living->substep    = (double)health.substep;
+    return result;
+}
+
+bool bench_live(struct bench* bench, const struct bench_scene* scene, struct bench_living* out)
+{
+    *out = (struct bench_living){.bench = bench, .scene = scene};
+    snprintf(bench->sentence, sizeof bench->sentence, "out of memory");
+    hair_result result = make_groom(out);
+    if (!result) result = check_groom(out);
+    if (!result) result = make_instance(out);
+    out->read = malloc(3 * (size_t)scene->strands * scene->vertices * sizeof *out->read);
+    if (result || !out->read) {
+        bench_die(out);
+        return false;
+    }
+    for (uint32_t i = 0; i + 1 < scene->vertices; ++i) {
+        const float* p  = scene->positions + 3 * i;
+        double       dx = (double)p[3] - (double)p[0], dy = (double)p[4] - (double)p[1];
+        out->lengths[i] = hypot(hypot(dx, dy), (double)p[5] - (double)p[2]);
+        out->length += out->lengths[i];
+    }
+    return true;
+}
+
+void bench_die(struct bench_living* living)
+{
+    hair_destroy(living->hair);
+    hair_groom_destroy(living->groom);
+    free(living->read);
+    *living = (struct bench_living){0};
+}
+
+bool bench_step(struct bench_living* living, const struct hair_reference_rod_pose* head, double dt)
+{
+    float matrix[16];
+    if (head) {
+        bench_matrix(head, matrix);
+        if (hair_set_transform(living->hair, matrix)) return false;
+    }
+    return !hair_step(living->hair, (float)dt);
+}
+
+bool bench_read(struct bench_living* living, double* positions)
+{
+    uint32_t count, vertices = living->scene->vertices;
+    if (hair_read(living->hair, HAIR_READ_GUIDES, living->read, vertices, &count)) return false;
+    for (uint32_t i = 0; i < 3 * vertices; ++i) positions[i] = (double)living->read[i];
+    return true;
+}
+
+double bench_substeps(const struct bench_living* living)
+{
+    return round(1000 / (60 * living->substep)) / 1000; // The substep is a float.
+}
+
+bool bench_settle(struct bench_living* living, double* positions)
+{
+    double before[3 * BENCH_MOST_VERTICES];
+    for (int k = 0; k < 60; ++k) {
+        for (int i = 0; i < 30; ++i)
+            if (!bench_step(living, NULL, 1.0 / 60)) return false;
+        if (k) memcpy(before, positions, 3 * sizeof *before * living->scene->vertices);
+        if (!bench_read(living, positions) || bench_was_interrupted()) return false;
+        double most = 0;
+        for (uint32_t i = 0; i < 3 * living->scene->vertices && k; ++i)
+            most = fmax(most, fabs(positions[i] - before[i]));
+        if (k && most < 1e-6 * living->length) return true;
+    }
+    return true;
+}
+
+bool bench_strands_are_alike(struct bench_living* living)
+{
+    const struct bench_scene* scene = living->scene;
+    uint32_t                  count, all = scene->strands * scene->vertices;
+    size_t                    size = 3 * (size_t)scene->vertices;
+    if (hair_read(living->hair, HAIR_READ_GUIDES, living->read, all, &count)) return false;
+    for (uint32_t i = 1; i < scene->strands; ++i)
+        if (memcmp(living->read, living->read + i * size, size * sizeof *living->read)) return false;
+    return true;
+}
+
+double bench_stretch(const struct bench_living* living, const double* positions)
+{
+    double most = 0;
+    for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
+        const double* p      = positions + 3 * i;
+        double        length = hypot(hypot(p[3] - p[0], p[4] - p[1]), p[5] - p[2]);
+        double        error  = fabs(length / living->lengths[i] - 1);
+        if (!(error <= most)) most = error; // NaN too.
+    }
+    return most;
+}
+
+bool bench_are_finite(const double* positions, uint32_t vertices)
+{
+    for (uint32_t i = 0; i < 3 * vertices; ++i)
+        if (!isfinite(positions[i])) return false;
+    return true;
+}
+
+// Timing ----------------------------------------------------------------------------------------------------
+
+// GPU time of all passes that ran since `before`, which becomes now.
+static double passes_since(hair_context* context, hair_timing before[MOST_PASSES])
+{
+    hair_timing now[MOST_PASSES];
+    uint32_t    count = hair_timings(context, now, MOST_PASSES);
+    double      ms    = 0;
+    for (uint32_t i = 0; i < count && i < MOST_PASSES; ++i) {
+        ms += (double)now[i].ms * (now[i].runs - before[i].runs);
+        before[i] = now[i];
+    }
+    return ms;
+}
+
+// On hardware frame by frame, by the driver's timers: waiting between frames costs time that is not the GPU's.
+static bool run_frames(struct bench_living* living, uint32_t frames,
+                       const struct hair_reference_rod_pose* heads, double dt, double* ms)
+{
+    bool        software            = living->bench->software;
+    hair_timing before[MOST_PASSES] = {{0}};
+    if (hair_reset(living->hair)) return false;
+    glFinish();
+    passes_since(living->bench->context, before);
+    double start = hair_now(), passes = 0;
+    for (uint32_t k = 0; k < frames; ++k) {
+        if (!bench_step(living, heads ? heads + k : NULL, dt)) return false;
+        if (software) continue;
+        glFinish();
+        passes += passes_since(living->bench->context, before);
+    }
+    glFinish();
+    *ms = (software ? hair_now() - start : passes) / frames;
+    return true;
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+static bool run_once(struct bench_living* living, uint32_t frames,
+                     const struct hair_reference_rod_pose* heads, double dt, double* ms)
+{
+    float matrix[16];
+    bench_matrix(&living->scene->head, matrix);
+    return !bench_was_interrupted() && !hair_set_transform(living->hair, matrix) &&
+           run_frames(living, frames, heads, dt, ms);
+}
+
+bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_reference_rod_pose* heads,
+                double dt, struct bench_times* out)
+{
+    enum { ENOUGH_RUNS = 3, MOST_RUNS = 15 };
+    double   ms[MOST_RUNS], passed = 0, short_time = living->bench->options.quick ? 200 : 2000;
+    uint32_t runs = 0;
+    for (double start = hair_now(); runs == 0 || (runs < MOST_RUNS && passed < short_time) ||
+                                    (runs < ENOUGH_RUNS && passed < 4 * short_time);
+         passed = hair_now() - start)
+        if (!run_once(living, frames, heads, dt, &ms[runs++])) return false;
+    qsort(ms, runs, sizeof *ms, compare);
+    *out = (struct bench_times){ms[runs / 2], ms[0], ms[runs - 1], runs};
+    return true;
+}
+
+void bench_set_material(json_t* row, const struct bench_living* living)
+{
+    static const char* const  mappings[] = {"auto", "group", "thread"};
+    const struct bench_scene* scene      = living->scene;
+    const hair_physics*       p          = &scene->physics;
+    bool                      rod        = scene->solver != HAIR_SOLVER_REDBLACK;
+    bench_set_text(row, "solver", bench_solver_name(scene->solver));
+    bench_set_text(row, "mapping", mappings[scene->mapping]);
+    bench_set_number(row, "substep", living->substep);
+    bench_set_number(row, "damping", (double)p->damping);
+    if (!rod) return; // redblack has no material.
+    bench_set_number(row, "young", (double)p->young);
+    bench_set_number(row, "poisson", (double)p->poisson);
+    bench_set_number(row, "fiber_radius", (double)p->fiber_radius);
+    bench_set_number(row, "fiber_density", (double)p->fiber_density);
+    bench_set_number(row, "flatness", (double)p->flatness);
+}

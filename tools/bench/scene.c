@@ -1,0 +1,165 @@
+// scene.c - strands, materials, heads; and the same as rods of lib/reference.
+#include "tools/bench/scene.h"
+
+#include <math.h>
+
+struct bench_scene bench_scene_default(void)
+{
+    struct bench_scene scene = {.strands = 1, .max_dt = 0.1, .head = {{0, 0, 0}, {0, 0, 0, 1}}};
+    hair_physics*      p     = &scene.physics;
+    *p                       = hair_physics_default();
+    p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = 0;
+    p->angular                                                    = 0;
+    return scene;
+}
+
+void bench_scene_straight(struct bench_scene* scene, uint32_t vertices, double length, const double root[3],
+                          const double along[3])
+{
+    scene->vertices = vertices;
+    for (uint32_t i = 0; i < vertices; ++i)
+        for (uint32_t k = 0; k < 3; ++k)
+            scene->positions[3 * i + k] = (float)(root[k] + along[k] * (length * i / (vertices - 1)));
+}
+
+void bench_scene_arc(struct bench_scene* scene, uint32_t vertices, double length, double turn,
+                     const double along[3], const double across[3])
+{
+    // Each chord points as the arc does in its middle.
+    double piece = length / (vertices - 1), at[3] = {0, 0, 0};
+    scene->vertices = vertices;
+    for (uint32_t i = 0; i < vertices; ++i) {
+        double angle = turn * (i + 0.5) / (vertices - 1);
+        for (uint32_t k = 0; k < 3; ++k) {
+            scene->positions[3 * i + k] = (float)at[k];
+            at[k] += piece * (cos(angle) * along[k] + sin(angle) * across[k]);
+        }
+    }
+}
+
+void bench_scene_set_gamma(struct bench_scene* scene, double length, double gamma)
+{
+    hair_physics* p      = &scene->physics;
+    double        radius = (double)p->fiber_radius;
+    p->young             = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
+                       (gamma * radius * radius));
+}
+
+double bench_scene_length(const struct bench_scene* scene)
+{
+    double length = 0;
+    for (uint32_t i = 0; i + 1 < scene->vertices; ++i) {
+        const float* p = scene->positions + 3 * i;
+        length += hypot(hypot((double)p[3] - (double)p[0], (double)p[4] - (double)p[1]),
+                        (double)p[5] - (double)p[2]);
+    }
+    return length;
+}
+
+// An ellipse of half axes a >= b with a b = R^2 and b / a = flatness, the long one along x:
+// I = pi a b^3 / 4 about x and pi a^3 b / 4 about z, J = pi a^3 b^3 / (a^2 + b^2).
+struct bench_section bench_section_of(const hair_physics* physics)
+{
+    double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
+    double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->young;
+    return (struct bench_section){
+        .bend         = {round * flat, round / flat},
+        .twist        = 2 * round / (1 + (double)physics->poisson) * flat / (1 + flat * flat),
+        .line_density = (double)physics->fiber_density * BENCH_PI * radius * radius};
+}
+
+struct hair_reference_rod_pose bench_pose(const double axis[3], double angle, const double move[3])
+{
+    struct hair_reference_rod_pose pose;
+    for (uint32_t k = 0; k < 3; ++k) {
+        pose.position[k] = move[k];
+        pose.rotation[k] = sin(angle / 2) * axis[k];
+    }
+    pose.rotation[3] = cos(angle / 2);
+    return pose;
+}
+
+void bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16])
+{
+    const double* q = pose->rotation;
+    double        x = q[0], y = q[1], z = q[2], w = q[3];
+    const double  m[16] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),     0,
+                           2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),     0,
+                           2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y), 0,
+                           pose->position[0],       pose->position[1],       pose->position[2],       1};
+    for (int i = 0; i < 16; ++i) matrix[i] = (float)m[i];
+}
+
+// The least rotation from y to the first segment, as the groom has it of strands that all leave alike.
+static void find_root_frame(const double* positions, double frame[4])
+{
+    double d[3], length = 0;
+    for (uint32_t k = 0; k < 3; ++k) {
+        d[k] = positions[3 + k] - positions[k];
+        length += d[k] * d[k];
+    }
+    for (int k = 0; k < 3; ++k) d[k] /= sqrt(length);
+    if (d[1] < -0.999999) { // Any axis across y: x.
+        frame[0] = 1;
+        frame[1] = frame[2] = frame[3] = 0;
+        return;
+    }
+    double norm = sqrt(2 * (1 + d[1]));
+    frame[0]    = d[2] / norm; // y cross d
+    frame[1]    = 0;
+    frame[2]    = -d[0] / norm;
+    frame[3]    = norm / 2;
+}
+
+static double between(float root, float tip, uint32_t i, uint32_t count)
+{
+    return (double)root + ((double)tip - (double)root) * i / (count - 1);
+}
+
+static int is_straight(const struct bench_scene* scene, const double* strain)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < 3 * (scene->vertices - 1); ++i) most = fmax(most, fabs(strain[i]));
+    return scene->physics.flatness == 1 && most < 1e-4;
+}
+
+struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
+{
+    double                         positions[3 * BENCH_MOST_VERTICES], strain[3 * BENCH_MOST_VERTICES];
+    double                         scale[BENCH_MOST_VERTICES], pull[BENCH_MOST_VERTICES];
+    const hair_physics*            p       = &scene->physics;
+    struct bench_section           section = bench_section_of(p);
+    struct hair_reference_rod_desc desc    = hair_reference_rod_desc_default();
+    for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
+    for (uint32_t i = 0; i < scene->vertices; ++i) {
+        scale[i] = between(p->stiffness_root, p->stiffness_tip, i, scene->vertices);
+        pull[i]  = 2 * BENCH_PI * between(p->pull_root, p->pull_tip, i, scene->vertices);
+    }
+    find_root_frame(positions, desc.root_frame);
+    hair_reference_rod_strain(scene->vertices, positions, desc.root_frame, strain);
+    desc.vertices     = scene->vertices;
+    desc.positions    = positions;
+    desc.line_density = section.line_density;
+    desc.tip_mass     = (double)p->tip_mass * section.line_density * bench_scene_length(scene);
+    desc.bend[0]      = section.bend[0];
+    desc.bend[1]      = section.bend[1];
+    desc.twist        = section.twist;
+    desc.scale        = scale;
+    desc.straight     = is_straight(scene, strain);
+    desc.rest_strain  = desc.straight ? NULL : strain;
+    desc.root         = (enum hair_reference_rod_root)p->root;
+    desc.damping      = (double)p->damping;
+    desc.pull         = pull;
+    desc.head         = scene->head;
+    for (uint32_t k = 0; k < 3; ++k) {
+        desc.gravity[k] = (double)p->gravity[k];
+        desc.wind[k]    = (double)p->wind[k];
+    }
+    return hair_reference_rod_create(&desc);
+}
+
+const char* bench_solver_name(hair_solver solver)
+{
+    static const char* const names[] = {"direct", "accurate", "follow", "redblack"};
+    return names[solver];
+}
