@@ -1,0 +1,48 @@
+// physics.c - the suite `physics`: hair at rest and in motion against what is known of rods and chains. A catenary
+// is not among the cases: it needs both ends held, and the library holds roots only.
+#include "tools/bench/physics.h"
+
+#include <math.h>
+
+static const char* const columns[] = {"case",     "method",         "vertices",
+                                      "gamma",    "angle",          "mode",
+                                      "rate",     "substeps",       "expected",
+                                      "measured", "relative_error", "limit",
+                                      "pass",     "reference",      BENCH_MATERIAL_COLUMNS,
+                                      NULL};
+
+const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
+
+json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
+                          double limit, const char* reference)
+{
+    double  error = expected == 0 ? fabs(measured) : fabs(measured / expected - 1);
+    json_t* row   = bench_rows_add(&living->bench->rows);
+    bench_set_text(row, "case", name);
+    bench_set_text(row, "method", bench_solver_name(living->scene->solver));
+    bench_set_count(row, "vertices", living->scene->vertices);
+    bench_set_number(row, "expected", expected);
+    bench_set_number(row, "measured", measured);
+    bench_set_number(row, "relative_error", error);
+    if (limit >= 0) bench_set_number(row, "limit", limit);
+    if (limit >= 0) bench_set_flag(row, "pass", error <= limit);
+    bench_set_text(row, "reference", reference);
+    bench_set_material(row, living);
+    return row;
+}
+
+static void run_suite(struct bench* bench)
+{
+    bench_cantilever(bench);
+    bench_bend_twist(bench);
+    bench_lateral_buckling(bench);
+    bench_chain_modes(bench);
+    bench_pendulums(bench);
+    bench_order(bench);
+    bench_energy(bench);
+    bench_frame_rates(bench);
+    bench_vertex_counts(bench);
+}
+
+const struct bench_suite bench_physics = {"physics", "hair against what is known of rods and chains", columns,
+                                          run_suite};

@@ -1,0 +1,29 @@
+// physics.h - what the files of the suite `physics` share.
+#ifndef HAIR_TOOLS_BENCH_PHYSICS_H
+#define HAIR_TOOLS_BENCH_PHYSICS_H
+
+#include "tools/bench/living.h"
+
+#define BENCH_RODS 2 // Solvers of rods that the suite holds to physics.
+extern const hair_solver bench_rod_solvers[BENCH_RODS];
+
+// `limit` of a row that has none.
+#define BENCH_NO_LIMIT (-1.0)
+
+// A row with relative_error = |measured / expected - 1|, or |measured| where 0 is expected; it passes when that is
+// within `limit`.
+json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
+                          double limit, const char* reference);
+
+// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c: the cases.
+void bench_cantilever(struct bench* bench);
+void bench_bend_twist(struct bench* bench);
+void bench_lateral_buckling(struct bench* bench);
+void bench_chain_modes(struct bench* bench);
+void bench_pendulums(struct bench* bench);
+void bench_order(struct bench* bench);
+void bench_energy(struct bench* bench);
+void bench_frame_rates(struct bench* bench);
+void bench_vertex_counts(struct bench* bench);
+
+#endif

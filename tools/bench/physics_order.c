@@ -1,0 +1,145 @@
+// physics_order.c - how the error shrinks with the substep, and whether energy stays.
+#include "tools/bench/physics.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define FRAME (1.0 / 60)
+#define LENGTH 0.3 // m
+
+// Let go at an angle from the horizontal, degrees, upwards positive.
+static struct bench_scene make_hair(const struct bench* bench, hair_solver solver, uint32_t vertices,
+                                    double angle)
+{
+    const double       radians = angle * BENCH_PI / 180;
+    const double       root[3] = {0, 0, 0}, along[3] = {cos(radians), sin(radians), 0};
+    struct bench_scene scene = bench_scene_default();
+    bench_scene_straight(&scene, vertices, LENGTH, root, along);
+    scene.solver               = solver;
+    scene.mapping              = bench->options.mapping;
+    scene.physics.young        = 3e9f;
+    scene.physics.fiber_radius = 5e-5f;
+    return scene;
+}
+
+// Order -------------------------------------------------------------------------------------------------------
+
+#define ORDER_VERTICES 8 // Few enough for bending to be explicit in long substeps.
+#define ORDER_FRAMES 12
+
+// Root mean square of the vertices, over the frames, against the converged rod, over the length. NaN: refused.
+static double error_of(struct bench_living* living, const double* truth)
+{
+    double   positions[3 * ORDER_VERTICES], squares = 0;
+    uint32_t size = 3 * ORDER_VERTICES;
+    for (int k = 0; k < ORDER_FRAMES; ++k) {
+        if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return NAN;
+        for (uint32_t i = 0; i < size; ++i) squares += pow(positions[i] - truth[(uint32_t)k * size + i], 2);
+    }
+    return sqrt(squares / (ORDER_FRAMES * ORDER_VERTICES)) / LENGTH;
+}
+
+static void add_order_row(struct bench_living* living, uint32_t substeps, const double error[2])
+{
+    json_t* row = bench_physics_row(living, "order", 2, log2(error[0] / error[1]), 0.1,
+                                    "log2 of how the error shrinks with half the substep");
+    bench_set_count(row, "substeps", substeps);
+}
+
+static void measure_order(struct bench* bench, hair_solver solver, uint32_t substeps)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "order", method)) return;
+    double                     truth[ORDER_FRAMES * 3 * ORDER_VERTICES], error[3] = {NAN, NAN, NAN};
+    struct bench_scene         scene = make_hair(bench, solver, ORDER_VERTICES, -30);
+    struct hair_reference_rod* rod   = bench_reference(&scene);
+    if (!rod) return;
+    hair_reference_rod_converge(rod, ORDER_FRAMES, NULL, FRAME, 256, 8192, 1e-8 * LENGTH, truth);
+    hair_reference_rod_destroy(rod);
+    for (uint32_t i = 0; i < 3; ++i) {
+        struct bench_living living;
+        scene.substep = FRAME / (substeps << i);
+        if (!bench_live(bench, &scene, &living)) {
+            bench_refuse(bench, "order", method);
+            return;
+        }
+        error[i] = error_of(&living, truth);
+        if (i > 0) add_order_row(&living, substeps << (i - 1), error + i - 1);
+        bench_die(&living);
+    }
+}
+
+void bench_order(struct bench* bench)
+{
+    if (bench->options.quick) return;
+    measure_order(bench, HAIR_SOLVER_ACCURATE, 4);
+    measure_order(bench, HAIR_SOLVER_DIRECT, 8);
+}
+
+// Energy ------------------------------------------------------------------------------------------------------
+
+#define WINDOW                                                                                               \
+    4000 // Substeps that the energy is averaged over: some swings, in which it comes and goes a little.
+#define VERTICES 32
+
+// Mean energy over a window: the velocity between two substeps is the difference of their positions.
+static bool average_energy(struct bench_living* living, struct hair_reference_rod* rod, double* out)
+{
+    double before[3 * VERTICES], now[3 * VERTICES], velocity[3 * VERTICES], sum = 0;
+    if (!bench_read(living, before)) return false;
+    for (int k = 0; k < WINDOW; ++k) {
+        if (!bench_step(living, NULL, living->substep) || !bench_read(living, now)) return false;
+        for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (now[i] - before[i]) / living->substep;
+        hair_reference_rod_set_state(rod, before, velocity);
+        sum += hair_reference_rod_energy(rod).total / 2;
+        hair_reference_rod_set_state(rod, now, velocity);
+        sum += hair_reference_rod_energy(rod).total / 2;
+        for (int i = 0; i < 3 * VERTICES; ++i) before[i] = now[i];
+        if (bench_was_interrupted()) return false;
+    }
+    *out = sum / WINDOW;
+    return true;
+}
+
+static bool pass_substeps(struct bench_living* living, uint32_t count)
+{
+    for (; count > 0 && !bench_was_interrupted(); count -= count < 50 ? count : 50)
+        if (!bench_step(living, NULL, living->substep * (count < 50 ? count : 50))) return false;
+    return true;
+}
+
+// Swings of 30 degrees to both sides have a limit; from farther up the strand cracks as a whip, which few substeps do
+// not resolve.
+static void measure_energy(struct bench* bench, hair_solver solver, double angle)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "energy", method)) return;
+    struct bench_living        living;
+    struct bench_scene         scene = make_hair(bench, solver, VERTICES, angle);
+    struct hair_reference_rod* rod   = bench_reference(&scene);
+    double                     first, last;
+    if (!rod || !bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "energy", method);
+        hair_reference_rod_destroy(rod);
+        return;
+    }
+    if (average_energy(&living, rod, &first) && pass_substeps(&living, 100000 - 2 * WINDOW) &&
+        average_energy(&living, rod, &last)) {
+        double  mass = bench_section_of(&scene.physics).line_density * LENGTH;
+        json_t* row =
+            bench_physics_row(&living, "energy", 0, (last - first) / (mass * BENCH_GRAVITY * LENGTH / 2),
+                              solver == HAIR_SOLVER_ACCURATE && angle < -45 ? 1e-5 : BENCH_NO_LIMIT,
+                              "drift in 100,000 substeps over m g L / 2");
+        bench_set_number(row, "substeps", bench_substeps(&living));
+        bench_set_number(row, "angle", angle);
+    } else
+        bench_refuse(bench, "energy", method);
+    bench_die(&living);
+    hair_reference_rod_destroy(rod);
+}
+
+void bench_energy(struct bench* bench)
+{
+    for (int i = 0; i < 2 * BENCH_RODS && !bench->options.quick; ++i)
+        measure_energy(bench, bench_rod_solvers[i / 2], i % 2 ? -30 : -60);
+}

@@ -1,0 +1,175 @@
+// physics_swing.c - chains without stiffness: the small swings of a hanging one, the large ones of one and two links.
+#include "lib/reference/continuum.h"
+#include "tools/bench/frequency.h"
+#include "tools/bench/physics.h"
+
+#include <math.h>
+
+#define FRAME (1.0 / 60)
+#define LENGTH 0.3 // m
+
+static struct bench_scene make_chain(const struct bench* bench, hair_solver solver)
+{
+    struct bench_scene scene = bench_scene_default();
+    scene.solver             = solver;
+    scene.mapping            = bench->options.mapping;
+    scene.physics.young      = 0;
+    scene.physics.root       = HAIR_ROOT_HINGED;
+    return scene;
+}
+
+// Small swings ------------------------------------------------------------------------------------------------
+
+#define VERTICES 32
+#define LINKS (VERTICES - 1)
+#define FRAMES 720
+#define WIDEST 0.01 // rad: the steepest link. By a sixteenth of its square large swings are slower.
+
+struct mode {
+    double frequency;   // rad/s
+    double y[VERTICES]; // across, to some scale
+    double mass[VERTICES];
+};
+
+// From the tip upwards, each vertex in balance with its inertia: m w^2 y = what both links pull.
+static struct mode find_mode(uint32_t number)
+{
+    struct mode mode = {0};
+    double      lengths[LINKS], link = LENGTH / LINKS, hanging = 0;
+    for (int j = 0; j < LINKS; ++j) {
+        lengths[j]       = link;
+        mode.mass[j + 1] = j + 1 < LINKS ? link : link / 2;
+    }
+    mode.frequency = hair_reference_linkage_frequency(number, LINKS, lengths, mode.mass + 1, BENCH_GRAVITY);
+    mode.y[LINKS]  = 1;
+    double pull    = 0; // of the links below, across
+    for (int i = LINKS; i > 0; --i) {
+        hanging += mode.mass[i];
+        pull += mode.mass[i] * mode.frequency * mode.frequency * mode.y[i];
+        mode.y[i - 1] = mode.y[i] - pull * link / (hanging * BENCH_GRAVITY);
+    }
+    return mode;
+}
+
+static void place(const struct mode* mode, struct bench_scene* scene)
+{
+    double link = LENGTH / LINKS, steepest = 0, at[2] = {0, 0};
+    for (int j = 0; j < LINKS; ++j) steepest = fmax(steepest, fabs(mode->y[j + 1] - mode->y[j]) / link);
+    scene->vertices = VERTICES;
+    for (int i = 0; i < VERTICES; ++i) {
+        scene->positions[3 * i]     = (float)at[0];
+        scene->positions[3 * i + 1] = (float)at[1];
+        if (i == LINKS) break;
+        double angle = WIDEST * (mode->y[i + 1] - mode->y[i]) / link / steepest;
+        at[0] += link * sin(angle);
+        at[1] -= link * cos(angle);
+    }
+}
+
+static bool record(struct bench_living* living, const struct mode* mode, double* samples)
+{
+    double positions[3 * VERTICES];
+    for (int k = 0; k < FRAMES; ++k) {
+        if (!bench_read(living, positions) || bench_was_interrupted()) return false;
+        samples[k] = 0;
+        for (int i = 0; i < VERTICES; ++i) samples[k] += mode->mass[i] * mode->y[i] * positions[3 * i];
+        if (!bench_step(living, NULL, FRAME)) return false;
+    }
+    return true;
+}
+
+static void measure_mode(struct bench* bench, hair_solver solver, uint32_t number)
+{
+    static const double far[]  = {0.001, 0.005, 0.02}; // Limits against the continuous chain.
+    const char*         method = bench_solver_name(solver);
+    if (!bench_begin(bench, "chain_modes", method)) return;
+    double              samples[FRAMES];
+    struct mode         mode  = find_mode(number);
+    struct bench_scene  scene = make_chain(bench, solver);
+    struct bench_living living;
+    place(&mode, &scene);
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "chain_modes", method);
+        return;
+    }
+    if (record(&living, &mode, samples)) {
+        double expected[] = {mode.frequency,
+                             hair_reference_chain_frequency(number, LENGTH, BENCH_GRAVITY, 0)};
+        double measured = bench_frequency(samples, FRAMES, FRAME, 0.8 * mode.frequency, 1.2 * mode.frequency);
+        bool   held     = solver == HAIR_SOLVER_ACCURATE;
+        for (int i = 0; i < 2; ++i) {
+            json_t* row = bench_physics_row(&living, "chain_modes", expected[i] / (2 * BENCH_PI),
+                                            measured / (2 * BENCH_PI),
+                                            !held ? BENCH_NO_LIMIT
+                                            : i   ? far[number - 1]
+                                                  : 0.0005,
+                                            i ? "continuous chain, Hz" : "chain of as many links, Hz");
+            bench_set_count(row, "mode", number);
+        }
+    } else
+        bench_refuse(bench, "chain_modes", method);
+    bench_die(&living);
+}
+
+void bench_chain_modes(struct bench* bench)
+{
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t number = 1; number <= 3 && !bench->options.quick; ++number)
+            measure_mode(bench, bench_rod_solvers[s], number);
+}
+
+// Large swings ------------------------------------------------------------------------------------------------
+
+// Farthest from where the linkage is, at the end of any frame of a second. Negative: the library refused.
+static double farthest(struct bench_living* living)
+{
+    uint32_t links = living->scene->vertices - 1;
+    double   lengths[2], masses[2], angles[2], rates[2] = {0, 0}, positions[9], most = 0;
+    for (uint32_t j = 0; j < links; ++j) {
+        lengths[j] = LENGTH / links;
+        masses[j]  = j + 1 < links ? 1 : 0.5;
+        angles[j]  = BENCH_PI / 2;
+    }
+    for (int k = 0; k < 60; ++k) {
+        if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return -1;
+        hair_reference_linkage_advance(links, lengths, masses, BENCH_GRAVITY, FRAME, 4, angles, rates);
+        double x = 0, y = 0;
+        for (uint32_t j = 0; j < links; ++j) {
+            const double* p = positions + 3 * (j + 1);
+            x += lengths[j] * sin(angles[j]);
+            y -= lengths[j] * cos(angles[j]);
+            most = fmax(most, hypot(hypot(p[0] - x, p[1] - y), p[2]));
+        }
+    }
+    return most;
+}
+
+static void measure_pendulum(struct bench* bench, hair_solver solver, uint32_t vertices)
+{
+    const char* name   = vertices == 2 ? "pendulum" : "double_pendulum";
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, name, method)) return;
+    const double        root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    struct bench_scene  scene = make_chain(bench, solver);
+    struct bench_living living;
+    bench_scene_straight(&scene, vertices, LENGTH, root, along);
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, name, method);
+        return;
+    }
+    double most = farthest(&living);
+    if (most >= 0)
+        bench_physics_row(&living, name, 0, most / LENGTH,
+                          solver == HAIR_SOLVER_ACCURATE ? 0.001 : BENCH_NO_LIMIT,
+                          "linkage in its angles, farthest in 1 s over the length");
+    else
+        bench_refuse(bench, name, method);
+    bench_die(&living);
+}
+
+void bench_pendulums(struct bench* bench)
+{
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t vertices = 2; vertices <= 3; ++vertices)
+            measure_pendulum(bench, bench_rod_solvers[s], vertices);
+}
