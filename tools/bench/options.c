@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_physics};
+static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_physics, &bench_stability};
 
 enum name { JSON = 256, CSV, QUICK, CASE, METHOD, MAPPING, STRANDS, DEVICE, QUIET, VERBOSE, VERSION };
 

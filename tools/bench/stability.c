@@ -1,0 +1,213 @@
+// stability.c - the suite `stability`: what no scene should ask of hair, and whether it bears it and recovers.
+#include "tools/bench/stability.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FRAME (1.0 / 60)
+
+static const char* const columns[] = {"case",
+                                      "method",
+                                      "vertices",
+                                      "finite",
+                                      "max_stretch",
+                                      "max_speed",
+                                      "max_penetration",
+                                      "recovered",
+                                      "seconds_to_recover",
+                                      "euler",
+                                      "follow",
+                                      "reset",
+                                      "scenes",
+                                      "worst_scene",
+                                      "pass",
+                                      BENCH_MATERIAL_COLUMNS,
+                                      NULL};
+
+// Watching ----------------------------------------------------------------------------------------------------
+
+static double distance(const double* a, const double* b)
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+// Beyond what floats far from the origin resolve.
+static double stretch_of(const struct bench_living* living, const double* positions)
+{
+    double most = 0, far = 0;
+    for (uint32_t i = 0; i < 3 * living->scene->vertices; ++i) far = fmax(far, fabs(positions[i]));
+    for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
+        double off = fabs(distance(positions + 3 * i, positions + 3 * i + 3) - living->lengths[i]);
+        most       = fmax(most, (off - 1.2e-7 * far) / living->lengths[i]);
+    }
+    return most;
+}
+
+// How deep vertices lie in spheres. What the scalp holds cannot help it.
+static double depth_of(const struct bench_watch* watch, const double* positions)
+{
+    const struct bench_scene* scene = watch->living->scene;
+    double                    most  = 0;
+    for (uint32_t s = 0; s < watch->solid_count; ++s) {
+        const hair_solid* solid     = &watch->solids[s];
+        const double      centre[3] = {(double)solid->position[0], (double)solid->position[1],
+                                       (double)solid->position[2]};
+        for (uint32_t i = scene->solver == HAIR_SOLVER_REDBLACK ? 2 : 1; i < scene->vertices; ++i)
+            most = fmax(most, (double)solid->size[0] - distance(positions + 3 * i, centre));
+    }
+    return most;
+}
+
+static void look(struct bench_watch* watch, const double* now, double passed)
+{
+    const struct bench_living* living = watch->living;
+    uint32_t                   count  = living->scene->vertices;
+    watch->finite                     = watch->finite && bench_are_finite(now, count);
+    if (!watch->finite) return;
+    watch->stretch = fmax(watch->stretch, stretch_of(living, now));
+    for (uint32_t i = 0; i < count && passed > 0; ++i)
+        watch->speed = fmax(watch->speed, distance(now + 3 * i, watch->before + 3 * i) / passed);
+    if (watch->spared <= 0) watch->penetration = fmax(watch->penetration, depth_of(watch, now));
+}
+
+bool bench_watch(struct bench_living* living, struct bench_watch* out)
+{
+    *out = (struct bench_watch){
+        .living = living, .calm = living->scene->physics, .head = living->scene->head, .finite = true};
+    return bench_read(living, out->before);
+}
+
+bool bench_watch_step(struct bench_watch* watch, double dt)
+{
+    struct bench_living* living = watch->living;
+    double               now[3 * BENCH_MOST_VERTICES];
+    // The hair moves only in whole substeps: a speed is by the time that they took.
+    double done = floor(watch->time / living->substep + 1e-4);
+    if (hair_set_solids(living->hair, watch->solids, watch->solid_count, sizeof *watch->solids)) return false;
+    if (!bench_step(living, &watch->head, dt) || !bench_read(living, now)) return false;
+    watch->time += fmin(dt, living->scene->max_dt);
+    watch->spared -= dt;
+    look(watch, now, (floor(watch->time / living->substep + 1e-4) - done) * living->substep);
+    memcpy(watch->before, now, 3 * sizeof *now * living->scene->vertices);
+    return !bench_was_interrupted();
+}
+
+json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch)
+{
+    bool    rod = living->scene->solver != HAIR_SOLVER_REDBLACK;
+    json_t* row = bench_rows_add(&living->bench->rows);
+    bench_set_text(row, "case", name);
+    bench_set_text(row, "method", bench_solver_name(living->scene->solver));
+    bench_set_flag(row, "finite", watch->finite);
+    bench_set_number(row, "max_stretch", watch->finite ? watch->stretch : NAN);
+    bench_set_number(row, "max_speed", watch->finite ? watch->speed : NAN);
+    if (watch->penetration != 0) bench_set_number(row, "max_penetration", watch->penetration);
+    bench_set_flag(row, "pass", watch->finite && (!rod || watch->stretch <= BENCH_MOST_STRETCH));
+    bench_set_material(row, living);
+    return row;
+}
+
+// Recovering --------------------------------------------------------------------------------------------------
+
+// Where the rod rests, in the world, after the stress. False: not known.
+static bool find_rest(const struct bench_watch* watch, double* positions)
+{
+    struct bench_scene scene = *watch->living->scene;
+    if (scene.solver == HAIR_SOLVER_REDBLACK) return false; // It has no material.
+    scene.physics                  = watch->calm;
+    scene.head                     = watch->head;
+    struct hair_reference_rod* rod = bench_reference(&scene);
+    if (!rod) return false;
+    bool found = hair_reference_rod_rest(rod).converged;
+    hair_reference_rod_positions(rod, positions);
+    hair_reference_rod_destroy(rod);
+    return found;
+}
+
+// Six seconds without stress: from when on no vertex is farther than a hundredth of the length from its rest.
+// Infinite: not in that time.
+static bool recover(struct bench_watch* watch, const double* rest, double* seconds)
+{
+    struct bench_living* living = watch->living;
+    watch->solid_count          = 0;
+    *seconds                    = 0;
+    if (hair_set_physics(living->hair, &watch->calm)) return false;
+    for (int k = 1; k <= 360; ++k) {
+        if (!bench_watch_step(watch, FRAME)) return false;
+        double most = 0;
+        for (uint32_t i = 0; i < living->scene->vertices; ++i) {
+            double off = distance(watch->before + 3 * i, rest + 3 * i);
+            if (!(off <= most)) most = off;
+        }
+        if (!(most <= 0.01 * living->length)) *seconds = k < 360 ? (k + 1) * FRAME : INFINITY;
+    }
+    return true;
+}
+
+static void add_row(struct bench_watch* watch, const char* name, const double* rest)
+{
+    struct bench_living* living  = watch->living;
+    hair_health          health  = hair_health_default();
+    double               seconds = NAN;
+    if (hair_get_health(living->hair, &health) || (rest && !recover(watch, rest, &seconds))) {
+        bench_refuse(living->bench, name, bench_solver_name(living->scene->solver));
+        return;
+    }
+    json_t* row = bench_stability_row(living, name, watch);
+    bench_set_count(row, "vertices", living->scene->vertices);
+    bench_set_count(row, "euler", health.euler);
+    bench_set_count(row, "follow", health.follow);
+    bench_set_count(row, "reset", health.reset);
+    if (!rest) return;
+    bool recovered = seconds <= 3;
+    bench_set_flag(row, "recovered", recovered);
+    bench_set_number(row, "seconds_to_recover", seconds);
+    if (!recovered) bench_set_flag(row, "pass", false);
+}
+
+static struct bench_scene make_scene(const struct bench* bench, hair_solver solver)
+{
+    const double       root[3] = {0.1, 0, 0}, along[3] = {cos(BENCH_PI / 6), -sin(BENCH_PI / 6), 0};
+    struct bench_scene scene = bench_scene_default();
+    bench_scene_straight(&scene, 32, 0.3, root, along);
+    scene.solver               = solver;
+    scene.mapping              = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.substep              = solver == HAIR_SOLVER_REDBLACK ? FRAME : 0;
+    scene.physics.damping      = 4;
+    scene.physics.margin       = 0.001f;
+    scene.physics.young        = 3e9f;
+    scene.physics.fiber_radius = 5e-5f;
+    return scene;
+}
+
+static void measure(struct bench* bench, const struct bench_stress* stress, hair_solver solver)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, stress->name, method)) return;
+    double              rest[3 * BENCH_MOST_VERTICES];
+    struct bench_scene  scene = make_scene(bench, solver);
+    struct bench_living living;
+    struct bench_watch  watch;
+    if (stress->prepare) stress->prepare(&scene);
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, stress->name, method);
+        return;
+    }
+    if (bench_watch(&living, &watch) && stress->run(&watch))
+        add_row(&watch, stress->name, find_rest(&watch, rest) ? rest : NULL);
+    else
+        bench_refuse(bench, stress->name, method);
+    bench_die(&living);
+}
+
+static void run_suite(struct bench* bench)
+{
+    static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
+                                          HAIR_SOLVER_REDBLACK};
+    for (const struct bench_stress* stress = bench_stresses; stress->name; ++stress)
+        for (int s = 0; s < 4; ++s) measure(bench, stress, solvers[s]);
+    bench_fuzz(bench);
+}
+
+const struct bench_suite bench_stability = {
+    "stability", "what no scene should ask of hair, and whether it bears it", columns, run_suite};

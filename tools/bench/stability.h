@@ -1,0 +1,40 @@
+// stability.h - what the files of the suite `stability` share: hair under watch.
+#ifndef HAIR_TOOLS_BENCH_STABILITY_H
+#define HAIR_TOOLS_BENCH_STABILITY_H
+
+#include "tools/bench/living.h"
+
+#define BENCH_MOST_STRETCH 0.02 // Under any stress, of the solvers of rods.
+
+struct bench_watch {
+    struct bench_living*           living;
+    hair_physics                   calm; // of the time after the stress; the scene's own to begin with
+    struct hair_reference_rod_pose head;
+    hair_solid                     solids[4];
+    uint32_t                       solid_count;
+    double                         spared; // s from now: depth in solids does not count yet
+
+    bool   finite;
+    double stretch, speed, penetration; // greatest so far
+    double time;                        // s stepped
+    double before[3 * BENCH_MOST_VERTICES];
+};
+
+// Watches from now on. False: the library refused.
+bool bench_watch(struct bench_living* living, struct bench_watch* out);
+
+// A step of `dt` with the head at watch->head and the solids of watch at its end. False: the library refused.
+bool bench_watch_step(struct bench_watch* watch, double dt);
+
+void bench_fuzz(struct bench* bench); // stability_fuzz.c
+
+struct bench_stress {
+    const char* name;
+    void (*prepare)(struct bench_scene* scene); // NULL: as it is
+    bool (*run)(struct bench_watch* watch);     // the stress
+};
+extern const struct bench_stress bench_stresses[]; // stability_stresses.c; ends with a name of NULL
+
+json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch);
+
+#endif

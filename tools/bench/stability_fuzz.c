@@ -1,0 +1,241 @@
+// stability_fuzz.c - random scenes, the same ones every time: any shape, any setting that the library takes, any
+// motion. Nothing may be stretched or other than finite.
+#include "tools/bench/stability.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SEED 20100601u
+
+// SplitMix64 (Steele, Lea, Flood 2014).
+static uint64_t draw(uint64_t* state)
+{
+    uint64_t x = *state += 0x9e3779b97f4a7c15u;
+    x          = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x          = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+static double even(uint64_t* state, double low, double high)
+{
+    return low + (high - low) * (double)(draw(state) >> 11) * 0x1p-53;
+}
+
+static uint32_t one_of(uint64_t* state, uint32_t count)
+{
+    return (uint32_t)(draw(state) % count);
+}
+
+// Mostly what hair has, sometimes the extremes, sometimes anything between by its logarithm.
+static float any(uint64_t* state, double usual, double least, double most)
+{
+    double low = fmax(least, 1e-6 * most);
+    switch (one_of(state, 8)) {
+    case 0: return (float)least;
+    case 1: return (float)most;
+    case 2:
+    case 3: return (float)fmin(fmax(exp(even(state, log(low), log(most))), least), most);
+    default: return (float)fmin(fmax(usual * exp(even(state, -0.7, 0.7)), least), most);
+    }
+}
+
+static void any_direction(uint64_t* state, double out[3])
+{
+    double y = even(state, -1, 1), angle = even(state, 0, 2 * BENCH_PI), ring = sqrt(1 - y * y);
+    out[0] = ring * cos(angle);
+    out[1] = y;
+    out[2] = ring * sin(angle);
+}
+
+static void any_vector(uint64_t* state, double longest, float out[3])
+{
+    double direction[3], length = one_of(state, 3) ? longest * even(state, 0, 0.02) : even(state, 0, longest);
+    any_direction(state, direction);
+    for (int k = 0; k < 3; ++k) out[k] = (float)(length * direction[k]);
+}
+
+static void any_physics(uint64_t* state, hair_physics* p)
+{
+    p->damping        = any(state, 4, 0, 1000);
+    p->pull_root      = any(state, 4, 0, 30);
+    p->pull_tip       = any(state, 1, 0, 30);
+    p->angular        = any(state, 8, 0, 30);
+    p->bend           = any(state, 0.1, 0, 1);
+    p->iterations     = 1 + one_of(state, 30);
+    p->margin         = any(state, 0.001, 0, 0.1);
+    p->young          = any(state, 4e9, 0, 1e12);
+    p->poisson        = any(state, 0.45, 0, 0.5);
+    p->fiber_radius   = any(state, 4e-5, 1e-6, 1e-3);
+    p->fiber_density  = any(state, 1300, 1, 1e5);
+    p->flatness       = any(state, 0.8, 0.03, 1);
+    p->stiffness_root = any(state, 1, 0, 1e4);
+    p->stiffness_tip  = any(state, 1, 0, 1e4);
+    p->hold           = any(state, 1, 0, 1);
+    p->root           = one_of(state, 4) ? HAIR_ROOT_CLAMPED : (hair_root)one_of(state, 3);
+    p->tip_mass       = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
+    p->friction       = any(state, 0.3, 0, 10);
+    any_vector(state, 1000, p->gravity);
+    any_vector(state, 1000, p->wind);
+    if (one_of(state, 2)) {
+        p->gravity[0] = p->gravity[2] = p->wind[0] = p->wind[1] = p->wind[2] = 0;
+        p->gravity[1]                                                        = -9.81f;
+    }
+}
+
+// Straight, curled, or with a new direction at every vertex; evenly spaced or not.
+static void any_strand(uint64_t* state, struct bench_scene* scene)
+{
+    static const uint32_t counts[] = {2, 3, 4, 8, 16, 31, 32, 33, 64, 128, 256};
+    double length = exp(even(state, log(0.005), log(1))), curl = one_of(state, 3) ? 0 : even(state, 0, 60);
+    double jag = one_of(state, 3) ? 0 : even(state, 0, 2), uneven = one_of(state, 3) ? 0 : even(state, 0, 3);
+    double along[3], across[3], at[3] = {even(state, -0.1, 0.1), even(state, -0.1, 0.1), 0.1};
+    scene->vertices = counts[one_of(state, one_of(state, 4) ? 8 : 11)];
+    any_direction(state, along);
+    any_direction(state, across);
+    for (uint32_t i = 0; i < scene->vertices; ++i) {
+        double other[3], d[3], norm = 0, t = (double)i / scene->vertices;
+        double piece = length / scene->vertices * exp(even(state, -uneven, uneven));
+        any_direction(state, other);
+        for (int k = 0; k < 3; ++k) {
+            scene->positions[3 * i + (uint32_t)k] = (float)at[k];
+            d[k]                                  = along[k] + sin(curl * t) * across[k] + jag * other[k];
+            norm += d[k] * d[k];
+        }
+        for (int k = 0; k < 3; ++k) at[k] += piece * d[k] / sqrt(norm + 1e-12);
+    }
+}
+
+static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, hair_solver solver)
+{
+    struct bench_scene scene = bench_scene_default();
+    any_strand(state, &scene);
+    any_physics(state, &scene.physics);
+    scene.strands = 1 + one_of(state, 4);
+    scene.solver  = solver;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.substep = one_of(state, 3) ? 0 : exp(even(state, log(3e-4), log(0.1)));
+    scene.max_dt  = one_of(state, 4) ? 0.1 : 1;
+    return scene;
+}
+
+static hair_solid any_solid(uint64_t* state)
+{
+    double     axis[3], angle = even(state, 0, BENCH_PI);
+    hair_solid solid = {.shape = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE};
+    any_direction(state, axis);
+    for (int k = 0; k < 3; ++k) {
+        solid.position[k] = (float)even(state, -0.3, 0.3);
+        solid.rotation[k] = (float)(sin(angle / 2) * axis[k]);
+    }
+    solid.rotation[3] = (float)cos(angle / 2);
+    solid.size[0]     = any(state, 0.05, 0.001, 1);
+    solid.size[1]     = any(state, 0.05, 0, 1);
+    return solid;
+}
+
+static double any_dt(uint64_t* state)
+{
+    static const double rare[] = {0, 1e-9, 1.0 / 240, 1.0 / 30, 0.1, 1};
+    return one_of(state, 3) ? 1.0 / 60 : rare[one_of(state, 6)];
+}
+
+// The head goes a little, turns a little; now and then it is elsewhere.
+static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
+{
+    double axis[3], far = one_of(state, 12) ? 0.02 : 5, turn = one_of(state, 12) ? 0.1 : BENCH_PI;
+    any_direction(state, axis);
+    double x    = even(state, -turn, turn),
+           r[4] = {sin(x / 2) * axis[0], sin(x / 2) * axis[1], sin(x / 2) * axis[2], cos(x / 2)};
+    double q[4], norm = 0;
+    memcpy(q, head->rotation, sizeof q);
+    head->rotation[0] = r[3] * q[0] + r[0] * q[3] + r[1] * q[2] - r[2] * q[1];
+    head->rotation[1] = r[3] * q[1] - r[0] * q[2] + r[1] * q[3] + r[2] * q[0];
+    head->rotation[2] = r[3] * q[2] + r[0] * q[1] - r[1] * q[0] + r[2] * q[3];
+    head->rotation[3] = r[3] * q[3] - r[0] * q[0] - r[1] * q[1] - r[2] * q[2];
+    for (int k = 0; k < 4; ++k) norm += head->rotation[k] * head->rotation[k];
+    for (int k = 0; k < 4; ++k) head->rotation[k] /= sqrt(norm);
+    for (int k = 0; k < 3; ++k)
+        head->position[k] = fmin(fmax(head->position[k] + even(state, -far, far), -10), 10);
+}
+
+static bool any_steps(uint64_t* state, struct bench_watch* watch)
+{
+    hair_instance* hair  = watch->living->hair;
+    uint32_t       count = 24 + one_of(state, 24);
+    float          matrix[16];
+    for (uint32_t k = 0; k < count; ++k) {
+        if (one_of(state, 2)) any_move(state, &watch->head);
+        if (one_of(state, 16) == 0) {
+            any_physics(state, &watch->calm);
+            if (hair_set_physics(hair, &watch->calm)) return false;
+        }
+        if (one_of(state, 8) == 0) watch->solid_count = one_of(state, 5);
+        for (uint32_t s = 0; s < watch->solid_count; ++s)
+            if (one_of(state, 2)) watch->solids[s] = any_solid(state);
+        if (one_of(state, 64) == 0 && hair_reset(hair)) return false;
+        bench_matrix(&watch->head, matrix);
+        if (one_of(state, 32) == 0 && hair_teleport(hair, matrix)) return false;
+        if (!bench_watch_step(watch, any_dt(state))) return false;
+    }
+    return true;
+}
+
+// What the library, or the groom, will not have is no scene.
+static bool live_through(struct bench* bench, hair_solver solver, uint32_t number, struct bench_watch* all,
+                         hair_health* health, uint32_t* worst)
+{
+    uint64_t            state = SEED + (uint64_t)number * 0x100000001b3u;
+    struct bench_scene  scene = any_scene(&state, bench, solver);
+    struct bench_living living;
+    struct bench_watch  watch;
+    if (!bench_live(bench, &scene, &living)) return false;
+    hair_solid  none = {.shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}};
+    bool        ok   = bench_watch(&living, &watch);
+    hair_health own  = hair_health_default();
+    for (int s = 0; s < 4; ++s) watch.solids[s] = none;
+    if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
+        if (all->finite && (!watch.finite || watch.stretch > all->stretch)) *worst = number;
+        all->finite  = all->finite && watch.finite;
+        all->stretch = fmax(all->stretch, watch.stretch);
+        all->speed   = fmax(all->speed, watch.speed);
+        health->euler += own.euler;
+        health->follow += own.follow;
+        health->reset += own.reset;
+    } else
+        ok = false;
+    bench_die(&living);
+    return ok;
+}
+
+static void fuzz(struct bench* bench, hair_solver solver)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "fuzz", method)) return;
+    struct bench_watch all    = {.finite = true};
+    hair_health        health = hair_health_default();
+    struct bench_scene scene  = bench_scene_default();
+    uint32_t           worst = 0, lived = 0, count = bench->options.quick ? 200 : 10000;
+    for (uint32_t i = 0; i < count && !bench_was_interrupted(); ++i)
+        lived += live_through(bench, solver, i, &all, &health, &worst);
+    if (lived < count / 2) {
+        bench_refuse(bench, "fuzz", method);
+        return;
+    }
+    scene.solver               = solver;
+    scene.mapping              = bench->options.mapping;
+    struct bench_living living = {.bench = bench, .scene = &scene, .substep = NAN};
+    json_t*             row    = bench_stability_row(&living, "fuzz", &all);
+    bench_set_count(row, "euler", health.euler);
+    bench_set_count(row, "follow", health.follow);
+    bench_set_count(row, "reset", health.reset);
+    bench_set_count(row, "scenes", lived);
+    bench_set_count(row, "worst_scene", worst);
+    static const char* const random[] = {"substep",       "young",    "poisson", "fiber_radius",
+                                         "fiber_density", "flatness", "damping"};
+    for (size_t i = 0; i < sizeof random / sizeof *random; ++i) bench_set_null(row, random[i]);
+}
+
+void bench_fuzz(struct bench* bench)
+{
+    for (hair_solver s = HAIR_SOLVER_DIRECT; s <= HAIR_SOLVER_REDBLACK; ++s) fuzz(bench, s);
+}
