@@ -51,7 +51,7 @@ libraries: $(B)/libhair.a $(B)/libhair.so $(B)/libhair_egl.a $(B)/libhair_egl.so
 tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
-	@$(MAKE) -j$(JOBS) tools
+	@$(MAKE) -j$(JOBS) $(B)/hair-capture
 	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 2 -o build/demo.png
 	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --set segments=18 -o build/demo.mp4
 
