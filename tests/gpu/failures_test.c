@@ -1,5 +1,5 @@
-// failures_test.c - OpenGL that is missing or too old and memory that is refused: the right code, one
-// sentence, nothing leaked, and afterwards it works.
+// failures_test.c - OpenGL that is missing or too old, and shaders that are broken: the right code, one sentence,
+// and afterwards it works.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -12,6 +12,7 @@
 #include "lib/api/api.h"
 #include "tests/support/handmade.h"
 #include "tests/support/shell.h"
+#include "tests/support/ways.h"
 
 #define refused hair_test_refused
 
@@ -45,9 +46,10 @@ static void without_a_current_context_every_call_says_so(void** state)
     float             positions[3];
     uint32_t          count;
     size_t            size;
-    const char*       words = "no OpenGL context is current";
-    of.host                 = &test->host.host;
-    of.get_proc             = hair_egl_get_proc;
+    hair_health       health = hair_health_default();
+    const char*       words  = "no OpenGL context is current";
+    of.host                  = &test->host.host;
+    of.get_proc              = hair_egl_get_proc;
     hair_egl_make_current(NULL);
     refused(test, hair_context_create(&of, &context), HAIR_ERROR_OPENGL, words);
     refused(test, hair_context_reload(test->context), HAIR_ERROR_OPENGL, words);
@@ -59,6 +61,7 @@ static void without_a_current_context_every_call_says_so(void** state)
     refused(test, hair_load(hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
     refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_get_health(hair, &health), HAIR_ERROR_OPENGL, words);
     hair_egl_make_current(test->egl);
     hair_test_ok(test, hair_step(hair, 0.1f));
     drop(hair, groom);
@@ -114,43 +117,94 @@ static void expect(int code, const char* command)
     hair_test_shell_expect(code, command, "");
 }
 
-// Programs that depend on how long guides are wait for the first that long.
-static void a_shader_that_hair_create_finds_broken_is_an_opengl_error(void** state)
+// Programs of solvers wait for the first hair that needs them.
+struct broken {
+    hair_context*  context;
+    hair_desc      desc;
+    const char*    file;
+    hair_groom*    groom;
+    hair_instance* hair;
+};
+
+static void break_shader(const struct broken* b)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = NULL;
-    hair_context_desc of      = hair_context_desc_default();
-    of.host                   = &test->host.host;
-    of.get_proc               = hair_egl_get_proc;
-    of.glsl_dir               = hair_test_folder();
-    expect(0, "cp -r glsl/* $D && sed -i '/^void main/i broken' $D/sim/redblack.comp");
-    hair_test_ok(test, hair_context_create(&of, &context));
+    char command[128];
+    snprintf(command, sizeof command, "sed -i '/^void main/i broken' $D/sim/%s", b->file);
+    expect(0, command);
+}
+static void mend_shader(const struct broken* b)
+{
+    char command[128];
+    snprintf(command, sizeof command, "cp glsl/sim/%s $D/sim", b->file);
+    expect(0, command);
+}
 
+static void hair_create_finds_it(struct hair_test* test, struct broken* b)
+{
+    char sentence[128];
+    snprintf(sentence, sizeof sentence, "shader glsl/sim/%s does not compile", b->file);
+    break_shader(b);
+    assert_int_equal(hair_create(b->context, b->groom, &b->desc, &b->hair), HAIR_ERROR_OPENGL);
+    assert_null(b->hair);
+    assert_string_equal(test->host.sentence, sentence);
+    hair_test_forgive(test);
+    mend_shader(b);
+    hair_test_ok(test, hair_create(b->context, b->groom, &b->desc, &b->hair));
+}
+
+// The last good program goes on, and what needs another is told.
+static void a_reload_finds_it(struct hair_test* test, struct broken* b)
+{
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_groom*               groom  = hair_test_groom(&test->host.host, wanted);
-    hair_instance*            hair   = NULL;
-    hair_desc                 desc   = hair_desc_default();
-    assert_int_equal(hair_create(context, groom, &desc, &hair), HAIR_ERROR_OPENGL);
-    assert_null(hair);
-    assert_string_equal(test->host.sentence, "shader glsl/sim/redblack.comp does not compile");
+    hair_instance*            other  = NULL;
+    break_shader(b);
+    assert_int_equal(hair_context_reload(b->context), HAIR_ERROR_OPENGL);
     hair_test_forgive(test);
-
-    expect(0, "cp glsl/sim/redblack.comp $D/sim");
-    hair_test_ok(test, hair_create(context, groom, &desc, &hair));
-    // Broken again: the last good program goes on, and what needs another size of it is told.
-    expect(0, "sed -i '/^void main/i broken' $D/sim/redblack.comp");
-    assert_int_equal(hair_context_reload(context), HAIR_ERROR_OPENGL);
-    hair_test_forgive(test);
-    hair_test_ok(test, hair_step(hair, 1.0f / 60));
+    hair_test_ok(test, hair_step(b->hair, 1.0f / 60));
     wanted.fewest = wanted.most = 33;
-    hair_groom*    longer       = hair_test_groom(&test->host.host, wanted);
-    hair_instance* other        = NULL;
-    assert_int_equal(hair_create(context, longer, &desc, &other), HAIR_ERROR_OPENGL);
+    hair_groom* longer          = hair_test_groom(&test->host.host, wanted);
+    assert_int_equal(hair_create(b->context, longer, &b->desc, &other), HAIR_ERROR_OPENGL);
     assert_null(other);
     hair_test_forgive(test);
-    drop(hair, groom);
     hair_groom_destroy(longer);
-    hair_context_destroy(context);
+}
+
+// The first solid asks for a program that knows of contact.
+static void hair_step_finds_it(struct hair_test* test, struct broken* b)
+{
+    static float before[300], after[300];
+    uint32_t     count;
+    hair_solid   solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, before, 100, &count));
+    hair_test_ok(test, hair_set_solids(b->hair, &solid, 1, sizeof solid));
+    assert_int_equal(hair_step(b->hair, 1.0f / 60), HAIR_ERROR_OPENGL);
+    hair_test_forgive(test);
+    hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, after, 100, &count));
+    assert_memory_equal(before, after, sizeof before);
+    mend_shader(b);
+    hair_test_ok(test, hair_step(b->hair, 1.0f / 60));
+}
+
+static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
+{
+    struct hair_test* test = *state;
+    expect(0, "cp -r glsl/* $D");
+    for (int way = 0; way < HAIR_TEST_WAYS; way += 3) { // a work group and a thread per guide, and redblack
+        hair_context_desc of = hair_context_desc_default();
+        struct broken     b  = {.desc = hair_test_way(way)};
+        of.host              = &test->host.host;
+        of.get_proc          = hair_egl_get_proc;
+        of.glsl_dir          = hair_test_folder();
+        b.file               = b.desc.solver == HAIR_SOLVER_REDBLACK ? "redblack.comp" : "rod.comp";
+        b.groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
+        hair_test_ok(test, hair_context_create(&of, &b.context));
+        hair_create_finds_it(test, &b);
+        a_reload_finds_it(test, &b);
+        if (b.desc.solver != HAIR_SOLVER_REDBLACK) hair_step_finds_it(test, &b);
+        mend_shader(&b);
+        drop(b.hair, b.groom);
+        hair_context_destroy(b.context);
+    }
 }
 
 // Mesa chooses its driver once in a process, so this one is asked for in a child. softpipe is OpenGL 3.3.
@@ -213,120 +267,6 @@ static void an_old_context_is_told_its_version(void** state)
     refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, "version 4.3, not 4.5 or newer");
 }
 
-// Memory that is refused -----------------------------------------------------------------------------------
-
-// Objects of OpenGL that are alive, by trying names.
-static uint32_t count_objects(void)
-{
-    uint32_t count = 0;
-    for (GLuint name = 1; name < 512; ++name)
-        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
-                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
-                 glIsTransformFeedback(name) + glIsQuery(name);
-    return count;
-}
-
-struct user {
-    struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
-};
-
-// Refuse the first allocation, then the second, … until there are no more: each time the call fails, leaks
-// nothing, and works when it is made again. After the first 32 only every `stride`-th: shaders are many and
-// read alike.
-static void torture(struct hair_test* test, hair_result (*call)(struct user*), struct user* user,
-                    uint32_t stride)
-{
-    uint32_t objects = count_objects(), blocks = test->host.blocks;
-    for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
-        test->host.allocations = 0;
-        test->host.refuse      = n;
-        hair_result result     = call(user);
-        test->host.refuse      = 0;
-        assert_int_equal(test->host.blocks, blocks);
-        assert_int_equal(count_objects(), objects);
-        if (test->host.allocations < n) {
-            hair_test_ok(test, result);
-            print_message("    %u allocations\n", test->host.allocations);
-            assert_true(n > 1);
-            return;
-        }
-        if (result != HAIR_ERROR_MEMORY) fail_msg("allocation %u: %s", n, hair_result_string(result));
-        assert_true(hair_test_forgive(test) >= 1);
-        assert_non_null(strstr(test->host.sentence, "out of memory for "));
-        if (n % 32 == 1) hair_test_ok(test, call(user));
-        assert_int_equal(test->host.blocks, blocks);
-    }
-    fail_msg("there is no end of allocations");
-}
-
-static hair_result create_context(struct user* user)
-{
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &user->test->host.host;
-    desc.get_proc             = hair_egl_get_proc;
-    desc.glsl_dir             = "glsl";
-    hair_result    result     = hair_context_create(&desc, &context);
-    hair_instance* hair       = NULL;
-    hair_desc      of         = hair_desc_default();
-    assert_true((result == HAIR_OK) == (context != NULL));
-    if (!result)
-        result = hair_create(context, user->groom, &of, &hair); // Compiles what it is the first to need.
-    assert_true((result == HAIR_OK) == (hair != NULL));
-    hair_destroy(hair);
-    hair_context_destroy(context);
-    return result;
-}
-
-static hair_result create_instance(struct user* user)
-{
-    hair_instance* hair   = NULL;
-    hair_desc      desc   = hair_desc_default();
-    hair_result    result = hair_create(user->test->context, user->groom, &desc, &hair);
-    assert_true((result == HAIR_OK) == (hair != NULL));
-    hair_destroy(hair);
-    return result;
-}
-
-static hair_result read_all(struct user* user)
-{
-    hair_result result = HAIR_OK;
-    for (int what = 0; what < 3 && !result; ++what) {
-        float    positions[30];
-        uint32_t count;
-        result = hair_read(user->hair, (hair_read_what)what, positions, 10, &count);
-    }
-    return result;
-}
-
-static hair_result save_and_load(struct user* user)
-{
-    static unsigned char bytes[65536];
-    size_t               size   = 0;
-    hair_result          result = hair_save(user->hair, bytes, sizeof bytes, &size);
-    return result ? result : hair_load(user->hair, bytes, size);
-}
-
-static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
-{
-    struct user user = {.test = *state};
-    user.hair        = make(user.test, &user.groom);
-    torture(user.test, create_instance, &user, 1);
-    torture(user.test, read_all, &user, 1);
-    torture(user.test, save_and_load, &user, 1);
-    drop(user.hair, user.groom);
-}
-
-static void a_context_without_memory_leaks_nothing_and_a_retry_works(void** state)
-{
-    struct user user = {.test = *state};
-    user.groom       = hair_test_groom(&user.test->host.host, hair_test_handmade_default());
-    torture(user.test, create_context, &user, 19);
-    hair_groom_destroy(user.groom);
-}
-
 int main(int count, char** arguments)
 {
     if (count == 2 && !strcmp(arguments[1], "old-driver")) return exit_code_of_an_old_driver();
@@ -335,11 +275,9 @@ int main(int count, char** arguments)
         HAIR_TEST(without_a_current_context_every_call_says_so),
         HAIR_TEST(each_missing_function_is_named),
         HAIR_TEST(glsl_that_is_not_there_or_wrong_is_an_opengl_error),
-        HAIR_TEST(a_shader_that_hair_create_finds_broken_is_an_opengl_error),
+        HAIR_TEST(a_solver_that_is_found_broken_is_an_opengl_error),
         HAIR_TEST(a_driver_that_is_too_old_is_an_opengl_error),
         HAIR_TEST(an_old_context_is_told_its_version),
-        HAIR_TEST(refused_memory_leaks_nothing_and_a_retry_works),
-        HAIR_TEST(a_context_without_memory_leaks_nothing_and_a_retry_works),
     };
     if (hair_test_shell_start("/bin/sh")) return 1;
     int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

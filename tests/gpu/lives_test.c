@@ -15,7 +15,7 @@
 static uint32_t count_objects(void)
 {
     uint32_t count = 0;
-    for (GLuint name = 1; name < 1024; ++name)
+    for (GLuint name = 1; name < 8192; ++name)
         count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
                  glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
                  glIsTransformFeedback(name) + glIsQuery(name);

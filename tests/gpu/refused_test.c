@@ -1,0 +1,254 @@
+// refused_test.c - memory and objects of OpenGL that are refused, one after the other: an error and a sentence each
+// time, nothing leaked, and a retry works.
+#include "tests/support/support.h"
+
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/handmade.h"
+#include "tests/support/ways.h"
+
+// A driver that refuses -------------------------------------------------------------------------------------
+
+static uint32_t creations, refused_creation; // the one that fails, from 1; 0: none
+
+static int refuses(void)
+{
+    return ++creations == refused_creation;
+}
+
+static void APIENTRY create_buffers(GLsizei count, GLuint* out)
+{
+    if (!refuses()) glCreateBuffers(count, out);
+}
+static void APIENTRY create_textures(GLenum target, GLsizei count, GLuint* out)
+{
+    if (!refuses()) glCreateTextures(target, count, out);
+}
+static void APIENTRY create_vertex_arrays(GLsizei count, GLuint* out)
+{
+    if (!refuses()) glCreateVertexArrays(count, out);
+}
+static void APIENTRY create_samplers(GLsizei count, GLuint* out)
+{
+    if (!refuses()) glCreateSamplers(count, out);
+}
+static GLuint APIENTRY create_program(void)
+{
+    return refuses() ? 0 : glCreateProgram();
+}
+static GLuint APIENTRY create_shader(GLenum stage)
+{
+    return refuses() ? 0 : glCreateShader(stage);
+}
+static void APIENTRY buffer_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags)
+{
+    if (!refuses()) glNamedBufferStorage(buffer, size, data, flags);
+}
+static void APIENTRY buffer_data(GLuint buffer, GLsizeiptr size, const void* data, GLenum usage)
+{
+    if (data || !refuses())
+        glNamedBufferData(buffer, size, data, usage); // With data it is written, not made.
+}
+
+static void* find(const char* name, void* user)
+{
+#define REPLACE(gl_name, type, own)                                                                          \
+    if (strcmp(name, gl_name) == 0) {                                                                        \
+        type  function = own;                                                                                \
+        void* address;                                                                                       \
+        memcpy(&address, &function, sizeof address);                                                         \
+        return address;                                                                                      \
+    }
+    REPLACE("glCreateBuffers", PFNGLCREATEBUFFERSPROC, create_buffers)
+    REPLACE("glCreateTextures", PFNGLCREATETEXTURESPROC, create_textures)
+    REPLACE("glCreateVertexArrays", PFNGLCREATEVERTEXARRAYSPROC, create_vertex_arrays)
+    REPLACE("glCreateSamplers", PFNGLCREATESAMPLERSPROC, create_samplers)
+    REPLACE("glCreateProgram", PFNGLCREATEPROGRAMPROC, create_program)
+    REPLACE("glCreateShader", PFNGLCREATESHADERPROC, create_shader)
+    REPLACE("glNamedBufferStorage", PFNGLNAMEDBUFFERSTORAGEPROC, buffer_storage)
+    REPLACE("glNamedBufferData", PFNGLNAMEDBUFFERDATAPROC, buffer_data)
+    return hair_egl_get_proc(name, user);
+}
+
+// What is done ----------------------------------------------------------------------------------------------
+
+struct user {
+    struct hair_test* test;
+    hair_context*     context;
+    hair_groom*       groom;
+    hair_instance*    hair;
+    hair_desc         desc;
+    float             damping;
+};
+
+// Objects of OpenGL that are alive, by trying names.
+static uint32_t count_objects(void)
+{
+    uint32_t count = 0;
+    for (GLuint name = 1; name < 8192; ++name)
+        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
+                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
+                 glIsTransformFeedback(name) + glIsQuery(name);
+    return count;
+}
+
+static hair_result make_context(struct user* user, hair_context** out)
+{
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &user->test->host.host;
+    desc.get_proc          = find;
+    desc.glsl_dir          = "glsl";
+    return hair_context_create(&desc, out);
+}
+
+static hair_result create_context(struct user* user)
+{
+    hair_context*  context = NULL;
+    hair_instance* hair    = NULL;
+    hair_result    result  = make_context(user, &context);
+    assert_true((result == HAIR_OK) == (context != NULL));
+    if (!result) // Compiles what it is the first to need.
+        result = hair_create(context, user->groom, &user->desc, &hair);
+    assert_true((result == HAIR_OK) == (hair != NULL));
+    hair_destroy(hair);
+    hair_context_destroy(context);
+    return result;
+}
+
+static hair_result create_instance(struct user* user)
+{
+    hair_instance* hair   = NULL;
+    hair_result    result = hair_create(user->context, user->groom, &user->desc, &hair);
+    assert_true((result == HAIR_OK) == (hair != NULL));
+    hair_destroy(hair);
+    return result;
+}
+
+// Rods are made anew for these.
+static hair_result step_with_other_physics(struct user* user)
+{
+    hair_physics physics = hair_physics_default();
+    physics.damping = user->damping = user->damping < 9 ? user->damping + 0.5f : 1;
+    hair_test_ok(user->test, hair_set_physics(user->hair, &physics));
+    hair_instance as_it_was = *user->hair;
+    hair_result   result    = hair_step(user->hair, 1.0f / 60);
+    if (result) assert_memory_equal(user->hair, &as_it_was, sizeof as_it_was);
+    return result;
+}
+
+static hair_result read_all(struct user* user)
+{
+    hair_result result = HAIR_OK;
+    for (int what = 0; what < 3 && !result; ++what) {
+        float    positions[30];
+        uint32_t count;
+        result = hair_read(user->hair, (hair_read_what)what, positions, 10, &count);
+    }
+    return result;
+}
+
+static hair_result save_and_load(struct user* user)
+{
+    static unsigned char bytes[65536];
+    size_t               size   = 0;
+    hair_result          result = hair_save(user->hair, bytes, sizeof bytes, &size);
+    return result ? result : hair_load(user->hair, bytes, size);
+}
+
+// Refusing --------------------------------------------------------------------------------------------------
+
+struct refusal {
+    uint32_t*   done;   // so far
+    uint32_t*   refuse; // which of them, from 1
+    const char* what;
+    uint32_t    least; // there are of them, or this tests nothing
+};
+
+// Refuse the first, then the second, … until there are no more: each time the call fails, leaks nothing, and works
+// when it is made again. After the first 32 only every `stride`-th: shaders are many and read alike.
+static void torture(struct user* user, hair_result (*call)(struct user*), struct refusal of, uint32_t stride)
+{
+    struct hair_test* test    = user->test;
+    uint32_t          objects = count_objects(), blocks = test->host.blocks;
+    for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
+        *of.done           = 0;
+        *of.refuse         = n;
+        hair_result result = call(user);
+        *of.refuse         = 0;
+        assert_int_equal(test->host.blocks, blocks);
+        assert_int_equal(count_objects(), objects);
+        if (*of.done < n) {
+            hair_test_ok(test, result);
+            print_message("    %u %s\n", *of.done, of.what);
+            assert_true(*of.done >= of.least);
+            return;
+        }
+        if (result != HAIR_ERROR_MEMORY && (result != HAIR_ERROR_OPENGL || of.done != &creations))
+            fail_msg("%u of %s: %s", n, of.what, hair_result_string(result));
+        assert_true(hair_test_forgive(test) >= 1);
+        if (of.done != &creations) assert_non_null(strstr(test->host.sentence, "out of memory for "));
+        if (n % 32 == 1) hair_test_ok(test, call(user));
+        assert_int_equal(test->host.blocks, blocks);
+    }
+    fail_msg("there is no end of %s", of.what);
+}
+
+static struct refusal of_memory(struct user* user, uint32_t least)
+{
+    struct hair_test_host* host = &user->test->host;
+    return (struct refusal){&host->allocations, &host->refuse, "allocations", least};
+}
+
+static struct refusal of_objects(uint32_t least)
+{
+    return (struct refusal){&creations, &refused_creation, "objects of OpenGL", least};
+}
+
+static struct user start(void** state, int way)
+{
+    struct user user = {.test = *state, .desc = hair_test_way(way)};
+    user.groom       = hair_test_groom(&user.test->host.host, hair_test_handmade_default());
+    print_message("    %s\n", hair_test_way_name(way));
+    return user;
+}
+
+static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** state)
+{
+    for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
+        struct user user = start(state, way);
+        uint32_t    rods = user.desc.solver != HAIR_SOLVER_REDBLACK;
+        hair_test_ok(user.test, make_context(&user, &user.context));
+        hair_test_ok(user.test, hair_create(user.context, user.groom, &user.desc, &user.hair));
+        torture(&user, create_instance, of_memory(&user, 5 + 4 * rods), 1);
+        torture(&user, create_instance, of_objects(20 + 8 * rods), 1);
+        torture(&user, step_with_other_physics, of_memory(&user, rods), 1);
+        torture(&user, step_with_other_physics, of_objects(2 * rods), 1);
+        torture(&user, read_all, of_memory(&user, 2), 1);
+        torture(&user, save_and_load, of_memory(&user, 1), 1);
+        torture(&user, save_and_load, of_objects(2), 1);
+        hair_destroy(user.hair);
+        hair_context_destroy(user.context);
+        hair_groom_destroy(user.groom);
+    }
+}
+
+static void a_context_without_memory_or_objects_leaks_nothing_and_a_retry_works(void** state)
+{
+    for (int way = 0; way < HAIR_TEST_WAYS; way += 6) {
+        struct user user = start(state, way);
+        torture(&user, create_context, of_memory(&user, 100), 19);
+        torture(&user, create_context, of_objects(50), 7);
+        hair_groom_destroy(user.groom);
+    }
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(refused_memory_or_objects_leak_nothing_and_a_retry_works),
+        HAIR_TEST(a_context_without_memory_or_objects_leaks_nothing_and_a_retry_works),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
