@@ -142,7 +142,7 @@ void main()
                 follow_leader(head_moved);
                 break;
             }
-            if (fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 5e-4, head_moved)) break;
+            if (fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 9e-4, head_moved)) break;
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
