@@ -250,3 +250,36 @@ struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 a
         {(double)position.x, (double)position.y, (double)position.z},
         {s * (double)unit.x, s * (double)unit.y, s * (double)unit.z, cos(angle / 2)}};
 }
+
+hair_physics hair_test_bare(void)
+{
+    hair_physics physics = hair_physics_default();
+    physics.young        = 3e9f;
+    physics.fiber_radius = 5e-5f;
+    physics.damping      = 1;
+    physics.hold         = 0;
+    physics.pull_root = physics.pull_tip = 0;
+    return physics;
+}
+
+hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
+                         const hair_physics* physics)
+{
+    hair_desc desc = hair_desc_default();
+    desc.solver    = solver;
+    desc.mapping   = mapping;
+    desc.substep   = (float)substep;
+    desc.physics   = physics;
+    return desc;
+}
+
+struct hair_test_strands hair_test_slanting(uint32_t vertices)
+{
+    return hair_test_straight(vertices, hair_v3(0.1f, 0, 0), hair_v3(sqrtf(0.75f), -0.5f, 0), 0.3f);
+}
+
+struct hair_reference_rod_pose hair_test_shaken(double time)
+{
+    double s = sin(3.14159265358979 * time);
+    return hair_test_pose_of(hair_v3(0, 0, 0), hair_v3(0, 1, 0), 0.6 * s * s);
+}

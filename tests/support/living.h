@@ -21,6 +21,11 @@ void hair_test_live(struct hair_test* test, const struct hair_test_strands* stra
                     struct hair_test_living* out);
 void hair_test_die(struct hair_test_living* living);
 
+// Hair of 0.1 mm and 3 GPa, straight where nothing pulls at it, with nothing but gravity and a little drag.
+hair_physics hair_test_bare(void);
+hair_desc    hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
+                            const hair_physics* physics);
+
 // Straight, from `root` along `way`, which need not be unit; evenly spaced.
 struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, hair_vec3 way, float length);
 void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices, hair_vec3 root,
@@ -57,5 +62,10 @@ double hair_test_off(const struct hair_test_living* living, uint32_t guide,
                      const struct hair_reference_rod* rod);
 
 struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 axis, double angle);
+
+// The scene by which solvers are compared: a strand of 0.3 m, from 0.1 m beside the head's origin and 30 degrees below
+// the horizontal; and the head at `time`, which yaws by 0.6 rad and back within a second.
+struct hair_test_strands       hair_test_slanting(uint32_t vertices);
+struct hair_reference_rod_pose hair_test_shaken(double time);
 
 #endif
