@@ -10,6 +10,7 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
 
+#define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
 #define FARTHEST 1e4 // m from the head's origin, or in a substep: no hair is there
 
 // Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
@@ -66,6 +67,19 @@ void count_in(uint what)
 #endif
 }
 
+#if HAIR_SOLVER != SHAKE
+// An impact ends what was, and so does what sticks. Of what slides on, only the part that the contact stops: along the
+// surface BDF2 would else do with 4/9 of every force.
+void forget(uint i, vec3 d)
+{
+    vec3 lost   = own(displacement) - d;
+    bool struck = length(lost - pass_on(touch[i], lost)) > STRUCK * params.gravity.w;
+    bool ends   = struck || touch[i].w == STICKS;
+    own(rate)        = ends ? d : d + pass_on(touch[i], own(rate) - d);
+    own(rate_before) = ends ? d : d + pass_on(touch[i], own(rate_before) - d);
+}
+#endif
+
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
 void accept(int method, vec3 head_moved)
@@ -85,7 +99,7 @@ void accept(int method, vec3 head_moved)
 #if HAIR_SOLVER != SHAKE
         own(rate_before) = own(rate);
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
-        if (SOLIDS && touch[i].w != FREE) own(rate) = own(rate_before) = d; // An impact ends what was.
+        if (SOLIDS && touch[i].w != FREE) forget(i, d);
 #endif
         own(displacement) = HAIR_SOLVER == SHAKE ? kept : d;
         if (max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST))
