@@ -224,6 +224,20 @@ typedef struct hair_physics {
 } hair_physics;
 HAIR_DESC(hair_physics)
 
+typedef enum hair_preset {
+    HAIR_PRESET_NATURAL = 0, ///< The defaults.
+    HAIR_PRESET_FINE,        ///< Thin and light: bends easily, stops soon.
+    HAIR_PRESET_THICK,       ///< Stiff, swings long.
+    HAIR_PRESET_WET,         ///< Heavy, soft, sticks to skin.
+    HAIR_PRESET_FRIZZY,      ///< Flat hairs that hold each other off: stiff, airy.
+    HAIR_PRESET_COUNT
+} hair_preset;
+
+/// Make `physics`, which its default function has made, of a kind of hair: sets young, fiber_radius,
+/// fiber_density, flatness, stiffness, damping and friction, and leaves the rest. [any thread]
+HAIR_API hair_result hair_physics_preset(hair_physics* physics, hair_preset preset);
+HAIR_API const char* hair_preset_name(hair_preset preset); ///< "natural", "fine", … NULL beyond the last.
+
 /// How hair looks.
 typedef struct hair_look {
     hair_made made;
@@ -252,7 +266,7 @@ typedef struct hair_desc {
     hair_made           made;
     const char*         label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
     hair_solver         solver;  ///< Default HAIR_SOLVER_DIRECT.
-    float               substep; ///< Length of a substep. s. 0 (as the solver wants), [1e-5, 0.1]. Default 0.
+    float               substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
     hair_mapping        mapping; ///< Of guides to GPU threads. Default HAIR_MAPPING_AUTO.
     float               max_dt;  ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
     const hair_physics* physics; ///< NULL: the defaults.

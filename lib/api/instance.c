@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define SHORTEST 1e-5f // s: a substep, lest a step take for ever
+
 static hair_result check_transform(const hair_instance* hair, const char* name, const float* transform,
                                    struct hair_pose* out)
 {
@@ -42,6 +44,9 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
+    if (desc->substep > 0 && desc->substep < SHORTEST)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
+                         hair->label, (double)desc->substep, (double)SHORTEST);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
     if (!result) result = check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
