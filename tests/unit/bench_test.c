@@ -33,7 +33,7 @@ static int remove_folder(void** state)
     return hair_test_shell_finish();
 }
 
-// The command line --------------------------------------------------------------------------------------------
+// The command line ------------------------------------------------------------------------------------------
 
 static void wrong_use_exits_with_2(void** state)
 {
@@ -90,7 +90,7 @@ static void an_interrupted_run_exits_with_1_and_leaves_nothing(void** state)
     expect(0, "ls $D | wc -l", "0");
 }
 
-// Rows --------------------------------------------------------------------------------------------------------
+// Rows ------------------------------------------------------------------------------------------------------
 
 static json_t* read_json(const char* name)
 {
@@ -188,7 +188,7 @@ static void the_other_suites_run(void** state)
     expect(0, "$T stability --quick --case ordinary --csv -", "ordinary,redblack,32,true");
 }
 
-// Arithmetic --------------------------------------------------------------------------------------------------
+// Arithmetic ------------------------------------------------------------------------------------------------
 
 static const char* const columns[] = {"case", "vertices", "ms", "rms_error", "front", "measured_by", NULL};
 

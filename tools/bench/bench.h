@@ -19,6 +19,7 @@ struct bench_options {
     const char*               only_method;
     hair_mapping              mapping;
     uint32_t                  strands; // 0: as the suite has it
+    int64_t                   scene;   // of random ones, only this; -1: all
     int                       device;
     bool                      quick, quiet, verbose;
 };

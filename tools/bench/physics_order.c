@@ -22,7 +22,7 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
     return scene;
 }
 
-// Order -------------------------------------------------------------------------------------------------------
+// Order -----------------------------------------------------------------------------------------------------
 
 #define ORDER_VERTICES 8 // Few enough for bending to be explicit in long substeps.
 #define ORDER_FRAMES 12
@@ -76,7 +76,7 @@ void bench_order(struct bench* bench)
     measure_order(bench, HAIR_SOLVER_DIRECT, 8);
 }
 
-// Energy ------------------------------------------------------------------------------------------------------
+// Energy ----------------------------------------------------------------------------------------------------
 
 #define WINDOW                                                                                               \
     4000 // Substeps that the energy is averaged over: some swings, in which it comes and goes a little.

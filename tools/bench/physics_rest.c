@@ -61,7 +61,7 @@ void bench_cantilever(struct bench* bench)
         }
 }
 
-// Out of the plane --------------------------------------------------------------------------------------------
+// Out of the plane ------------------------------------------------------------------------------------------
 
 // A rod that lies in the plane z = 0 but for 1e-4 of its length, under gravity that rises slowly to 9.81 m/s^2 and
 // then stays: how far out of the plane it comes to be, over its length. Below the threshold it is plane.

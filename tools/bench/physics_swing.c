@@ -18,7 +18,7 @@ static struct bench_scene make_chain(const struct bench* bench, hair_solver solv
     return scene;
 }
 
-// Small swings ------------------------------------------------------------------------------------------------
+// Small swings ----------------------------------------------------------------------------------------------
 
 #define VERTICES 32
 #define LINKS (VERTICES - 1)
@@ -118,7 +118,7 @@ void bench_chain_modes(struct bench* bench)
             measure_mode(bench, bench_rod_solvers[s], number);
 }
 
-// Large swings ------------------------------------------------------------------------------------------------
+// Large swings ----------------------------------------------------------------------------------------------
 
 // Farthest from where the linkage is, at the end of any frame of a second. Negative: the library refused.
 static double farthest(struct bench_living* living)

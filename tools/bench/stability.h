@@ -12,6 +12,7 @@ struct bench_watch {
     struct hair_reference_rod_pose head;
     hair_solid                     solids[4];
     uint32_t                       solid_count;
+    bool                           had_solids;
     double                         spared; // s from now: depth in solids does not count yet
 
     bool   finite;
@@ -32,6 +33,7 @@ struct bench_stress {
     const char* name;
     void (*prepare)(struct bench_scene* scene); // NULL: as it is
     bool (*run)(struct bench_watch* watch);     // the stress
+    bool rods;                                  // redblack has nothing that it could be put on
 };
 extern const struct bench_stress bench_stresses[]; // stability_stresses.c; ends with a name of NULL
 

@@ -114,7 +114,7 @@ static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, 
     scene.solver  = solver;
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
     scene.substep = one_of(state, 3) ? 0 : exp(even(state, log(3e-4), log(0.1)));
-    scene.max_dt  = one_of(state, 4) ? 0.1 : 1;
+    scene.max_dt  = one_of(state, 8) ? 0.1 : 1;
     return scene;
 }
 
@@ -133,10 +133,12 @@ static hair_solid any_solid(uint64_t* state)
     return solid;
 }
 
+// Mostly what frames take; a second seldom, which is many substeps.
 static double any_dt(uint64_t* state)
 {
-    static const double rare[] = {0, 1e-9, 1.0 / 240, 1.0 / 30, 0.1, 1};
-    return one_of(state, 3) ? 1.0 / 60 : rare[one_of(state, 6)];
+    static const double few[] = {0, 1e-9, 1.0 / 240, 1.0 / 30, 0.1};
+    if (one_of(state, 3)) return one_of(state, 2) ? 1.0 / 60 : 1.0 / 120;
+    return one_of(state, 32) ? few[one_of(state, one_of(state, 3) ? 4 : 5)] : 1;
 }
 
 // The head goes a little, turns a little; now and then it is elsewhere.
@@ -161,7 +163,7 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
 static bool any_steps(uint64_t* state, struct bench_watch* watch)
 {
     hair_instance* hair  = watch->living->hair;
-    uint32_t       count = 24 + one_of(state, 24);
+    uint32_t       count = 24 + one_of(state, 12);
     float          matrix[16];
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
@@ -194,7 +196,7 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
     hair_health own  = hair_health_default();
     for (int s = 0; s < 4; ++s) watch.solids[s] = none;
     if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
-        if (all->finite && (!watch.finite || watch.stretch > all->stretch)) *worst = number;
+        if (all->finite && (!watch.finite || watch.stretch >= all->stretch)) *worst = number;
         all->finite  = all->finite && watch.finite;
         all->stretch = fmax(all->stretch, watch.stretch);
         all->speed   = fmax(all->speed, watch.speed);
@@ -214,10 +216,12 @@ static void fuzz(struct bench* bench, hair_solver solver)
     struct bench_watch all    = {.finite = true};
     hair_health        health = hair_health_default();
     struct bench_scene scene  = bench_scene_default();
-    uint32_t           worst = 0, lived = 0, count = bench->options.quick ? 200 : 10000;
+    int64_t            only   = bench->options.scene;
+    uint32_t           first = only < 0 ? 0 : (uint32_t)only, worst = first, lived = 0;
+    uint32_t           count = only >= 0 ? 1 : bench->options.quick ? 200 : 10000;
     for (uint32_t i = 0; i < count && !bench_was_interrupted(); ++i)
-        lived += live_through(bench, solver, i, &all, &health, &worst);
-    if (lived < count / 2) {
+        lived += live_through(bench, solver, first + i, &all, &health, &worst);
+    if (lived <= count / 2) {
         bench_refuse(bench, "fuzz", method);
         return;
     }
