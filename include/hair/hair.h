@@ -321,7 +321,8 @@ HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity
 
 /// Go on from what hair_save wrote, here or elsewhere: with the same settings and inputs the same driver gives
 /// the same bits. Any bytes may be given: what is no saved state is refused, and so is one of guides with other
-/// numbers of vertices, of another solver or of another substep.
+/// numbers of vertices, of another solver or of another hair_desc.substep. Where that is 0, substeps go on as long
+/// as the solver wants them with the physics that are set here.
 HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t size);
 
 typedef enum hair_pass {

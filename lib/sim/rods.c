@@ -9,7 +9,7 @@ struct hair_rods {
     hair_physics            made_for;
     struct hair_rods_report report;
     int                     curved;
-    int                     in_contact; // made for a strand that solids may strike
+    int                     struck; // made for: sim->struck
 };
 
 // Below this, radians at a vertex, a strand is straight: what rounding leaves of one in any direction.
@@ -46,18 +46,17 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 }
 
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
-static hair_result make(struct hair_sim* sim)
+static hair_result make(struct hair_sim* sim, int struck)
 {
     const hair_host*  host    = &sim->gl->host;
     struct hair_rods* rods    = sim->rods;
     double            substep = sim->asked_substep;
     struct hair_rod*  rod     = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
-    int in_contact = sim->solids.count > 0;
     if (substep == 0) {
         substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver);
         // Impacts stir what bending in explicit steps can only just bear.
-        if (in_contact && sim->solver == HAIR_SOLVER_ACCURATE) substep /= CONTACT_MARGIN;
+        if (struck && sim->solver == HAIR_SOLVER_ACCURATE) substep /= CONTACT_MARGIN;
     }
     hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
                     &rods->report);
@@ -70,14 +69,12 @@ static hair_result make(struct hair_sim* sim)
     } else {
         hair_gl_free_buffer(sim->gl, &sim->rod);
         hair_gl_free_buffer(sim->gl, &sim->reduction);
-        sim->rod         = buffer;
-        sim->reduction   = reduction;
-        rods->made_for   = sim->physics;
-        rods->in_contact = in_contact;
-        rods->curved     = is_curved(rod, sim->guide_vertices, &sim->physics);
-        if (sim->substep > 0) sim->rescale *= substep / sim->substep;
-        sim->substep = substep;
-        sim->left    = fmin(sim->left, substep);
+        sim->rod       = buffer;
+        sim->reduction = reduction;
+        rods->made_for = sim->physics;
+        rods->struck   = struck;
+        rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
+        sim->substep   = substep;
     }
     hair_free(host, rod);
     return result;
@@ -111,15 +108,19 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
     hair_result result = make_buffers(sim);
-    return result ? result : make(sim);
+    return result ? result : make(sim, 0);
 }
 
 hair_result hair_sim_renew_rods(struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
-    int struck = sim->solver == HAIR_SOLVER_ACCURATE && sim->solids.count > 0 && !rods->in_contact;
-    return struck || hair_rods_differ(&rods->made_for, &sim->physics) ? make(sim) : HAIR_OK;
+    int struck = sim->struck || sim->solids.count > 0;
+    int other  = sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != rods->struck;
+    hair_result result =
+        other || hair_rods_differ(&rods->made_for, &sim->physics) ? make(sim, struck) : HAIR_OK;
+    if (!result) sim->struck = struck;
+    return result;
 }
 
 void hair_sim_free_rods(struct hair_sim* sim)
@@ -153,7 +154,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->kick     = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
     params->damping  = physics->damping;
     params->friction = physics->friction;
-    params->rescale  = (float)sim->rescale;
+    params->rescale  = (float)(h / sim->last_substep);
     params->vertices = sim->guide_vertices;
 }
 

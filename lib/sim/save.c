@@ -13,16 +13,19 @@
 
 #include "lib/base/bytes.h"
 
-#define VERSION 1 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 2 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
 
-#define MOST_PLACE 1e9 // m: of the head, as in hair_set_transform
-#define MOST_PAST 1e12 // m: of a pose before it, which teleports between two steps take further
-#define MOST_STATE 1e9 // any number in a buffer: a solver itself resets what is too far for hair
+#define MOST_PLACE 1e9     // m: of the head, as in hair_set_transform
+#define MOST_PAST 1e12     // m: of a pose before it, which teleports between two steps take further
+#define MOST_STATE 1e9     // any number in a buffer: a solver itself resets what is too far for hair
+#define LEAST_SUBSTEP 1e-6 // s
+#define MOST_SUBSTEP 0.11
 
-_Static_assert(sizeof(hair_solid) == 40 && sizeof(struct hair_pose) == 40 && sizeof(struct hair_state) == 32,
+_Static_assert(sizeof(hair_solid) == 40 && sizeof(struct hair_pose) == 40 &&
+                   sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
 #define MOST_BUFFERS 4 // that walk() lists
@@ -71,6 +74,13 @@ static void walk_uint(struct cursor* c, const char* name, uint32_t* value, uint3
         if (!c->result) *value = read;
     }
     c->at += 4;
+}
+
+static void walk_flag(struct cursor* c, const char* name, int* flag)
+{
+    uint32_t value = *flag != 0;
+    walk_uint(c, name, &value, 1);
+    *flag = (int)value;
 }
 
 static void walk_float(struct cursor* c, const char* name, float* value, double most)
@@ -170,11 +180,13 @@ static void walk_buffer(struct cursor* c, const char* name, GLuint buffer, size_
 static void walk(struct cursor* c, struct hair_sim* sim)
 {
     walk_same(c, "solver", sim->solver);
-    walk_same(c, "substep", sim->substep);
+    walk_same(c, "substep", sim->asked_substep);
     walk_same(c, "number of guides", sim->guides);
     walk_same(c, "number of guide vertices", sim->guide_vertices);
     walk_same(c, "hash of the vertices of each guide", sim->layout);
-    walk_double(c, "time since the last substep", &sim->left, 0, sim->substep);
+    walk_double(c, "time since the last substep", &sim->left, 0, MOST_SUBSTEP);
+    walk_double(c, "length of the last substep", &sim->last_substep, LEAST_SUBSTEP, MOST_SUBSTEP);
+    walk_flag(c, "whether there have been solids", &sim->struck);
     walk_pose(c, "head at the start of the last substep", &sim->last_before, MOST_PAST);
     walk_pose(c, "head at the end of the last substep", &sim->last_after, MOST_PAST);
     walk_pose(c, "head at the last step", &sim->at_step, MOST_PAST);
@@ -182,6 +194,10 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_solids(c, "number of solids", sim->solids.now, &sim->solids.count);
     walk_solids(c, "number of solids at the last step", sim->solids.before, &sim->solids.count_before);
     walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
+    walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
+    if (sim->solver != HAIR_SOLVER_ACCURATE)
+        walk_buffer(c, "rates of guide vertices", sim->history,
+                    sim->guide_vertices * sizeof(struct hair_history));
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)

@@ -41,12 +41,12 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
-    sim->rescale = 1;
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
     } else if (!result) {
         result = hair_sim_make_rods(sim, groom);
     }
+    sim->last_substep = sim->substep;
     return result ? result : hair_gl_need(gl, solver_pass(sim));
 }
 
@@ -103,7 +103,7 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
 {
     hair_vec3 moved           = hair_pose_offset(&sim->last_after, &sim->last_before);
     int       far             = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
-    params->alpha             = far ? 1 : (float)(sim->left / sim->substep);
+    params->alpha             = far ? 1 : (float)fmin(sim->left / sim->last_substep, 1);
     params->rotation_before   = vec4_of_quat(sim->last_before.rotation);
     params->rotation_after    = vec4_of_quat(sim->last_after.rotation);
     params->rotation_now      = vec4_of_quat(sim->head.rotation);
@@ -166,10 +166,10 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     write_physics(sim, &params);
     params.solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params.solid);
 
-    double   time = sim->left + dt;
+    double   left = fmin(sim->left, sim->substep), time = left + dt; // Substeps may have become shorter.
     uint32_t total =
         (uint32_t)(time / sim->substep + 1e-6); // A hair's breadth early, so that 2/120 s holds two 1/120 s.
-    double first = sim->substep - sim->left;
+    double first = sim->substep - left;
     sim->left    = fmax(time - total * sim->substep, 0);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
@@ -178,6 +178,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         uint32_t most         = substeps_at_once(sim);
         uint32_t count        = total - done < most ? total - done : most;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
+        sim->last_substep     = sim->substep;
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
@@ -187,7 +188,6 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         done += count;
         params.share_start = params.substep[count - 1].displacement.w;
         params.rescale     = 1;
-        sim->rescale       = 1;
     }
     if (total == 0) {
         write_now(sim, &params);
@@ -203,6 +203,7 @@ static void settle(struct hair_sim* sim)
 {
     sim->last_before = sim->last_after = sim->at_step = sim->head;
     sim->left                                         = 0;
+    sim->last_substep                                 = sim->substep;
     hair_solids_settle(&sim->solids);
 }
 
@@ -220,6 +221,7 @@ void hair_sim_reset(struct hair_sim* sim)
 {
     struct hair_step_params params = {0};
     settle(sim);
+    sim->struck = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
     run_over_vertices(sim, HAIR_GL_RESET, HAIR_GL_RESET_ROD, &params);

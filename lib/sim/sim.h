@@ -18,7 +18,8 @@ struct hair_sim {
     GLuint            rod, history, material, health, reduction; // the same; 0 under redblack
     struct hair_rods* rods;                                      // under redblack NULL
     int               by_thread;                                 // a thread per guide, not a work group
-    double            rescale; // of displacements before the next substep, which is of another length: else 1
+    int               struck;       // there have been solids: the accurate solver's own substep is for impacts
+    double            last_substep; // s: of the last substep done, which displacements are over
     uint32_t          guides, guide_vertices, smooth_vertices;
     uint32_t          most_vertices; // of a guide
     uint32_t          layout;        // hash of how many vertices each guide has

@@ -275,6 +275,7 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STEP(REDBLACK_256),
         ROD(DIRECT_CURVED_32),
         ROD(DIRECT_CURVED_SOLIDS_256),
+        STORAGE(DIRECT_CURVED_32, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
         ROD(DIRECT_THREAD_CURVED_64),
         ROD(FOLLOW_CURVED_128),
         STEP(ACCURATE_32),

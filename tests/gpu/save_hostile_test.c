@@ -10,7 +10,17 @@
 #define refused hair_test_refused
 
 // Where the fields are: lib/sim/save.c.
-enum { VERSION = 8, WHOLE = 12, SUBSTEP = 28, LEFT = 60, HEAD = 68 + 3 * 40, SOLIDS = 68 + 4 * 40 };
+enum {
+    VERSION = 8,
+    WHOLE   = 12,
+    SUBSTEP = 28,
+    LEFT    = 60,
+    LAST    = 68,
+    STRUCK  = 76,
+    POSES   = 80,
+    HEAD    = POSES + 3 * 40,
+    SOLIDS  = POSES + 4 * 40
+};
 
 // As the library hashes, so that what is harmful looks undamaged.
 static void seal(struct hair_test_blob* blob)
@@ -22,9 +32,10 @@ static void seal(struct hair_test_blob* blob)
 }
 
 // Small, on its way, with two solids.
-static hair_instance* make_small(struct hair_test* test)
+static hair_instance* make_small(struct hair_test* test, int way)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
+    subject.desc                     = hair_test_way(way);
     subject.groom.guides             = 2;
     subject.groom.fewest = 4, subject.groom.most = 5;
     subject.groom.followers = 8;
@@ -86,6 +97,11 @@ static hair_result load_with_minus_1(hair_instance* hair, struct hair_test_blob 
     hair_write_double(blob.bytes + at, -1);
     return load_sealed(hair, blob);
 }
+static hair_result load_with_zero(hair_instance* hair, struct hair_test_blob blob, size_t at)
+{
+    hair_write_double(blob.bytes + at, 0);
+    return load_sealed(hair, blob);
+}
 static hair_result load_with_2e9(hair_instance* hair, struct hair_test_blob blob, size_t at)
 {
     hair_write_double(blob.bytes + at, 2e9);
@@ -106,9 +122,14 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
 {
     static struct hair_test_seen before, after;
     struct hair_test*            test = *state;
-    hair_instance*               hair = make_small(test);
+    hair_instance*               hair = make_small(test, 0);
     struct hair_test_blob        good = hair_test_save(test, hair);
-    size_t                       tip  = good.size - 8 - 32;
+    // Solids now and before; then of every vertex its state, then its frame, and then its rates.
+    size_t vertices = hair->sim.guide_vertices,
+           states   = SOLIDS + 8 + 40 * (hair->sim.solids.count + hair->sim.solids.count_before),
+           tip      = states + 32 * (vertices - 1);
+    size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
+    assert_int_equal(rates + 32 * vertices + 8, good.size);
 
     // clang-format off
     const struct wrong wrongs[] = {
@@ -117,27 +138,34 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_short, 27, HAIR_ERROR_FILE, "the 27 bytes are no saved state"},
         {load_short, 28, HAIR_ERROR_FILE, "ends at byte 28, not at byte "},
         {load_flipped, 3, HAIR_ERROR_FILE, "\"hairsave\" at byte 0"},
-        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 0, not 1"},
+        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 3, not 2"},
         {load_flipped, WHOLE, HAIR_ERROR_FILE, "as byte 12 says"},
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
-        {load_sealed_short, 1, HAIR_ERROR_FILE, "within the guide vertices at byte "},
+        {load_sealed_short, 1, HAIR_ERROR_FILE, "within the rates of guide vertices at byte "},
+        {load_sealed_short, 32 * vertices + 4, HAIR_ERROR_FILE, "within the frames of segments at byte "},
+        {load_sealed_short, 48 * vertices + 4, HAIR_ERROR_FILE, "within the guide vertices at byte "},
         {load_sealed_short, good.size - 28, HAIR_ERROR_FILE, "end at byte 20, within the solver at byte 20"},
         {load_sealed_long, 4, HAIR_ERROR_FILE, "the fields of the saved state end at byte "},
-        {load_with_minus_1, SUBSTEP, HAIR_ERROR_ARGUMENT, "its substep is -1, the instance's 0.008333"},
+        {load_with_minus_1, SUBSTEP, HAIR_ERROR_ARGUMENT, "its substep is -1, the instance's 0.004166"},
         {load_with_nan, SUBSTEP, HAIR_ERROR_ARGUMENT, "the saved state is another's"},
         {load_with_minus_1, LEFT, HAIR_ERROR_FILE, "since the last substep at byte 60 of the saved state is -1"},
         {load_with_nan, LEFT, HAIR_ERROR_FILE, "the time since the last substep"},
-        {load_with_nan, 68, HAIR_ERROR_FILE, "the head at the start of the last substep at byte 68"},
-        {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 188 of the saved state is 2e+09, not in [-1e+09"},
+        {load_with_nan, LAST, HAIR_ERROR_FILE, "the length of the last substep at byte 68 of the saved state is "},
+        {load_with_zero, LAST, HAIR_ERROR_FILE, "is 0, not in [1e-06, 0.11]"},
+        {load_with_65, STRUCK, HAIR_ERROR_FILE, "whether there have been solids at byte 76 of the saved state is 65, not in [0, 1]"},
+        {load_with_nan, POSES, HAIR_ERROR_FILE, "the head at the start of the last substep at byte 80"},
+        {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 200 of the saved state is 2e+09, not in [-1e+09"},
         {load_with_nan, HEAD + 24, HAIR_ERROR_FILE, "the head at byte "},
         {load_with_minus_1, HEAD + 24, HAIR_ERROR_FILE, "the rotation of the head"},
-        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids at byte 228 of the saved state is 65, not in [0, 64]"},
+        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids at byte 240 of the saved state is 65, not in [0, 64]"},
         {load_with_65, SOLIDS + 4, HAIR_ERROR_ARGUMENT, "solids[0].shape is 65"},
         {load_with_nan_float, SOLIDS + 4 + 32, HAIR_ERROR_ARGUMENT, "solids[0].size[0] is "},
         {load_with_nan_float, SOLIDS + 84 + 8, HAIR_ERROR_ARGUMENT, "solids[0].position[0] is "},
         {load_with_nan_float, tip, HAIR_ERROR_FILE, "the guide vertices at byte "},
         {load_with_2e9_float, tip + 28, HAIR_ERROR_FILE, "is 2e+09, not in [-1e+09, 1e+09]"},
+        {load_with_nan_float, frames, HAIR_ERROR_FILE, "the frames of segments at byte "},
+        {load_with_nan_float, rates, HAIR_ERROR_FILE, "the rates of guide vertices at byte "},
     };
     // clang-format on
 
@@ -187,7 +215,7 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
 static void a_state_cut_off_at_any_byte_is_refused(void** state)
 {
     struct hair_test*     test = *state;
-    hair_instance*        hair = make_small(test);
+    hair_instance*        hair = make_small(test, 0);
     struct hair_test_blob good = hair_test_save(test, hair), cut = {malloc(good.size), 0};
     for (cut.size = 0; cut.size < good.size; ++cut.size) {
         unsigned char* exact = malloc(cut.size ? cut.size : 1); // so that reading beyond it is seen
@@ -217,10 +245,9 @@ static int survives(struct hair_test* test, hair_instance* hair, struct hair_tes
     return 1;
 }
 
-static void any_flipped_bit_is_refused_or_harmless(void** state)
+static void flip_every_bit(struct hair_test* test, int way)
 {
-    struct hair_test*     test = *state;
-    hair_instance*        hair = make_small(test);
+    hair_instance*        hair = make_small(test, way);
     struct hair_test_blob good = hair_test_save(test, hair), wrong = {malloc(good.size), good.size};
     uint32_t              accepted = 0, random = 3;
     for (size_t bit = 0; bit < 8 * good.size; ++bit) {
@@ -245,22 +272,31 @@ static void any_flipped_bit_is_refused_or_harmless(void** state)
     free(good.bytes), free(wrong.bytes);
 }
 
-// The greatest of every number that is let through, all together.
-static void the_farthest_state_is_drawn_and_stepped_in_finite_numbers(void** state)
+static void any_flipped_bit_is_refused_or_harmless(void** state)
 {
-    struct hair_test*     test = *state;
-    hair_instance*        hair = make_small(test);
+    for (int way = 0; way < HAIR_TEST_WAYS; way += 3) flip_every_bit(*state, way);
+}
+
+// The greatest of every number that is let through, all together.
+static void load_the_farthest(struct hair_test* test, int way)
+{
+    hair_instance*        hair = make_small(test, way);
     struct hair_test_blob blob = hair_test_save(test, hair);
     for (int sign = -1; sign <= 1; sign += 2) {
         for (int p = 0; p < 4; ++p)
             for (int k = 0; k < 3; ++k)
-                hair_write_double(blob.bytes + 68 + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
+                hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
         for (size_t at = SOLIDS + 4 + 2 * 84; at < blob.size - 8; at += 4)
             hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
         assert_true(survives(test, hair, blob));
     }
     hair_destroy(hair);
     free(blob.bytes);
+}
+
+static void the_farthest_state_is_drawn_and_stepped_in_finite_numbers(void** state)
+{
+    for (int way = 0; way < HAIR_TEST_WAYS; ++way) load_the_farthest(*state, way);
 }
 
 int main(void)

@@ -24,6 +24,8 @@ struct hair_test_subject hair_test_subject_of(uint32_t kind)
         subject.groom.segment      = 0.004f;
         subject.physics.gravity[0] = 3, subject.physics.iterations = 7;
     }
+    if (kind == 3) // In substeps as the solver wants them.
+        subject.desc.substep = 0, subject.hardens = 1;
     return subject;
 }
 
@@ -56,6 +58,14 @@ void hair_test_pose(float time, float transform[16])
     transform[15] = 1;
 }
 
+void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
+                   uint32_t i)
+{
+    hair_physics physics = subject->physics;
+    if (subject->hardens && i / 6 % 2) physics.young *= 5, physics.damping += 1;
+    hair_test_ok(test, hair_set_physics(hair, &physics));
+}
+
 // Every third step goes on with what there is.
 void hair_test_move(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                     uint32_t i)
@@ -69,6 +79,7 @@ void hair_test_move(struct hair_test* test, hair_instance* hair, const struct ha
          {0.08f, NAN}},
         {HAIR_SHAPE_CAPSULE, {0.1f * sinf(time), 0.1f, 0}, {q.x, q.y, q.z, q.w}, {0.05f, 0.04f}},
         {HAIR_SHAPE_SPHERE, {-0.1f, 0.2f * cosf(time), 0.1f}, {0, 0, 0, 1}, {0.07f, 0}}};
+    if (i % 6 == 0) hair_test_set(test, hair, subject, i);
     if (i % 3 == 2) return;
     hair_test_pose(time, transform);
     hair_test_ok(test, hair_set_transform(hair, transform));
@@ -94,11 +105,22 @@ void hair_test_run(struct hair_test* test, hair_instance* hair, const struct hai
     }
 }
 
+static void look_at(GLuint buffer, struct hair_test_seen* out)
+{
+    GLint64 size = 0;
+    if (!buffer) return;
+    glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    assert_in_range(out->count + (size_t)size / 4, out->count, HAIR_TEST_SEEN);
+    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, out->number + out->count);
+    out->count += (size_t)size / 4;
+}
+
 void hair_test_look(struct hair_test* test, hair_instance* hair, struct hair_test_seen* out)
 {
-    size_t state = hair->sim.guide_vertices * sizeof(struct hair_state);
-    glGetNamedBufferSubData(hair->sim.state, 0, (GLsizeiptr)state, out->number);
-    out->count = state / sizeof *out->number;
+    out->count = 0;
+    look_at(hair->sim.state, out);
+    look_at(hair->sim.history, out);
+    look_at(hair->sim.material, out);
     for (int what = 0; what <= HAIR_READ_FOLLOWERS; ++what) {
         uint32_t most = (uint32_t)(HAIR_TEST_SEEN - out->count) / 3, count;
         hair_test_ok(test, hair_read(hair, (hair_read_what)what, out->number + out->count, most, &count));

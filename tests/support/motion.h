@@ -8,20 +8,24 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-#define HAIR_TEST_SUBJECTS 3 // kinds
+#define HAIR_TEST_SUBJECTS 4 // kinds
 #define HAIR_TEST_SEEN 65536
 
 // One head of hair and what happens to it: every event follows from `seed` and its number.
 struct hair_test_subject {
     struct hair_test_handmade groom;
     hair_desc                 desc;
-    hair_physics              physics;
+    hair_physics              physics; // at first
     uint32_t                  seed;
+    int                       hardens; // and softens again, time after time
 };
 
 struct hair_test_subject hair_test_subject_of(uint32_t kind);
 hair_instance* hair_test_subject_make(struct hair_test* test, const struct hair_test_subject* subject);
 
+// What the i-th event sets.
+void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
+                   uint32_t i);
 // The i-th event, before the i-th step: the head moves, and now and then jumps or is reset; solids move, come and go.
 void hair_test_move(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                     uint32_t i);
@@ -32,7 +36,8 @@ void hair_test_step(struct hair_test* test, hair_instance* hair, const struct ha
 void hair_test_run(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                    uint32_t first, uint32_t end);
 
-// All that can be seen of an instance: the state itself, guides, smoothed guides, followers.
+// All that can be seen of an instance: the state itself, with what its solver has beside it; guides, smoothed guides,
+// followers.
 struct hair_test_seen {
     float  number[HAIR_TEST_SEEN];
     size_t count;
