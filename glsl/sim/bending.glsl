@@ -37,8 +37,11 @@ void bend_curved()
             float k     = own(strain).w;
             vec3  g     = k * params.ratio.xyz * (2.0 * r.xyz - own(strain).xyz);
             PUT(lever, i, rotate(a, r.w * g + cross(r.xyz, g)));
-            float twist = k * params.ratio.y;
-            float bend  = 0.5 * k * max(dot(r.xz, own(strain).xz), 0.0);
+            // By turns of both segments alike and opposite. Where the energy is not convex: what of it always is.
+            vec2  across = r.xz * r.xz, stiff_across = params.ratio.zx, excess = 2.0 * r.xz - own(strain).xz;
+            float bend = k * max(dot(stiff_across, across) - 0.5 * dot(params.ratio.xz * excess, r.xz),
+                                 dot(stiff_across - min(stiff_across.x, stiff_across.y), across));
+            float twist    = k * params.ratio.y;
             twist_hinge[i] = vec2(twist + bend, bend - twist);
         }
     }
@@ -64,11 +67,17 @@ void relax_twist()
     MEET;
 }
 
-// Frames and hinges of the edges.
+// Frames and hinges of the edges, the twist as they have it: forces of the twist that the substep before had would
+// feed what swings.
 void find_bending()
 {
-    if (CURVED) bend_curved();
-    else bend_straight();
+    if (CURVED) {
+        bend_curved();
+        relax_twist();
+        bend_curved();
+    } else {
+        bend_straight();
+    }
 }
 
 // Force on a vertex, over the mass of a metre.

@@ -71,7 +71,6 @@ void predict(int method)
         }
     }
     MEET;
-    if (CURVED) relax_twist();
     if (method == SHAKE) {
         EACH(guide_count - 1u) { PUT(lever, i, GET(edge, i)); }
         MEET;
