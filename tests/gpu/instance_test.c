@@ -156,7 +156,7 @@ static void a_teleport_takes_shape_and_motion_along(void** state)
         for (int i = 0; i < 3; ++i) {
             read(test, other, whats[i], &before);
             read(test, hair, whats[i], &after);
-            compare_in_heads(&before, here, &after, there, 1e-5);
+            compare_in_heads(&before, here, &after, there, hair_test_way_rounding(way));
         }
         // Nothing swings that would not have swung.
         hair_test_ok(test, hair_step(other, 1.0f / 60));

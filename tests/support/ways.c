@@ -23,3 +23,8 @@ const char* hair_test_way_name(int way)
                                                       "redblack"};
     return names[way];
 }
+
+double hair_test_way_rounding(int way)
+{
+    return hair_test_way(way).solver == HAIR_SOLVER_REDBLACK ? 1e-5 : 2e-4;
+}

@@ -11,4 +11,8 @@
 hair_desc   hair_test_way(int way);
 const char* hair_test_way_name(int way); // "direct, a thread per guide"
 
+// How far a vertex of a hand-made groom may be off, m, where a head's pose is rounded otherwise. Rods' lengths are fitted
+// until they are right to 5e-4: whether once more may hang on rounding.
+double hair_test_way_rounding(int way);
+
 #endif
