@@ -9,7 +9,7 @@
 // Guides of many lengths, numbers of vertices and spacings.
 static void add_uneven(struct hair_test_strands* strands, uint32_t kind)
 {
-    static const uint32_t vertices[] = {5, 32, 12, 33, 4, 60};
+    static const uint32_t vertices[] = {5, 32, 12, 31, 4, 20};
     float                 fold = (float)kind, length = 0.1f + 0.05f * fold;
     hair_vec3             way = hair_normalize(hair_v3(1, -0.3f * fold, 0.2f), hair_v3(0, 1, 0));
     for (uint32_t i = 0; i < vertices[kind]; ++i) {
@@ -55,21 +55,21 @@ static double apart(const struct hair_test_living* a, uint32_t guide, const stru
 static void guides_of_one_instance_do_not_notice_each_other(void** state)
 {
     hair_physics physics = hair_test_bare();
-    for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
-        for (int mapping = HAIR_MAPPING_GROUP; mapping <= HAIR_MAPPING_THREAD; ++mapping) {
-            struct hair_test_living  together, alone;
-            struct hair_test_strands all = uneven(0, KINDS);
-            hair_desc desc = hair_test_rods((hair_solver)solver, (hair_mapping)mapping, 1.0 / 480, &physics);
-            shake(*state, &all, &desc, &together);
-            assert_true(hair_test_from_rest(&together) > 0.03);
-            for (uint32_t g = 0; g < KINDS; ++g) {
-                struct hair_test_strands one = uneven(g, 1);
-                shake(*state, &one, &desc, &alone);
-                assert_true(apart(&alone, 0, &together, g) < 2e-6);
-                hair_test_die(&alone);
-            }
-            hair_test_die(&together);
+    for (int kind = 0; kind < 4; ++kind) {
+        int solver = kind % 3, mapping = kind < 3 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
+        struct hair_test_living  together, alone;
+        struct hair_test_strands all = uneven(0, KINDS);
+        hair_desc desc = hair_test_rods((hair_solver)solver, (hair_mapping)mapping, 1.0 / 480, &physics);
+        shake(*state, &all, &desc, &together);
+        assert_true(hair_test_from_rest(&together) > 0.03);
+        for (uint32_t g = 0; g < KINDS; ++g) {
+            struct hair_test_strands one = uneven(g, 1);
+            shake(*state, &one, &desc, &alone);
+            assert_true(apart(&alone, 0, &together, g) < 2e-6);
+            hair_test_die(&alone);
         }
+        hair_test_die(&together);
+    }
 }
 
 static void a_thread_per_guide_does_what_a_work_group_does(void** state)
