@@ -263,10 +263,10 @@ typedef enum hair_mapping {
 } hair_mapping;
 
 typedef struct hair_desc {
-    hair_made           made;
-    const char*         label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
-    hair_solver         solver;  ///< Default HAIR_SOLVER_DIRECT.
-    float               substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
+    hair_made   made;
+    const char* label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
+    hair_solver solver;  ///< Default HAIR_SOLVER_DIRECT.
+    float       substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
     hair_mapping        mapping; ///< Of guides to GPU threads. Default HAIR_MAPPING_AUTO.
     float               max_dt;  ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
     const hair_physics* physics; ///< NULL: the defaults.
@@ -387,9 +387,10 @@ HAIR_DESC(hair_health)
 HAIR_API hair_result hair_get_health(hair_instance* hair, hair_health* out);
 
 typedef struct hair_timing {
-    const char* pass; ///< Static text: the shader's path under glsl/.
-    float       ms;   ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t    runs; ///< Since the context was created.
+    const char* pass;     ///< Static text: the shader's path under glsl/.
+    float       ms;       ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t    runs;     ///< Since the context was created.
+    double      total_ms; ///< GPU time of its finished runs together, but for more than four at once.
 } hair_timing;
 
 /// GPU time of every pass, if the context was created with `timings`. Never waits. Returns how many passes

@@ -50,9 +50,10 @@ uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity
 {
     if (!context) return 0;
     for (uint32_t pass = 0; out && pass < capacity && pass < HAIR_GL_PASS_COUNT; ++pass) {
-        out[pass].pass = hair_gl_pass_label((hair_gl_pass)pass);
-        out[pass].ms   = hair_gl_pass_ms(&context->gl, (hair_gl_pass)pass);
-        out[pass].runs = context->gl.timer[pass].begun;
+        out[pass].pass     = hair_gl_pass_label((hair_gl_pass)pass);
+        out[pass].ms       = hair_gl_pass_ms(&context->gl, (hair_gl_pass)pass);
+        out[pass].runs     = context->gl.timer[pass].begun;
+        out[pass].total_ms = context->gl.timer[pass].total;
     }
     return HAIR_GL_PASS_COUNT;
 }

@@ -19,7 +19,8 @@ typedef enum hair_gl_pass {
 struct hair_gl_timer {
     GLuint   query[HAIR_GL_TIMER_DEPTH][2]; // start and end of a run
     uint32_t begun, read;                   // runs
-    float    ms;
+    float    ms;                            // of the last run read,
+    double   total;                         // and of all
 };
 
 // What a draw or a dispatch changes, to be put back. See state.c.

@@ -51,6 +51,7 @@ static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
         gl->GetQueryObjectui64v(query[0], GL_QUERY_RESULT, &start);
         gl->GetQueryObjectui64v(query[1], GL_QUERY_RESULT, &end);
         timer->ms = (float)((double)(end - start) * 1e-6);
+        timer->total += (double)(end - start) * 1e-6;
     }
 }
 
