@@ -184,8 +184,8 @@ static void a_row_says_what_was_measured_and_how(void** state)
 static void the_other_suites_run(void** state)
 {
     (void)state;
-    expect(0, "$T physics --quick --case pendulum --csv -", "pendulum,accurate,2,");
-    expect(0, "$T stability --quick --case ordinary --csv -", "ordinary,redblack,32,true");
+    expect(0, "$T physics --quick --case pendulum --method accurate --csv -", "pendulum,accurate,2,");
+    expect(0, "$T stability --quick --case ordinary --method redblack --csv -", "ordinary,redblack,32,true");
 }
 
 // Arithmetic ------------------------------------------------------------------------------------------------
