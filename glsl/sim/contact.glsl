@@ -44,6 +44,14 @@ vec3 from_axis(vec3 position, capsule solid)
     return position - solid.start - nearest_share(position, solid) * solid.axis;
 }
 
+// How far the axis of a solid moves in this substep, at most.
+float swept_by(uint k, capsule now)
+{
+    capsule then = solid_at(k, share_then);
+    vec3    start = now.start - then.start;
+    return max(length(start), length(start + now.axis - then.axis));
+}
+
 // The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
 // again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.
 void find_solids(vec3 head_moved)
@@ -52,12 +60,13 @@ void find_solids(vec3 head_moved)
     EACH(1u) { near[0] = near[1] = 0u; }
     MEET;
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
+    if (slack[0] > 0.0) longest = 2.0 * FARTHEST; // A root that nothing holds may be anywhere.
     for (uint k = 0u; k < params.solids; ++k) {
 #ifndef HAIR_THREAD_PER_GUIDE
         if (k % MOST != gl_LocalInvocationID.x) continue;
 #endif
         capsule solid = solid_at(k, share_now);
-        bool    met   = length(from_axis(root_now, solid)) < solid.radius + longest;
+        bool    met   = length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid);
 #ifdef HAIR_THREAD_PER_GUIDE
         if (met) near[k / 32u] |= 1u << (k % 32u);
 #else
@@ -74,8 +83,7 @@ void find_solids(vec3 head_moved)
                 for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
                     uint    k     = 32u * uint(word) + uint(findLSB(bits));
                     capsule solid = solid_at(k, share_now);
-                    vec3    swept = solid.start - solid_at(k, share_then).start;
-                    if (length(from_axis(position, solid)) < solid.radius + reach + length(swept))
+                    if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid))
                         own(reachable)[word] |= bits & -bits;
                 }
         }

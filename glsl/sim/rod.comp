@@ -11,7 +11,6 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/lengths.glsl"
 
 #define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
-#define FARTHEST 1e4 // m from the head's origin, or in a substep: no hair is there
 
 // Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
 // the method of its solver fails again, for ever.
@@ -88,9 +87,9 @@ void accept(int method, vec3 head_moved)
     EACH(guide_count) {
         vec3 d = GET(moved, i), kept = d;
         if (method == LEADER) { // What was drawn along may not keep that speed.
-            vec3  relative = d - root_moved;
+            vec3  relative = d - GET(moved, 0u);
             float speed    = length(relative);
-            kept           = root_moved + LEADER_KEEPS * relative * (speed > fastest ? fastest / speed : 1.0);
+            kept           = GET(moved, 0u) + LEADER_KEEPS * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
         precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));

@@ -29,6 +29,7 @@ vec4 scalp;      // frame that clamps the first segment
 // By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
 uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 
+#define FARTHEST 1e4  // m from the head's origin, or in a substep: no hair is there
 #define TOO_LONG 0.01 // relative error of length with which a method has failed
 
 // One of three pairs of flags, taken in turn, so that one can be cleared while another is read.
