@@ -42,7 +42,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HISTORY 4 // hair_history[]  per guide vertex
 #define HAIR_BIND_MATERIAL                                                                                   \
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
-#define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT]
+#define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT], of every solver
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 

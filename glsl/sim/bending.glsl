@@ -22,8 +22,11 @@ void bend_straight()
 void bend_curved()
 {
     EACH(guide_count - 1u) { // Frames follow their segments by the least rotation. Neighbours find them in row[].
-        vec4 q       = own(section);
-        own(section) = normalize(quat_multiply(quat_between(rotate(q, vec3(0.0, 1.0, 0.0)), GET(edge, i)), q));
+        vec4 q    = own(section);
+        vec4 next = normalize(quat_multiply(quat_between(rotate(q, vec3(0.0, 1.0, 0.0)), GET(edge, i)), q));
+        // What an attempt that is not finite makes of it must not outlive it.
+        own(section) = bits_of(dot(next, next) - 1.0) < floatBitsToUint(0.1)
+                           ? next : quat_multiply(turn_now, rest[guide_first + i].frame);
         row[i]       = own(section);
     }
     MEET;
@@ -61,7 +64,7 @@ void relax_twist()
     MEET;
     solve_rows(segments);
     EACH(segments) {
-        float half_angle = 0.5 * clamp(solution[i], -0.5, 0.5);
+        float half_angle = bits_of(solution[i]) < 0x7f800000u ? 0.5 * clamp(solution[i], -0.5, 0.5) : 0.0;
         own(section) = quat_multiply(vec4(sin(half_angle) * GET(edge, i), cos(half_angle)), own(section));
     }
     MEET;

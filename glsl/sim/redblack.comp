@@ -106,7 +106,10 @@ void main()
             displacement = dot(head, head) < 1e8 ? head : vec3(0.0);
         }
         synchronise();
-        if (i == 0u) broken = 0u;
+        if (i == 0u && broken != 0u) {
+            atomicAdd(health[HAIR_HEALTH_RESET], 1u);
+            broken = 0u;
+        }
     }
 
     if (here) {

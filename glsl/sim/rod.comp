@@ -96,7 +96,7 @@ void accept(int method, vec3 head_moved)
         precise vec3 from_root = from_head - root_now;
         PUT(place, i, from_root);
 #if HAIR_SOLVER != SHAKE
-        own(rate_before) = own(rate);
+        own(rate_before) = method == LEADER ? kept : own(rate); // It may be what was not finite.
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
         if (SOLIDS && touch[i].w != FREE) forget(i, d);
 #endif

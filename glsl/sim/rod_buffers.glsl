@@ -3,4 +3,3 @@ layout(std430, binding = HAIR_BIND_ROD) readonly buffer rod_buffer { hair_rod ro
 layout(std430, binding = HAIR_BIND_HISTORY) buffer history_buffer { hair_history history[]; };
 layout(std430, binding = HAIR_BIND_MATERIAL) buffer material_buffer { vec4 material[]; };
 layout(std430, binding = HAIR_BIND_REDUCTION) readonly buffer reduction_buffer { vec4 reduction[]; };
-layout(std430, binding = HAIR_BIND_HEALTH) buffer health_buffer { uint health[]; };

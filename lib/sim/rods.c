@@ -90,9 +90,6 @@ static hair_result make_buffers(struct hair_sim* sim)
     if (!result)
         result =
             hair_gl_storage(sim->gl, "hair material", vertices * sizeof(hair_vec4), NULL, &sim->material);
-    if (!result)
-        result =
-            hair_gl_storage(sim->gl, "hair health", HAIR_HEALTH_COUNT * sizeof(uint32_t), NULL, &sim->health);
     return result;
 }
 
@@ -130,7 +127,6 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->rod);
     hair_gl_free_buffer(sim->gl, &sim->history);
     hair_gl_free_buffer(sim->gl, &sim->material);
-    hair_gl_free_buffer(sim->gl, &sim->health);
     hair_gl_free_buffer(sim->gl, &sim->reduction);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
@@ -172,11 +168,10 @@ float hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides)
 void hair_sim_health(struct hair_sim* sim, hair_health* health)
 {
     uint32_t count[HAIR_HEALTH_COUNT] = {0};
-    health->substep                   = (float)sim->substep;
-    if (!sim->rods) return;
     sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
     health->euler    = count[HAIR_HEALTH_EULER];
     health->follow   = count[HAIR_HEALTH_FOLLOW];
     health->reset    = count[HAIR_HEALTH_RESET];
     health->stiffest = hair_sim_stiffest(sim, &health->stiffened);
+    health->substep  = (float)sim->substep;
 }

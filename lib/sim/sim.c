@@ -40,6 +40,8 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
+    if (!result)
+        result = hair_gl_storage(gl, "hair health", HAIR_HEALTH_COUNT * sizeof(uint32_t), NULL, &sim->health);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
@@ -56,6 +58,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->guide);
     hair_gl_free_buffer(sim->gl, &sim->rest);
     hair_gl_free_buffer(sim->gl, &sim->state);
+    hair_gl_free_buffer(sim->gl, &sim->health);
     hair_gl_free_buffer(sim->gl, &sim->step);
     hair_sim_free_rods(sim);
 }
@@ -64,6 +67,7 @@ void hair_sim_bind(struct hair_sim* sim)
 {
     GLuint storage[] = {sim->guide, sim->rest, sim->state};
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HEALTH, 1, &sim->health);
     sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
 }
 

@@ -9,25 +9,25 @@
 #include "lib/sim/rod.h"
 
 struct hair_sim {
-    struct hair_gl*   gl;
-    hair_solver       solver;
-    hair_physics      physics;
-    double            asked_substep;                             // s; 0: as the solver wants
-    double            substep;                                   // s
-    GLuint            guide, rest, state, step;                  // buffers, as in shared.h
-    GLuint            rod, history, material, health, reduction; // the same; 0 under redblack
-    struct hair_rods* rods;                                      // under redblack NULL
-    int               by_thread;                                 // a thread per guide, not a work group
-    int               struck;       // there have been solids: the accurate solver's own substep is for impacts
-    double            last_substep; // s: of the last substep done, which displacements are over
-    uint32_t          guides, guide_vertices, smooth_vertices;
-    uint32_t          most_vertices; // of a guide
-    uint32_t          layout;        // hash of how many vertices each guide has
-    double            left;          // s: since the end of the last substep, less than a substep
-    struct hair_pose  last_before;   // the head at the start of the last substep,
-    struct hair_pose  last_after;    // at its end,
-    struct hair_pose  at_step;       // at the last step, and
-    struct hair_pose  head;          // where it is to be at the next
+    struct hair_gl*    gl;
+    hair_solver        solver;
+    hair_physics       physics;
+    double             asked_substep;                     // s; 0: as the solver wants
+    double             substep;                           // s
+    GLuint             guide, rest, state, health, step;  // buffers, as in shared.h
+    GLuint             rod, history, material, reduction; // the same; 0 under redblack
+    struct hair_rods*  rods;                              // under redblack NULL
+    int                by_thread;                         // a thread per guide, not a work group
+    int                struck; // there have been solids: the accurate solver's own substep is for impacts
+    double             last_substep; // s: of the last substep done, which displacements are over
+    uint32_t           guides, guide_vertices, smooth_vertices;
+    uint32_t           most_vertices; // of a guide
+    uint32_t           layout;        // hash of how many vertices each guide has
+    double             left;          // s: since the end of the last substep, less than a substep
+    struct hair_pose   last_before;   // the head at the start of the last substep,
+    struct hair_pose   last_after;    // at its end,
+    struct hair_pose   at_step;       // at the last step, and
+    struct hair_pose   head;          // where it is to be at the next
     struct hair_solids solids;
 };
 

@@ -353,6 +353,23 @@ static void steps_that_are_no_time_are_refused(void** state)
     drop(hair, groom);
 }
 
+static void a_substep_that_would_take_for_ever_is_refused(void** state)
+{
+    struct hair_test* test = *state;
+    hair_groom*       groom;
+    hair_instance*    hair  = make(test, &groom);
+    hair_instance*    other = NULL;
+    hair_desc         desc  = hair_desc_default();
+    desc.substep            = 9e-6f;
+    refused(test, hair_create(test->context, groom, &desc, &other), HAIR_ERROR_ARGUMENT,
+            "hair_desc.substep is 9e-06, not 0 or in [1e-05, 0.1]");
+    assert_null(other);
+    desc.substep = 1e-5f;
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &other));
+    hair_destroy(other);
+    drop(hair, groom);
+}
+
 static void wrong_solids_are_named_and_change_nothing(void** state)
 {
     struct hair_test* test = *state;
@@ -442,6 +459,7 @@ int main(void)
         HAIR_TEST(a_shorter_desc_of_an_older_caller_is_taken),
         HAIR_TEST(transforms_that_are_not_rigid_are_refused),
         HAIR_TEST(steps_that_are_no_time_are_refused),
+        HAIR_TEST(a_substep_that_would_take_for_ever_is_refused),
         HAIR_TEST(wrong_solids_are_named_and_change_nothing),
         HAIR_TEST(views_without_sense_are_refused),
         HAIR_TEST(a_failed_call_leaves_the_instance_as_it_was),
