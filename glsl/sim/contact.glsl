@@ -122,13 +122,10 @@ vec4 left_of(vec4 freedom, vec3 normal)
     return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
 }
 
-// What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
-// would have to pull.
-vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
+// Out of one solid after the other; returns of how many.
+uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
-    vec3 d     = want;
-    vec3 start = root_now - root_moved + head_moved + GET(place, i);
-    freedom    = vec4(0.0, 0.0, 0.0, FREE);
+    uint contacts = 0u;
     for (int word = 0; word < 2; ++word)
         for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {
             vec3  normal, surface;
@@ -142,8 +139,21 @@ vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out v
                 d += depth * normal - (stuck ? slip : slip * (grip / speed));
                 freedom = stuck ? vec4(normal, STICKS) : left_of(freedom, normal);
                 met[word] |= bit;
+                ++contacts;
             }
         }
+    return contacts;
+}
+
+// What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
+// would have to pull. Out of a second solid may lead into the first: then out of them once more.
+vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
+{
+    vec3 d     = want;
+    vec3 start = root_now - root_moved + head_moved + GET(place, i);
+    freedom    = vec4(0.0, 0.0, 0.0, FREE);
+    if (push_out(start, solids, kept, head_moved, d, freedom, met) > 1u)
+        push_out(start, solids, kept, head_moved, d, freedom, met);
     return d;
 }
 

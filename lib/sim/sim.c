@@ -124,9 +124,9 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     if (!sim->rods)
         rounds = sim->physics.iterations * (4 + solids) + 2 * sim->solids.count + 20;
     else if (sim->by_thread)
-        rounds = sim->most_vertices * (170 + (solids ? 20 * (2 + solids) : 0)) + sim->solids.count;
+        rounds = sim->most_vertices * (170 + (solids ? 20 * (4 + 2 * solids) : 0)) + sim->solids.count;
     else
-        rounds = 400 + 6 * sim->most_vertices + 60 * (2 + solids);
+        rounds = 400 + 6 * sim->most_vertices + 60 * (4 + 2 * solids);
     uint32_t most = 65000 / rounds;
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
