@@ -1,0 +1,315 @@
+// rod_contact_test.c - strands as rods and solids: laid over them, sliding and held by friction, carried, swept, freed.
+#include "tests/support/living.h"
+
+#include <math.h>
+
+#define SOLVERS HAIR_SOLVER_REDBLACK // all before it
+#define MARGIN 1e-3
+
+static hair_physics loose(float friction)
+{
+    hair_physics physics = hair_physics_default();
+    physics.hold         = 0;
+    physics.pull_root = physics.pull_tip = 0;
+    physics.friction                     = friction;
+    return physics;
+}
+
+static hair_solid sphere(double x, double y, double z, double radius)
+{
+    return (hair_solid){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z}, {0, 0, 0, 1}, {(float)radius, 0}};
+}
+
+// Its axis along z, turned by `angle` about it.
+static hair_solid capsule(double x, double y, double radius, double angle)
+{
+    double     h = sqrt(0.5), c = cos(angle / 2), s = sin(angle / 2);
+    hair_solid solid = {HAIR_SHAPE_CAPSULE,
+                        {(float)x, (float)y, 0},
+                        {(float)(h * c), (float)(h * s), (float)(h * s), (float)(h * c)},
+                        {(float)radius, 0.5f}};
+    return solid;
+}
+
+static void put(struct hair_test_living* living, const hair_solid* solids, uint32_t count)
+{
+    hair_test_ok(living->test, hair_set_solids(living->hair, solids, count, sizeof *solids));
+}
+
+// How far a vertex is in a solid, or in the margin around it, at most; negative: how near. The root, which the scalp
+// holds, does not count when it is held.
+static double depth(const struct hair_test_living* living, const hair_solid* solid)
+{
+    double most = -INFINITY;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
+             ++i) {
+            hair_vec3 p = hair_test_at(living, g, i);
+            double    x = (double)(p.x - solid->position[0]), y = (double)(p.y - solid->position[1]);
+            double    z = (double)(p.z - solid->position[2]);
+            if (solid->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)solid->size[1], 0);
+            most = fmax(most, (double)solid->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
+        }
+    return most;
+}
+
+// A strand of 0.25 m whose root is above a ball, to its side, laid over it. Seconds pass.
+static void lay(struct hair_test* test, hair_solver solver, const hair_physics* physics,
+                const hair_solid* over, uint32_t seconds, struct hair_test_living* out)
+{
+    struct hair_test_strands strands =
+        hair_test_straight(32, hair_v3(-0.03f, 0.056f, 0), hair_v3(1, 0, 0.1f), 0.25f);
+    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_test_live(test, &strands, &desc, out);
+    put(out, over, 1);
+    for (uint32_t k = 0; k < 60 * seconds; ++k) {
+        hair_test_wait(out, 1);
+        hair_test_read_guides(out);
+        assert_true(depth(out, over) < 1e-5);
+        if (k > 60) assert_true(hair_test_stretch(out) < 1e-3);
+    }
+    hair_test_strands_free(&strands);
+}
+
+static void a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep(void** state)
+{
+    hair_physics physics = loose(0.5f);
+    physics.damping      = 10;
+    for (int kind = 0; kind < 2; ++kind)
+        for (int solver = 0; solver < 2; ++solver) {
+            hair_solid              solid = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
+            struct hair_test_living living;
+            lay(*state, (hair_solver)solver, &physics, &solid, 8, &living);
+            assert_true(hair_test_tip(&living, 0).x > 0.06f); // Over the top.
+            assert_true(depth(&living, &solid) > -1e-5);
+            hair_test_wait(&living, 600);
+            hair_test_read_guides(&living);
+            print_message("    %s, solver %d: %.2g m in 10 s, stretch %.2g\n", kind ? "capsule" : "sphere",
+                          solver, hair_test_moved(&living), hair_test_stretch(&living));
+            assert_true(hair_test_moved(&living) < 1e-5);
+            assert_true(depth(&living, &solid) < 1e-5);
+            hair_test_die(&living);
+        }
+}
+
+static void without_friction_it_slides_off(void** state)
+{
+    hair_physics physics = loose(0);
+    for (int solver = 0; solver < 2; ++solver) {
+        hair_solid              solid = sphere(0.02, 0, 0, 0.05);
+        struct hair_test_living living;
+        lay(*state, (hair_solver)solver, &physics, &solid, 4, &living);
+        assert_true(hair_test_tip(&living, 0).x < 0);
+        hair_test_die(&living);
+    }
+}
+
+// A free strand along a capsule of 5 m, where that slopes by half a radian: it slides as a bead does on a circle,
+// R a'' = g (sin a - mu cos a) + mu R a'^2; or sticks.
+static void a_strand_on_a_slope_obeys_coulomb(void** state)
+{
+    static const double mu[] = {0, 0.3, 0.5, 0.6}; // tan 0.5 = 0.546
+    for (int kind = 0; kind < 4 * SOLVERS; ++kind) {
+        double       friction = mu[kind % 4], radius = friction > 0.55 ? 1 : 5, start = 0.5, a = start, w = 0;
+        int          solver              = kind / 4;
+        hair_physics physics             = loose((float)friction);
+        physics.root                     = HAIR_ROOT_FREE;
+        physics.damping                  = 0;
+        struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
+        struct hair_test_living  living;
+        hair_desc                desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid               solid =
+            capsule(-(radius + MARGIN) * sin(start), -(radius + MARGIN) * cos(start), radius, 0);
+        hair_test_live(*state, &strands, &desc, &living);
+        put(&living, &solid, 1);
+        hair_test_wait(&living, 30);
+        hair_test_read_guides(&living);
+        for (int i = 0; i < 50000 && friction < 0.55; ++i) {
+            w += 1e-5 * (9.81 * (sin(a) - friction * cos(a)) / radius + friction * w * w);
+            a += 1e-5 * w;
+        }
+        hair_vec3 p    = hair_test_at(&living, 0, 2);
+        double    slid = atan2((double)(p.x - solid.position[0]), (double)(p.y - solid.position[1])) - start;
+        print_message("    solver %d, friction %g: slides %.4f m of %.4f m\n", solver, friction,
+                      radius * slid, radius * (a - start));
+        if (friction > 0.55)
+            assert_true(fabs(slid) * radius < 2e-6);
+        else
+            assert_true(fabs(slid / (a - start) - 1) < (solver == HAIR_SOLVER_FOLLOW ? 0.03 : 0.01));
+        assert_true(depth(&living, &solid) < 1e-5);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+    }
+}
+
+static void solids_that_move_and_spin_carry_hair_along(void** state)
+{
+    hair_physics physics = loose(0.8f);
+    physics.root         = HAIR_ROOT_FREE;
+    physics.damping      = 0;
+    for (int kind = 0; kind < 2 * SOLVERS; ++kind) {
+        int                      spins = kind % 2, solver = kind / 2;
+        struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
+        struct hair_test_living  living;
+        hair_desc                desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid               solid = capsule(0, -1 - MARGIN, 1, 0);
+        double                   way   = 0;
+        hair_test_live(*state, &strands, &desc, &living);
+        put(&living, &solid, 1);
+        hair_test_wait(&living, 10);
+        for (int k = 1; k <= 30; ++k) {
+            way += 0.2 * fmin(k / 10.0, 1) / 60;
+            solid = spins ? capsule(0, -1 - MARGIN, 1, -way) : capsule(way, -1 - MARGIN, 1, 0);
+            put(&living, &solid, 1);
+            hair_test_wait(&living, 1);
+        }
+        hair_test_read_guides(&living);
+        double carried = (double)hair_test_at(&living, 0, 2).x, expected = spins ? sin(way) : way;
+        print_message("    solver %d: carried %.5f m of %.5f m\n", solver, carried, expected);
+        assert_true(fabs(carried / expected - 1) < 0.01);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+    }
+}
+
+// The angle by which a strand goes around the point (x, y), seen along z: negative while it lies to the right.
+static double winding(const struct hair_test_living* living, double x, double y)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i + 1 < living->vertices; ++i) {
+        hair_vec3 p = hair_test_at(living, 0, i), q = hair_test_at(living, 0, i + 1);
+        double    a = (double)p.x - x, b = (double)p.y - y, c = (double)q.x - x, d = (double)q.y - y;
+        sum += atan2(a * d - b * c, a * c + b * d);
+    }
+    return sum;
+}
+
+// From left to right through a strand that hangs down: it must be pushed along and never be left behind.
+static void what_is_swept_through_hair_takes_it_along(void** state)
+{
+    static const struct {
+        double radius, speed;
+        int    is_capsule, solvers;
+    } cases[]            = {{0.05, 2, 0, 3}, {0.05, 5, 0, 3}, {0.02, 2, 1, 2}};
+    hair_physics physics = loose(0.3f);
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
+        for (int solver = 0; solver < cases[n].solvers; ++solver) {
+            struct hair_test_strands strands =
+                hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
+            struct hair_test_living living;
+            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            double    r = cases[n].radius, x = -0.3, deepest = -INFINITY;
+            hair_test_live(*state, &strands, &desc, &living);
+            for (; x < 0.2; x += cases[n].speed / 60) {
+                hair_solid solid = cases[n].is_capsule ? capsule(x, -0.15, r, 0) : sphere(x, -0.15, 0, r);
+                put(&living, &solid, 1);
+                hair_test_wait(&living, 1);
+                hair_test_read_guides(&living);
+                deepest = fmax(deepest, depth(&living, &solid) - MARGIN);
+                assert_true(winding(&living, x, -0.15) < 0);
+            }
+            print_message("    radius %g m, %g m/s, solver %d: up to %.2g m deep\n", r, cases[n].speed,
+                          solver, deepest);
+            assert_true(deepest < 0.1 * r);
+            hair_test_die(&living);
+            hair_test_strands_free(&strands);
+        }
+}
+
+static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
+{
+    hair_physics physics = loose(0.3f);
+    for (int solver = 0; solver < SOLVERS; ++solver) {
+        struct hair_test_strands strands =
+            hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0.05f), 0.3f);
+        struct hair_test_living living;
+        hair_desc               desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid              solid = sphere(0.01, -0.15, 0, 0.06);
+        double                  speed = 0;
+        hair_test_live(*state, &strands, &desc, &living);
+        hair_test_wait(&living, 60);
+        hair_test_read_guides(&living);
+        put(&living, &solid, 1);
+        for (int k = 0; k < 60; ++k) {
+            hair_test_wait(&living, 1);
+            hair_test_read_guides(&living);
+            speed = fmax(speed, 60 * hair_test_moved(&living));
+            assert_true(hair_test_stretch(&living) < 0.01);
+        }
+        print_message("    solver %d: up to %.2g m/s\n", solver, speed);
+        assert_true(speed < 5);
+        assert_true(depth(&living, &solid) < 1e-5);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+    }
+}
+
+static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
+{
+    hair_physics physics = loose(0.3f);
+    physics.root         = HAIR_ROOT_FREE;
+    for (int solver = 0; solver < SOLVERS; ++solver) {
+        struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0.1f), 0.1f);
+        struct hair_test_living  living;
+        hair_desc                desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid               solid = sphere(0, -12, 0, 10);
+        hair_test_live(*state, &strands, &desc, &living);
+        put(&living, &solid, 1);
+        hair_test_wait(&living, 180);
+        hair_test_read_guides(&living);
+        assert_true(depth(&living, &solid) < 1e-4);
+        assert_true(depth(&living, &solid) > -1e-3);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+    }
+}
+
+static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
+{
+    hair_solid   solids[HAIR_MAX_SOLIDS];
+    hair_physics physics = loose(0.3f);
+    for (int i = 0; i < HAIR_MAX_SOLIDS; ++i) {
+        double row = i / 8;
+        solids[i]  = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
+                            0.015 + 0.004 * (i % 4));
+    }
+    for (int solver = 0; solver < SOLVERS; ++solver) {
+        struct hair_test_living living[2];
+        for (int run = 0; run < 2; ++run) {
+            struct hair_test_strands strands = hair_test_strands_make(8, 32);
+            for (int k = 0; k < 8; ++k)
+                hair_test_add_straight(&strands, 32, hair_v3(-0.1f + 0.03f * (float)k, 0, 0.003f * (float)k),
+                                       hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
+            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_test_live(*state, &strands, &desc, &living[run]);
+            put(&living[run], solids, HAIR_MAX_SOLIDS);
+            hair_test_wait(&living[run], 180);
+            hair_test_read_guides(&living[run]);
+            hair_test_strands_free(&strands);
+        }
+        double deepest = -INFINITY;
+        for (int i = 0; i < HAIR_MAX_SOLIDS; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
+        print_message("    solver %d: up to %.2g m deep in the margin\n", solver, deepest);
+        assert_true(deepest < 1e-5);
+        assert_true(hair_test_stretch(&living[0]) < 0.01);
+        assert_memory_equal(living[0].positions, living[1].positions, 12 * living[0].vertices);
+        hair_test_die(&living[0]);
+        hair_test_die(&living[1]);
+    }
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep),
+        HAIR_TEST(without_friction_it_slides_off),
+        HAIR_TEST(a_strand_on_a_slope_obeys_coulomb),
+        HAIR_TEST(solids_that_move_and_spin_carry_hair_along),
+        HAIR_TEST(what_is_swept_through_hair_takes_it_along),
+        HAIR_TEST(hair_in_a_solid_that_appears_comes_out_slowly),
+        HAIR_TEST(a_free_strand_comes_to_lie_on_what_it_falls_on),
+        HAIR_TEST(among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
