@@ -53,7 +53,12 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --scene dance", "no scene dance"},
         {"-o $D/a.png --style dance", "no style dance"},
         {"-o $D/a.png --motion dance", "no motion dance"},
-        {"-o $D/a.png --solver dance", "not one of: redblack"},
+        {"-o $D/a.png --solver dance", "not one of: direct, accurate, follow, redblack"},
+        {"-o $D/a.png --set root=held", "not one of: clamped, hinged, free"},
+        {"-o $D/a.png --set mapping=", "mapping is empty, not one of: auto, group, thread"},
+        {"-o $D/a.png --set preset=dry", "not one of: natural, fine, thick, wet, frizzy"},
+        {"-o $D/a.png --set wind.x=1001", "hair_physics.wind[0] is 1001"},
+        {"-o $D/a.png --set substep=1e-6", "hair_desc.substep is 1e-06"},
         {"-o $D/a.png --primitive dance", "not one of: ribbons, lines"},
         {"-o $D/a.png --set damping", "KEY=VALUE"},
         {"-o $D/a.png --set dance=1", "no setting dance"},
@@ -91,6 +96,38 @@ static void help_and_version_are_printed_on_the_standard_output(void** state)
     assert_non_null(strstr(hair_test_said, "Scenes: demo"));
     expect(0, "$T --version 2>/dev/null", "hair-capture 0.");
     expect(1, "$T --help >/dev/full", "");
+}
+
+static void every_number_of_the_physics_can_be_set(void** state)
+{
+    (void)state;
+    static const char* const names[] = {
+#define BEGIN(type)
+#define FIELD(type, name, kind, usual, least, most) #type "." #name,
+#define MATRIX(type, name)
+#define END(type)
+#include "lib/api/fields.inl"
+#undef BEGIN
+#undef FIELD
+#undef MATRIX
+#undef END
+    };
+    uint32_t count = 0;
+    expect(0, "$T --help", "Settings for --set");
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        static const char of[] = "hair_physics.";
+        if (strncmp(names[i], of, sizeof of - 1)) continue;
+        char        line[64];
+        const char* name    = names[i] + sizeof of - 1;
+        const char* bracket = strchr(name, '[');
+        if (bracket)
+            snprintf(line, sizeof line, "\n  %.*s.%c ", (int)(bracket - name), name, "xyz"[bracket[1] - '0']);
+        else
+            snprintf(line, sizeof line, "\n  %s ", name);
+        if (!strstr(hair_test_said, line)) fail_msg("--set has no %s", name);
+        ++count;
+    }
+    assert_true(count >= 24);
 }
 
 static void unusable_input_exits_with_4_and_says_where(void** state)
@@ -159,8 +196,13 @@ static void hashes_are_the_same_twice_and_with_any_number_of_threads(void** stat
 static void hashes_tell_one_capture_from_another(void** state)
 {
     (void)state;
-    static const char* const others[] = {"--frames 3:5", "--frames 2:4 --style bob", "--frames 2:4 --seed 7",
-                                         "--frames 2:4 --set gravity.y=-5", "--frames 2:4 --motion still"};
+    static const char* const others[] = {"--frames 3:5",
+                                         "--frames 2:4 --style bob",
+                                         "--frames 2:4 --seed 7",
+                                         "--frames 2:4 --set gravity.y=-5",
+                                         "--frames 2:4 --motion still",
+                                         "--frames 2:4 --solver follow",
+                                         "--frames 2:4 --set preset=wet"};
     expect(0, "$T --hash --frames 2:4 " WITH_HEAD " >$D/1", "");
     for (size_t i = 0; i < sizeof others / sizeof *others; ++i) {
         char command[512];
@@ -287,9 +329,30 @@ static void stats_tell_what_was_drawn(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
     assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
     assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
-    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/redblack_32\""));
+    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/direct"));
+    assert_null(strstr(hair_test_said, "redblack")); // nor any other pass that has not run
+    assert_null(strstr(hair_test_said, "\"runs\": 0"));
+    assert_non_null(strstr(hair_test_said, "\"health\": {\n    \"euler\": "));
+    assert_non_null(strstr(hair_test_said, "\"reset\": 0"));
+    assert_non_null(strstr(hair_test_said, "\"substep\": 0.00416667"));
     assert_non_null(strstr(hair_test_said, "\"repairs\""));
     expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
+}
+
+static void each_solver_can_be_asked_for(void** state)
+{
+    (void)state;
+    static const char* const solvers[] = {"direct", "accurate", "follow", "redblack"};
+    for (int i = 0; i < 4; ++i) {
+        char command[256], method[64];
+        snprintf(command, sizeof command, "$T " SMALL " --frames 0:2 --solver %s --stats -", solvers[i]);
+        snprintf(method, sizeof method, "\"method\": \"sim/%s", solvers[i]);
+        expect(0, command, method);
+    }
+    expect(0, "$T " SMALL " --frames 0:2 --set mapping=group --stats -",
+           "\"method\": \"sim/direct_curved_32");
+    expect(0, "$T " SMALL " --frames 0:2 --set mapping=thread --stats -",
+           "\"method\": \"sim/direct_thread_curved_32");
 }
 
 static void scene_files_say_what_options_say(void** state)
@@ -299,13 +362,16 @@ static void scene_files_say_what_options_say(void** state)
         0,
         "echo '{\"style\": \"bob\", \"motion\": \"turn\", \"size\": [64, 36], \"fps\": 20, \"frames\": 2,"
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}, \"light\": {\"color\": [2, 2, 2]},"
-        " \"settings\": {\"followers\": 300, \"gravity.y\": -5, \"primitive\": \"lines\"}}' >$D/s.json",
+        " \"settings\": {\"followers\": 300, \"gravity.y\": -5, \"primitive\": \"lines\", \"solver\": "
+        "\"follow\","
+        " \"preset\": \"wet\", \"young\": 1e9, \"root\": \"hinged\", \"wind.z\": 2}}' >$D/s.json",
         "");
     expect(
         0,
         "$T $D/s.json --hash >$D/1 && echo '{\"style\": \"bob\", \"motion\": \"turn\", \"frames\": 2,"
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}}' >$D/t.json && $T $D/t.json --hash"
-        " --size 64x36 --fps 20 --followers 300 --set gravity.y=-5 --primitive lines --set light.r=2"
+        " --size 64x36 --fps 20 --followers 300 --set gravity.y=-5 --primitive lines --solver follow"
+        " --set preset=wet --set young=1e9 --set root=hinged --set wind.z=2 --set light.r=2"
         " --set light.g=2 --set light.b=2 >$D/2 && cmp $D/1 $D/2",
         "");
 }
@@ -364,6 +430,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(help_and_version_are_printed_on_the_standard_output),
+        cmocka_unit_test(every_number_of_the_physics_can_be_set),
         cmocka_unit_test(unusable_input_exits_with_4_and_says_where),
         cmocka_unit_test(a_driver_that_is_too_old_exits_with_3),
         cmocka_unit_test(hashes_are_the_same_twice_and_with_any_number_of_threads),
@@ -378,6 +445,7 @@ int main(void)
         cmocka_unit_test(an_interrupted_capture_exits_with_1_and_keeps_the_old_file),
         cmocka_unit_test(a_folder_that_does_not_exist_exits_with_1),
         cmocka_unit_test(stats_tell_what_was_drawn),
+        cmocka_unit_test(each_solver_can_be_asked_for),
         cmocka_unit_test(scene_files_say_what_options_say),
         cmocka_unit_test(haircuts_from_files_are_framed_and_found_beside_their_scene),
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),

@@ -45,7 +45,7 @@ static const struct row rows[] = {
     {"frames", FRAMES, "A:B", "draw frames A up to, not including, B; those before are simulated only"},
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
-    {"solver", SETTING, "NAME", "redblack"},
+    {"solver", SETTING, "NAME", "direct, accurate, follow or redblack"},
     {"path", SETTING, "NAME", "tessellation"},
     {"primitive", SETTING, "NAME", "ribbons or lines"},
     {"samples", SAMPLES, "N", "a pixel, as many as the driver has; 4"},

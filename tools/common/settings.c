@@ -12,7 +12,7 @@
 #define MAX_TARGETS 3
 #define MAX_CHOICES 4
 
-enum kind { FLOAT, COUNT };
+enum kind { FLOAT, COUNT, PRESET };
 
 // Where one key goes. Several places where several descs ask the same question.
 struct row {
@@ -20,7 +20,7 @@ struct row {
     const char* about;
     enum kind   kind;
     uint16_t    target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
-    const char* choice[MAX_CHOICES]; // names of the values 0, 1, 2
+    const char* choice[MAX_CHOICES]; // names of the values 0, 1, 2, 3
 };
 
 #define AT(member) (uint16_t) offsetof(struct hair_settings, member)
@@ -42,19 +42,39 @@ static const struct row rows[] = {
     {"clump_radius", "of what grows around a guide without a scalp, m", FLOAT, {AT(groom.clump_radius)}, {0}},
     {"seed", "of every random choice", COUNT, {AT(import.seed), AT(style.seed), AT(groom.seed)}, {0}},
 
-    {"solver", "of the motion", COUNT, {AT(desc.solver)}, {"redblack"}},
-    {"substep", "length of a substep, s", FLOAT, {AT(desc.substep)}, {0}},
+    {"solver", "of the motion", COUNT, {AT(desc.solver)}, {"direct", "accurate", "follow", "redblack"}},
+    {"substep", "length of a substep, s; 0: as the solver wants", FLOAT, {AT(desc.substep)}, {0}},
+    {"mapping", "of guides to GPU threads", COUNT, {AT(desc.mapping)}, {"auto", "group", "thread"}},
     {"max_dt", "longest time a step advances, s", FLOAT, {AT(desc.max_dt)}, {0}},
+    {"preset", "kind of hair, which sets some of the numbers below", PRESET, {AT(physics)}, {0}},
     {"gravity.x", "m/s^2", FLOAT, {AT(physics.gravity[0])}, {0}},
     {"gravity.y", "m/s^2", FLOAT, {AT(physics.gravity[1])}, {0}},
     {"gravity.z", "m/s^2", FLOAT, {AT(physics.gravity[2])}, {0}},
-    {"damping", "decay rate of velocity, 1/s", FLOAT, {AT(physics.damping)}, {0}},
+    {"damping", "decay rate of velocity relative to the air, 1/s", FLOAT, {AT(physics.damping)}, {0}},
     {"pull_root", "pull to the rest pose at the root, Hz", FLOAT, {AT(physics.pull_root)}, {0}},
     {"pull_tip", "the same at the tip, Hz", FLOAT, {AT(physics.pull_tip)}, {0}},
-    {"angular", "pull to the rest angle, Hz", FLOAT, {AT(physics.angular)}, {0}},
-    {"bend", "share of the bend that an iteration removes", FLOAT, {AT(physics.bend)}, {0}},
-    {"iterations", "of constraints in a substep", COUNT, {AT(physics.iterations)}, {0}},
+    {"angular", "redblack: pull to the rest angle, Hz", FLOAT, {AT(physics.angular)}, {0}},
+    {"bend", "redblack: share of the bend that an iteration removes", FLOAT, {AT(physics.bend)}, {0}},
+    {"iterations", "redblack: of constraints in a substep", COUNT, {AT(physics.iterations)}, {0}},
     {"margin", "distance kept to solids, m", FLOAT, {AT(physics.margin)}, {0}},
+    {"young", "Young's modulus of a hair, Pa", FLOAT, {AT(physics.young)}, {0}},
+    {"poisson", "its Poisson's ratio", FLOAT, {AT(physics.poisson)}, {0}},
+    {"fiber_radius", "of a hair's section, m", FLOAT, {AT(physics.fiber_radius)}, {0}},
+    {"fiber_density", "of a hair, kg/m^3", FLOAT, {AT(physics.fiber_density)}, {0}},
+    {"flatness", "short by long axis of its section", FLOAT, {AT(physics.flatness)}, {0}},
+    {"stiffness_root",
+     "of a guide, as a multiple of a hair's, at the root",
+     FLOAT,
+     {AT(physics.stiffness_root)},
+     {0}},
+    {"stiffness_tip", "the same at the tip", FLOAT, {AT(physics.stiffness_tip)}, {0}},
+    {"hold", "share of gravity that the rest shape bears", FLOAT, {AT(physics.hold)}, {0}},
+    {"root", "how the scalp holds it", COUNT, {AT(physics.root)}, {"clamped", "hinged", "free"}},
+    {"tip_mass", "hung on the tip, as a multiple of the strand's", FLOAT, {AT(physics.tip_mass)}, {0}},
+    {"wind.x", "velocity of the air, m/s", FLOAT, {AT(physics.wind[0])}, {0}},
+    {"wind.y", "", FLOAT, {AT(physics.wind[1])}, {0}},
+    {"wind.z", "", FLOAT, {AT(physics.wind[2])}, {0}},
+    {"friction", "Coulomb's coefficient with solids", FLOAT, {AT(physics.friction)}, {0}},
 
     {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
@@ -125,6 +145,13 @@ static bool set_choice(struct hair_settings* settings, const struct row* row, co
     return false;
 }
 
+static bool set_preset(struct hair_settings* settings, const char* value)
+{
+    int preset = 0;
+    while (preset < HAIR_PRESET_COUNT && strcmp(hair_preset_name((hair_preset)preset), value)) ++preset;
+    return hair_physics_preset(&settings->physics, (hair_preset)preset) == HAIR_OK;
+}
+
 static bool set_number(struct hair_settings* settings, const struct row* row, const char* value)
 {
     char* end;
@@ -143,18 +170,37 @@ static bool set_number(struct hair_settings* settings, const struct row* row, co
     return true;
 }
 
+static bool set_value(struct hair_settings* settings, const struct row* row, const char* value)
+{
+    if (row->kind == PRESET) return set_preset(settings, value);
+    return row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value);
+}
+
+// The i-th name that a row takes, or NULL.
+static const char* choice_of(const struct row* row, int i)
+{
+    if (row->kind == PRESET) return hair_preset_name((hair_preset)i);
+    return i < MAX_CHOICES ? row->choice[i] : NULL;
+}
+
+static const char* choices_of(const struct row* row, char out[128])
+{
+    size_t used = 0;
+    for (int i = 0; choice_of(row, i); ++i)
+        used += (size_t)snprintf(out + used, 128 - used, "%s%s", i ? ", " : "", choice_of(row, i));
+    return out;
+}
+
 static void complain_of_value(const char* tool, const struct row* row, const char* value)
 {
-    if (!row->choice[0]) {
-        const char* kind = row->kind == COUNT ? "a whole number" : "a finite number";
-        hair_complain(tool, "%s is %s, not %s", row->key, *value ? value : "empty", kind);
+    char names[128];
+    if (choice_of(row, 0)) {
+        hair_complain(tool, "%s is %s, not one of: %s", row->key, *value ? value : "empty",
+                      choices_of(row, names));
         return;
     }
-    char   names[128] = "";
-    size_t used       = 0;
-    for (int i = 0; i < MAX_CHOICES && row->choice[i]; ++i)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", row->choice[i]);
-    hair_complain(tool, "%s is %s, not one of: %s", row->key, *value ? value : "empty", names);
+    const char* kind = row->kind == COUNT ? "a whole number" : "a finite number";
+    hair_complain(tool, "%s is %s, not %s", row->key, *value ? value : "empty", kind);
 }
 
 bool hair_settings_set(const char* tool, struct hair_settings* settings, const char* key, const char* value)
@@ -164,7 +210,7 @@ bool hair_settings_set(const char* tool, struct hair_settings* settings, const c
         hair_complain(tool, "there is no setting %s; --help lists them", *key ? key : "without a name");
         return false;
     }
-    if (row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value)) return true;
+    if (set_value(settings, row, value)) return true;
     complain_of_value(tool, row, value);
     return false;
 }
@@ -179,15 +225,17 @@ void hair_settings_print(FILE* file)
         float             number;
         memcpy(&count, value, sizeof count);
         memcpy(&number, value, sizeof number);
-        char text[32];
-        if (row->choice[0])
-            snprintf(text, sizeof text, "%s", row->choice[count]);
+        char text[32], names[128];
+        if (choice_of(row, 0))
+            snprintf(text, sizeof text, "%s", choice_of(row, row->kind == PRESET ? 0 : (int)count));
         else if (row->kind == COUNT)
             snprintf(text, sizeof text, "%u", count);
         else if (number == HAIR_SCALE_GUESSED)
             snprintf(text, sizeof text, "guessed");
         else
             snprintf(text, sizeof text, "%g", (double)number);
-        fprintf(file, "  %-16s %-12s %s\n", row->key, text, row->about);
+        fprintf(file, "  %-16s %-12s %s", row->key, text, row->about);
+        if (choice_of(row, 0)) fprintf(file, ": %s", choices_of(row, names));
+        fprintf(file, "\n");
     }
 }

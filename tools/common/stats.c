@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <time.h>
 
-#define MAX_PASSES 64
-
 double hair_now(void)
 {
     struct timespec now;
@@ -44,20 +42,36 @@ static json_t* clock_row(const char* name, const char* method, const struct hair
                      (double)clock->ms[clock->count - 1], "runs", clock->count);
 }
 
+// Those that ran.
+static void add_passes(json_t* rows, const char* name, hair_context* context)
+{
+    uint32_t     count  = hair_timings(context, NULL, 0);
+    hair_timing* passes = calloc(count, sizeof *passes);
+    if (passes) hair_timings(context, passes, count);
+    for (uint32_t i = 0; passes && i < count; ++i)
+        if (passes[i].runs)
+            json_array_append_new(rows, json_pack("{s:s, s:s, s:f, s:f, s:i}", "case", name, "method",
+                                                  passes[i].pass, "ms", (double)passes[i].ms, "total_ms",
+                                                  passes[i].total_ms, "runs", passes[i].runs));
+    free(passes);
+}
+
 static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
 {
-    hair_timing passes[MAX_PASSES];
-    uint32_t    count   = hair_timings(context, passes, MAX_PASSES);
-    json_t*     rows    = json_array();
-    json_t*     wall[2] = {clock_row(stats->name, "step", &stats->step),
-                           clock_row(stats->name, "draw", &stats->draw)};
+    json_t* rows    = json_array();
+    json_t* wall[2] = {clock_row(stats->name, "step", &stats->step),
+                       clock_row(stats->name, "draw", &stats->draw)};
     for (int i = 0; i < 2; ++i)
         if (wall[i]) json_array_append_new(rows, wall[i]);
-    for (uint32_t i = 0; i < count && i < MAX_PASSES; ++i)
-        json_array_append_new(rows,
-                              json_pack("{s:s, s:s, s:f, s:i}", "case", stats->name, "method", passes[i].pass,
-                                        "ms", (double)passes[i].ms, "runs", passes[i].runs));
+    add_passes(rows, stats->name, context);
     return rows;
+}
+
+static json_t* health_of(const hair_health* health)
+{
+    return json_pack("{s:i, s:i, s:i, s:i, s:f, s:f}", "euler", health->euler, "follow", health->follow,
+                     "reset", health->reset, "stiffened", health->stiffened, "stiffest",
+                     (double)health->stiffest, "substep", (double)health->substep);
 }
 
 static json_t* groom_of(const hair_groom_info* groom)
@@ -79,9 +93,10 @@ bool hair_stats_write(const char* tool, const char* path, const struct hair_stat
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
     json_t* root =
-        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o}", "suite", "capture", "version", version,
+        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o, s:o}", "suite", "capture", "version", version,
                   "renderer", stats->renderer, "size", stats->width, stats->height, "frames", stats->first,
-                  stats->end, "groom", groom_of(&stats->groom), "rows", rows_of(stats, context));
+                  stats->end, "groom", groom_of(&stats->groom), "health", health_of(&stats->health), "rows",
+                  rows_of(stats, context));
     struct hair_output output;
     bool               ok = root && hair_output_open(tool, path, &output);
     if (ok) {

@@ -17,6 +17,7 @@ struct hair_stats {
     const char*       renderer;
     uint32_t          width, height, first, end;
     hair_groom_info   groom;
+    hair_health       health;
     struct hair_clock step, draw; // draw: with shadow map, head and reading the picture
 };
 
