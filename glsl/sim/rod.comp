@@ -24,8 +24,8 @@ void load()
     EACH(guide_count) {
         uint      at         = guide_first + i;
         vec3      from_root  = rest[at].position.xyz - root_at_rest;
-        float     share      = float(i) / float(guide_count - 1u);
-        PUT(place, i, state[at].position.xyz - root_then);
+        // What is held is where the scalp has it, wherever it was when it was not.
+        PUT(place, i, rod[at].segment.y > 0.0 ? state[at].position.xyz - root_then : vec3(0.0));
         own(displacement)    = state[at].displacement.xyz * rescale;
         rest_length[i]       = rod[at].segment.x;
         slack[i]             = rod[at].segment.y;
