@@ -1,0 +1,281 @@
+// rod_stress_test.c - what no hair should be put through: strands as rods stay finite and of their length, and are back
+// in their rest shape four seconds later.
+#include "tests/support/living.h"
+
+#include <math.h>
+
+#define TURN 6.283185307179586
+
+struct stress {
+    const char* name;
+    // The head before the i-th frame, and how long that is; 0: over.
+    double (*frame)(uint32_t i, struct hair_reference_rod_pose* head);
+    // Other physics: from the start, or while it lasts.
+    void (*change)(hair_physics* physics);
+    int lasting;
+    int returns; // to the rest shape
+};
+
+static const hair_vec3 up = {0, 1, 0};
+
+static double stand(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    *head = hair_test_pose_of(hair_v3(0, 0, 0), up, 0);
+    return i < 60 ? 1.0 / 60 : 0;
+}
+
+static double wander(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    *head = hair_test_pose_of(hair_v3(0.3f * sinf((float)i), 0, 0.2f * cosf(2 * (float)i)), up, 0.5 * i);
+    return i < 12 ? 1 : 0;
+}
+
+static double in_seconds(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    return wander(i + 6, head);
+}
+
+static double in_tenths(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    return 0.1 * wander(i, head);
+}
+
+static double in_nothing(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    wander(i / 3, head);
+    return i < 30 ? 1e-9 : 0;
+}
+
+static double unevenly(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    *head = hair_test_pose_of(hair_v3(0.05f * sinf(0.9f * (float)i), 0, 0), up, 0);
+    return i >= 60 ? 0 : i % 2 ? 1.0 / 30 : 1.0 / 240;
+}
+
+static double jump(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    *head = hair_test_pose_of(hair_v3(i % 10 > 4 ? 10 : 0, 0, 0), up, 0);
+    return i < 60 ? 1.0 / 60 : 0;
+}
+
+static double spin(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    double time = (i + 1) / 60.0;
+    *head       = hair_test_pose_of(hair_v3(0, 0, 0), up, TURN * 10 * time * fmin(2 * time, 1));
+    return i < 60 ? 1.0 / 60 : 0;
+}
+
+static double flip(uint32_t i, struct hair_reference_rod_pose* head)
+{
+    *head = hair_test_pose_of(hair_v3(0, 0, 0), hair_v3(0, 0, 1), i / 10 % 2 ? TURN / 2 : 0);
+    return i < 60 ? 1.0 / 60 : 0;
+}
+
+static void make_stiff(hair_physics* physics)
+{
+    physics->young = 1e12f;
+}
+static void make_soft(hair_physics* physics)
+{
+    physics->young = 0;
+}
+static void make_heavy(hair_physics* physics)
+{
+    physics->tip_mass = 1000;
+}
+static void make_loose(hair_physics* physics)
+{
+    physics->root = HAIR_ROOT_FREE;
+}
+static void blow(hair_physics* physics)
+{
+    physics->wind[0] = 1000, physics->wind[2] = -1000;
+}
+static void weigh(hair_physics* physics)
+{
+    physics->gravity[0] = 1000, physics->gravity[1] = 300;
+}
+
+static const struct stress stresses[] = {
+    {"frames of 1 s", in_seconds, NULL, 0, 1},
+    {"frames of 0.1 s", in_tenths, NULL, 0, 1},
+    {"frames of 1 ns", in_nothing, NULL, 0, 1},
+    {"frames of 1/30 and 1/240 s", unevenly, NULL, 0, 1},
+    {"jumps of 10 m", jump, NULL, 0, 1},
+    {"10 turns a second", spin, NULL, 0, 1},
+    {"the root turned over", flip, NULL, 0, 1},
+    {"gravity of 1000 m/s^2", stand, weigh, 0, 1},
+    {"wind of 1000 m/s", stand, blow, 0, 1},
+    {"Young's modulus of 1e12 Pa", unevenly, make_stiff, 1, 0},
+    {"no stiffness", unevenly, make_soft, 1, 0},
+    {"a tip of 1000 times the mass", unevenly, make_heavy, 1, 0},
+    {"a root let go of", unevenly, make_loose, 0, 1},
+};
+
+// A straight strand and a curl, which their rest shape bears.
+static struct hair_test_strands strands(void)
+{
+    struct hair_test_strands s = hair_test_strands_make(2, 24);
+    hair_test_add_straight(&s, 16, hair_v3(0.1f, 0, 0), hair_v3(0.6f, -1, 0), 0.12f);
+    for (uint32_t i = 0; i < 24; ++i) {
+        float t = (float)i / 23;
+        hair_store3(s.positions + 3 * (size_t)s.vertex_count++,
+                    hair_v3(-0.1f + 0.015f * (1 - cosf(8 * t)), -0.2f * t, 0.015f * sinf(8 * t)));
+    }
+    s.vertices[s.count++] = 24;
+    return s;
+}
+
+// And the calm after it: 4 s. Returns the largest stretch of all frames.
+static double suffer(struct hair_test_living* living, const struct stress* stress)
+{
+    struct hair_reference_rod_pose head, home = hair_test_pose_of(hair_v3(0, 0, 0), up, 0);
+    hair_physics                   calm = living->physics, changed = calm;
+    double                         dt, most                        = 0;
+    if (stress->change && !stress->lasting) stress->change(&changed);
+    hair_test_ok(living->test, hair_set_physics(living->hair, &changed));
+    for (uint32_t i = 0; (dt = stress->frame(i, &head)) > 0; ++i) {
+        hair_test_advance(living, &head, dt);
+        hair_test_read_guides(living);
+        most = fmax(most, hair_test_stretch(living));
+    }
+    hair_test_ok(living->test, hair_set_physics(living->hair, &calm));
+    for (uint32_t i = 0; i < 240; ++i) {
+        hair_test_advance(living, &home, 1.0 / 60);
+        hair_test_read_guides(living);
+        most = fmax(most, hair_test_stretch(living));
+    }
+    return most;
+}
+
+static struct hair_test_living start(struct hair_test* test, hair_solver solver, hair_mapping mapping,
+                                     const struct stress* stress)
+{
+    struct hair_test_living  living;
+    hair_physics             physics = hair_physics_default();
+    struct hair_test_strands s       = strands();
+    if (stress && stress->lasting) stress->change(&physics);
+    hair_desc desc = hair_test_rods(solver, mapping, 0, &physics);
+    desc.max_dt    = 1;
+    hair_test_live(test, &s, &desc, &living);
+    hair_test_strands_free(&s);
+    return living;
+}
+
+// Farthest that a guide is from its rest pose, in its lengths.
+static double from_rest(const struct hair_test_living* living)
+{
+    double most = 0;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        for (uint32_t i = 0; i < living->groom->guides[g].count; ++i) {
+            hair_vec3 rest = hair_load3(&living->groom->rest[living->groom->guides[g].first + i].position.x);
+            double    off  = (double)hair_distance(hair_test_at(living, g, i), rest);
+            most           = fmax(most, off / hair_test_length(living, g));
+        }
+    return most;
+}
+
+static void try_all(struct hair_test* test, hair_mapping mapping, int solvers)
+{
+    for (size_t n = 0; n < sizeof stresses / sizeof *stresses; ++n)
+        for (int solver = 0; solver < solvers; ++solver) {
+            struct hair_test_living living = start(test, (hair_solver)solver, mapping, &stresses[n]);
+            double                  most = suffer(&living, &stresses[n]), off = from_rest(&living);
+            hair_health             health = hair_test_health(&living);
+            print_message("    %s, solver %d: stretch %.2g, then %.2g of the length from rest; %u by Euler, "
+                          "%u follow, %u reset\n",
+                          stresses[n].name, solver, most, off, health.euler, health.follow, health.reset);
+            assert_true(most <= 0.02);
+            if (stresses[n].returns && solver != HAIR_SOLVER_FOLLOW) assert_true(off < 0.01);
+            assert_int_equal(health.reset, 0);
+            hair_test_die(&living);
+        }
+}
+
+static void hair_bears_what_nobody_should_do_to_it(void** state)
+{
+    try_all(*state, HAIR_MAPPING_GROUP, HAIR_SOLVER_REDBLACK);
+}
+
+static void so_it_does_with_a_thread_per_guide(void** state)
+{
+    try_all(*state, HAIR_MAPPING_THREAD, 1);
+}
+
+// Far from the world's origin floats know centimetres: positions are from the head's. Brought home they are compared.
+static void a_head_100_km_out_is_a_head_like_any_other(void** state)
+{
+    for (int solver = 0; solver < 2; ++solver) {
+        static const float      home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        struct hair_test_living far      = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        struct hair_test_living near     = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        float                   away[16];
+        for (int k = 0; k < 16; ++k) away[k] = home[k];
+        away[12] = 1e5f, away[14] = -1e5f;
+        hair_test_ok(*state, hair_teleport(far.hair, away));
+        for (int k = 0; k < 60; ++k) {
+            double                         y  = 0.03 * sin(0.2 * k);
+            struct hair_reference_rod_pose at = hair_test_pose_of(hair_v3(1e5f, (float)y, -1e5f), up, 0);
+            struct hair_reference_rod_pose by = hair_test_pose_of(hair_v3(0, (float)y, 0), up, 0);
+            hair_test_advance(&far, &at, 1.0 / 60);
+            hair_test_advance(&near, &by, 1.0 / 60);
+        }
+        hair_test_ok(*state, hair_teleport(far.hair, home));
+        hair_test_ok(*state, hair_teleport(near.hair, home));
+        hair_test_read_guides(&far);
+        hair_test_read_guides(&near);
+        double most = 0;
+        for (uint32_t i = 0; i < near.vertices; ++i)
+            most = fmax(most, (double)hair_distance(hair_load3(far.positions + 3 * i),
+                                                    hair_load3(near.positions + 3 * i)));
+        print_message("    solver %d: %.2g m apart\n", solver, most);
+        assert_true(most < 1e-5);
+        hair_test_die(&far);
+        hair_test_die(&near);
+    }
+}
+
+static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
+{
+    for (int solver = 0; solver < 2; ++solver) {
+        struct hair_test_living living = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        uint32_t                frames = (uint32_t)(20000 * 60 * (double)hair_test_health(&living).substep);
+        hair_test_wait(&living, 180);
+        hair_test_read_guides(&living);
+        hair_test_wait(&living, frames);
+        hair_test_read_guides(&living);
+        print_message("    solver %d: moved by %.2g m in %u frames\n", solver, hair_test_moved(&living),
+                      frames);
+        assert_true(hair_test_moved(&living) < 1e-5);
+        hair_test_healthy(&living);
+        hair_test_die(&living);
+    }
+}
+
+static void health_says_what_happened(void** state)
+{
+    for (int solver = 0; solver < 2; ++solver) {
+        struct hair_test_living living = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        hair_test_wait(&living, 60);
+        hair_test_healthy(&living);
+        suffer(&living, &stresses[4]); // No method but following the leader bears a jump of 10 m.
+        hair_health health = hair_test_health(&living);
+        assert_true(health.euler > 0);
+        assert_true(health.follow > 0);
+        assert_int_equal(health.reset, 0);
+        hair_test_die(&living);
+    }
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(hair_bears_what_nobody_should_do_to_it),
+        HAIR_TEST(so_it_does_with_a_thread_per_guide),
+        HAIR_TEST(a_head_100_km_out_is_a_head_like_any_other),
+        HAIR_TEST(twenty_thousand_substeps_at_rest_change_nothing),
+        HAIR_TEST(health_says_what_happened),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
