@@ -1,0 +1,249 @@
+// rod_shape_test.c - strands as rods keep their shape, bend and twist as the reference does, and hold their groom.
+#include "tests/support/living.h"
+
+#include <math.h>
+
+#define FRAME (1.0 / 60)
+static const hair_vec3 origin = {0, 0, 0};
+
+enum shape { WAVE, CURL, TRESS, SHAPES };
+
+// Of the length *user, more or less; a wave that stands out, a curl that does, and a strand that hangs.
+static hair_vec3 curve(float t, uint32_t strand, const void* user)
+{
+    float l = *(const float*)user;
+    switch (strand) {
+    case WAVE: return hair_v3(l * t, 0.05f * l * (1 - cosf(18 * t)), 0.03f * l * sinf(11 * t));
+    case CURL: return hair_v3(0.7f * l * t, 0.06f * l * (cosf(14 * t) - 1), 0.06f * l * sinf(14 * t));
+    default: return hair_v3(0.03f * l * (1 - cosf(10 * t)), -l * t, 0.02f * l * sinf(8 * t));
+    }
+}
+
+static struct hair_test_strands shapes(uint32_t vertices, float length)
+{
+    struct hair_test_strands s = hair_test_strands_make(SHAPES, vertices);
+    for (uint32_t k = 0; k < SHAPES; ++k) hair_test_strands_add(&s, vertices, curve, &length);
+    return s;
+}
+
+static void live(struct hair_test* test, struct hair_test_strands strands, hair_solver solver,
+                 const hair_physics* physics, struct hair_test_living* out)
+{
+    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+}
+
+static void without_loads_a_groom_is_at_rest(void** state)
+{
+    hair_physics physics = hair_test_bare();
+    physics.gravity[1]   = 0;
+    for (int solver = 0; solver < 2; ++solver)
+        for (int flat = 0; flat < 2; ++flat) {
+            struct hair_test_living living;
+            physics.flatness = flat ? 0.4f : 1;
+            live(*state, shapes(33, 0.2f), (hair_solver)solver, &physics, &living);
+            hair_test_wait(&living, 120);
+            hair_test_read_guides(&living);
+            print_message("    solver %d: %.2g m away\n", solver, hair_test_from_rest(&living));
+            assert_true(hair_test_from_rest(&living) < 2e-6);
+            hair_test_healthy(&living);
+            hair_test_die(&living);
+        }
+}
+
+// Stiff enough to stand out by itself, and not: then it is made so.
+static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** state)
+{
+    static const float lengths[] = {0.05f, 0.25f};
+    hair_physics       physics   = hair_physics_default();
+    physics.pull_root = physics.pull_tip = 0;
+    for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
+        for (int k = 0; k < 2; ++k) {
+            struct hair_test_living living;
+            live(*state, hair_test_straight(16, origin, hair_v3(1, 0, 0), lengths[k]), (hair_solver)solver,
+                 &physics, &living);
+            hair_test_wait(&living, 120);
+            hair_test_read_guides(&living);
+            hair_health health = hair_test_health(&living);
+            print_message("    solver %d: %.2g m away, stiffened %.3g times\n", solver,
+                          hair_test_from_rest(&living), (double)health.stiffest);
+            assert_true(hair_test_from_rest(&living) < 1e-5 * (double)lengths[k]);
+            assert_int_equal(health.stiffened, k);
+            assert_true(k ? health.stiffest > 5 : health.stiffest == 1);
+            hair_test_healthy(&living);
+            hair_test_die(&living);
+        }
+}
+
+static void with_hold_waves_and_curls_stay_under_accurate(void** state)
+{
+    hair_physics physics = hair_physics_default();
+    physics.pull_root = physics.pull_tip = 0;
+    struct hair_test_living living;
+    live(*state, shapes(33, 0.3f), HAIR_SOLVER_ACCURATE, &physics, &living);
+    hair_test_wait(&living, 120);
+    hair_test_read_guides(&living);
+    print_message("    %.2g m away\n", hair_test_from_rest(&living));
+    assert_true(hair_test_from_rest(&living) < 1e-5 * 0.3);
+    hair_test_healthy(&living);
+    hair_test_die(&living);
+}
+
+// Farthest of any guide from the reference while the head is shaken, in lengths.
+static double shake(struct hair_test_living* living, uint32_t frames)
+{
+    double                     most = 0;
+    struct hair_reference_rod* rods[SHAPES];
+    for (uint32_t g = 0; g < SHAPES; ++g) rods[g] = hair_test_reference(living, g, NULL);
+    for (uint32_t k = 1; k <= frames; ++k) {
+        struct hair_reference_rod_pose head = hair_test_shaken(k * FRAME);
+        hair_test_advance(living, &head, FRAME);
+        hair_test_read_guides(living);
+        for (uint32_t g = 0; g < SHAPES; ++g) {
+            uint32_t substeps = (uint32_t)fmax(96, 2 * FRAME / hair_reference_rod_longest_substep(rods[g]));
+            assert_true(hair_reference_rod_advance(rods[g], &head, FRAME, substeps));
+            most = fmax(most, hair_test_off(living, g, rods[g]) / hair_test_length(living, g));
+        }
+    }
+    for (uint32_t g = 0; g < SHAPES; ++g) hair_reference_rod_destroy(rods[g]);
+    return most;
+}
+
+static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
+{
+    static const struct {
+        double gravity, flatness, direct, accurate;
+    } cases[] = {{0, 1, 0.01, 2e-4}, {9.81, 1, 0.1, 5e-3}, {0, 0.5, 0.01, 2e-4}, {0, 0.15, 0.04, 2e-4}};
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
+        for (int solver = 0; solver < 2; ++solver) {
+            struct hair_test_living living;
+            hair_physics            physics = hair_test_bare();
+            physics.gravity[1]              = (float)-cases[n].gravity;
+            physics.flatness                = (float)cases[n].flatness;
+            live(*state, shapes(20, 0.25f), (hair_solver)solver, &physics, &living);
+            double off = shake(&living, 15);
+            print_message("    gravity %g, flatness %g, solver %d: off by %.2g of the length\n",
+                          cases[n].gravity, cases[n].flatness, solver, off);
+            assert_true(off < (solver == HAIR_SOLVER_DIRECT ? cases[n].direct : cases[n].accurate));
+            hair_test_die(&living);
+        }
+}
+
+// The head turns by 1.2 rad within a second, about some axis or along the first segment, about which only twist tells
+// the strand so; three seconds later every strand is in its rest shape under it.
+static void a_head_that_turns_takes_shapes_with_it(void** state)
+{
+    const hair_vec3 axes[]  = {{0.3f, 0.5f, -0.8f}, {0, 0, 0}};
+    hair_physics    physics = hair_test_bare();
+    physics.gravity[1]      = 0;
+    physics.damping         = 8;
+    for (int solver = 0; solver < 2; ++solver)
+        for (int k = 0; k < 2; ++k)
+            for (uint32_t g = 0; g < SHAPES; ++g) {
+                struct hair_test_strands one = hair_test_strands_make(1, 20), all = shapes(20, 0.12f);
+                struct hair_test_living  living;
+                for (int i = 0; i < 60; ++i) one.positions[i] = all.positions[60 * g + (uint32_t)i];
+                one.vertices[one.count++] = one.vertex_count = 20;
+                hair_vec3 first = hair_sub(hair_load3(one.positions + 3), hair_load3(one.positions));
+                hair_test_strands_free(&all);
+                live(*state, one, (hair_solver)solver, &physics, &living);
+                struct hair_reference_rod_pose head = {{0}, {0, 0, 0, 1}};
+                for (int i = 1; i <= 240; ++i) {
+                    head = hair_test_pose_of(origin, k ? first : axes[0], 1.2 * fmin(i / 60.0, 1));
+                    hair_test_advance(&living, &head, FRAME);
+                }
+                hair_test_read_guides(&living);
+                double    most = 0;
+                hair_quat turn = {(float)head.rotation[0], (float)head.rotation[1], (float)head.rotation[2],
+                                  (float)head.rotation[3]};
+                for (uint32_t i = 0; i < 20; ++i) {
+                    hair_vec3 aim = hair_rotate(turn, hair_load3(&living.groom->rest[i].position.x));
+                    most          = fmax(most, (double)hair_distance(hair_test_at(&living, 0, i), aim));
+                }
+                print_message("    solver %d, shape %u, %s: %.2g m away\n", solver, g,
+                              k ? "along the root" : "about some axis", most);
+                assert_true(most < 1e-5);
+                hair_test_die(&living);
+            }
+}
+
+static void compare_at_rest(struct hair_test* test, const char* what, const hair_physics* physics,
+                            float length, double direct, double accurate)
+{
+    for (int solver = 0; solver < 2; ++solver) {
+        struct hair_test_living living;
+        live(test, hair_test_straight(24, origin, hair_v3(1, 0, 0), length), (hair_solver)solver, physics,
+             &living);
+        struct hair_reference_rod*       rod    = hair_test_reference(&living, 0, NULL);
+        struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
+        assert_true(rested.converged);
+        hair_test_wait(&living, 300);
+        hair_test_read_guides(&living);
+        double off = hair_test_off(&living, 0, rod) / (double)length;
+        print_message("    %s, solver %d: off by %.2g of the length, bent by %.3g\n", what, solver, off,
+                      hair_test_from_rest(&living) / (double)length);
+        assert_true(off < (solver == HAIR_SOLVER_DIRECT ? direct : accurate));
+        hair_reference_rod_destroy(rod);
+        hair_test_die(&living);
+    }
+}
+
+// Horizontal: a hair of 5, 10 and 30 cm under its own weight, Gamma = 1, 8 and 216.
+static void a_cantilever_hangs_as_the_reference_does(void** state)
+{
+    hair_physics physics = hair_physics_default();
+    physics.pull_root = physics.pull_tip = 0;
+    physics.hold                         = 0;
+    physics.damping                      = 8;
+    compare_at_rest(*state, "5 cm", &physics, 0.05f, 5e-4, 1e-4);
+    compare_at_rest(*state, "10 cm", &physics, 0.1f, 1e-2, 5e-6);
+    compare_at_rest(*state, "30 cm", &physics, 0.3f, 1e-2, 5e-6);
+    physics.stiffness_root = 6, physics.stiffness_tip = 0.3f;
+    compare_at_rest(*state, "stiff at the root", &physics, 0.1f, 1e-3, 1e-4);
+    physics.stiffness_root = 0.3f, physics.stiffness_tip = 6;
+    compare_at_rest(*state, "stiff at the tip", &physics, 0.1f, 2e-2, 5e-3);
+    physics.stiffness_root = physics.stiffness_tip = 1;
+    physics.tip_mass                               = 2;
+    compare_at_rest(*state, "heavy at the tip", &physics, 0.05f, 2e-2, 5e-3);
+}
+
+// The root frame of a strand along x has its own x along -y and its z along z: gravity along z bends it about the
+// section's long axis, the easy way.
+static void a_flat_section_bends_about_its_long_axis(void** state)
+{
+    hair_physics physics = hair_physics_default();
+    physics.pull_root = physics.pull_tip = 0;
+    physics.hold                         = 0;
+    physics.damping                      = 8;
+    physics.flatness                     = 0.4f;
+    physics.gravity[1] = 0, physics.gravity[2] = -9.81f;
+    double bent[2];
+    for (int side = 0; side < 2; ++side) {
+        struct hair_test_living living;
+        physics.gravity[1] = side ? 0 : -9.81f, physics.gravity[2] = side ? -9.81f : 0;
+        live(*state, hair_test_straight(12, origin, hair_v3(1, 0, 0), 0.03f), HAIR_SOLVER_ACCURATE, &physics,
+             &living);
+        hair_test_wait(&living, 300);
+        hair_test_read_guides(&living);
+        bent[side] = hair_test_from_rest(&living);
+        hair_test_die(&living);
+    }
+    print_message("    bent by %.3g m and %.3g m\n", bent[0], bent[1]);
+    hair_test_near("easy way over hard way", 0, bent[1] / bent[0], 1 / (0.4 * 0.4), 0.3);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(without_loads_a_groom_is_at_rest),
+        HAIR_TEST(with_hold_a_straight_strand_stands_out_as_it_was_groomed),
+        HAIR_TEST(with_hold_waves_and_curls_stay_under_accurate),
+        HAIR_TEST(curved_strands_bend_and_twist_as_the_reference_does),
+        HAIR_TEST(a_head_that_turns_takes_shapes_with_it),
+        HAIR_TEST(a_cantilever_hangs_as_the_reference_does),
+        HAIR_TEST(a_flat_section_bends_about_its_long_axis),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
