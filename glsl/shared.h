@@ -44,6 +44,10 @@ typedef uint32_t hair_uint;
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
 #define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT], of every solver
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
+// The pass that writes the field has neither guides nor these:
+#define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
+#define HAIR_BIND_MEMBER 1 // uint[]             places in the next, of the solids that reach into each brick
+#define HAIR_BIND_SOLID 2  // hair_field_solid[]
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
@@ -54,6 +58,7 @@ typedef uint32_t hair_uint;
 // Uniform buffers.
 #define HAIR_BIND_STEP 0 // hair_step_params
 #define HAIR_BIND_DRAW 1 // hair_draw_params
+#define HAIR_BIND_FIELD 2 // hair_field_params
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -62,6 +67,12 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
+#define HAIR_UNIT_FIELD 8    // the field: signed distance, m
+#define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
+
+// Image units, for the pass that writes the field.
+#define HAIR_IMAGE_FIELD 0
+#define HAIR_IMAGE_SOLID 1
 
 #define HAIR_GROUP_SIZE 64           // threads of a work group, but for those of a guide: lib/gl/passes.inl
 #define HAIR_MAX_GUIDES 262144       // of a groom
@@ -72,6 +83,8 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
+#define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
+#define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -196,6 +209,34 @@ struct hair_patch {
     hair_uint unused;
 };
 HAIR_SIZE(hair_patch, 16)
+
+// Where the field is, and what it counts as near.
+struct hair_field_params {
+    hair_vec4 rotation; // of the head: unit quaternion
+    hair_vec4 lower;    // xyz: corner of its box, m, in the head's frame; w: side of a voxel, m
+    hair_vec4 inverse;  // xyz: 1 / sides of the box, 1/m; w: the distance that stands for all beyond it, m
+};
+HAIR_SIZE(hair_field_params, 48)
+
+// A solid in the head's frame.
+struct hair_field_solid {
+    hair_vec4 position; // xyz: m; w: rounding, m
+    hair_vec4 rotation; // unit quaternion: its own axes to the head's
+    hair_vec4 size;     // xyz: as its shape says, m
+    hair_uint shape;    // hair_shape
+    hair_uint number;   // among the instance's solids
+    hair_uint unused0, unused1;
+};
+HAIR_SIZE(hair_field_solid, 64)
+
+// HAIR_BRICK^3 voxels, and the solids that reach into them.
+struct hair_field_brick {
+    hair_uint at;    // its place among bricks: x + (y << 10) + (z << 20)
+    hair_uint first; // member
+    hair_uint count;
+    hair_uint unused;
+};
+HAIR_SIZE(hair_field_brick, 16)
 
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {

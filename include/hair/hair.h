@@ -163,7 +163,8 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-7,
-                    ///< uniform buffers 0-1, buffer textures of units 0-4, 2D texture, sampler of unit 5.
+                    ///< uniform buffers 0-2, buffer textures of units 0-4, 2D texture, sampler of unit 5,
+                    ///< 3D textures, samplers of units 8-9, image units 0-1.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
@@ -272,6 +273,7 @@ typedef struct hair_desc {
     const hair_physics* physics; ///< NULL: the defaults.
     const hair_look*    look;    ///< NULL: the defaults.
     float               transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
+    float field_voxel; ///< Side of a voxel of the field, see hair_field_info. m. [0.0005, 1]. Default 0.005.
 } hair_desc;
 HAIR_DESC(hair_desc)
 
@@ -385,6 +387,24 @@ HAIR_DESC(hair_health)
 
 /// Waits for the GPU.
 HAIR_API hair_result hair_get_health(hair_instance* hair, hair_health* out);
+
+/// The field: how far the nearest solid is, in a box in the head's frame around the hair at rest and a quarter of the
+/// longest strand beyond it. Along its longest side are 32 to 256 voxels, of the side that hair_desc asks for as far as
+/// that allows. Exact at the middles of voxels for every shape but forms, between them to be interpolated.
+typedef struct hair_field_info {
+    hair_made made;
+    uint32_t  distance_texture; ///< Of OpenGL: 3D, R16F. m, below 0 inside. 0: no solid reaches into the box.
+    uint32_t  solid_texture; ///< 3D, R32UI: number of the nearest solid, 4294967295 where none is near. Or 0.
+    uint32_t  size[3];       ///< Voxels along the head's x, y and z.
+    float     voxel;         ///< Side of one. m.
+    float     far; ///< Of solids farther than this it says so and no more; and so of all beyond the box. m.
+    float     transform[16]; ///< World to texture coordinates: the box is [0, 1]^3.
+} hair_field_info;
+HAIR_DESC(hair_field_info)
+
+/// Bring the field up to date with the solids and the head of the last step, for shaders of the host to read. Only what
+/// moved is written. The textures are the library's, and as they are until the next call for this instance.
+HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
 typedef struct hair_timing {
     const char* pass;     ///< Static text: the shader's path under glsl/.

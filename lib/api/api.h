@@ -4,6 +4,7 @@
 
 #include "lib/api/fields.h"
 #include "lib/draw/draw.h"
+#include "lib/field/field.h"
 
 struct hair_context {
     hair_host      host;
@@ -11,16 +12,20 @@ struct hair_context {
 };
 
 struct hair_instance {
-    hair_context*      context;
-    char               label[64];
-    double             max_dt;     // s
-    int                has_slowed; // dt was beyond max_dt, and the log has said so
-    struct hair_sim    sim;
-    struct hair_smooth smooth;
-    struct hair_draw   draw;
+    hair_context*           context;
+    char                    label[64];
+    double                  max_dt;     // s
+    int                     has_slowed; // dt was beyond max_dt, and the log has said so
+    struct hair_sim         sim;
+    struct hair_smooth      smooth;
+    struct hair_draw        draw;
+    struct hair_solid_field field;
 };
 
 // HAIR_ERROR_OPENGL unless a context is current: OpenGL without one does nothing, or worse.
 hair_result hair_check_current(const hair_context* context);
+
+// The field as the last step left head and solids. [GL], with the context entered.
+hair_result hair_update_field(hair_instance* hair);
 
 #endif

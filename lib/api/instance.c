@@ -53,6 +53,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
+    hair_field_create(&hair->field, &context->gl, groom, desc->field_voxel);
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
     if (!result) tell_stiffened(hair);
@@ -91,6 +92,7 @@ void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
     hair_draw_destroy(&hair->draw);
+    hair_field_destroy(&hair->field);
     hair_smooth_destroy(&hair->smooth);
     hair_sim_destroy(&hair->sim);
     hair_free(&hair->context->host, hair);

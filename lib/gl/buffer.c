@@ -1,4 +1,4 @@
-// buffer.c - buffers and buffer textures, checked: the error flag stays the host's, so sizes are asked back.
+// buffer.c - buffers and textures, checked: the error flag stays the host's, so sizes are asked back.
 #include "lib/gl/gl.h"
 
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
@@ -72,6 +72,36 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);
     gl->TextureBuffer(texture, format, buffer);
+    gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
+    *out = texture;
+    return HAIR_OK;
+}
+
+hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
+                               GLenum filter, GLuint* out)
+{
+    GLuint texture = 0;
+    GLint  most = 0, got = 0;
+    gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    for (int i = 0; i < 3; ++i)
+        if (size[i] > (uint32_t)most)
+            return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
+                             label, size[i], most);
+    gl->CreateTextures(GL_TEXTURE_3D, 1, &texture);
+    if (texture) {
+        gl->TextureStorage3D(texture, 1, format, (GLsizei)size[0], (GLsizei)size[1], (GLsizei)size[2]);
+        gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH, &got);
+    }
+    if (got != (GLint)size[2]) {
+        if (texture) gl->DeleteTextures(1, &texture);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %u x %u x %u texels for %s",
+                         size[0], size[1], size[2], label);
+    }
+    gl->TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, (GLint)filter);
+    gl->TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, (GLint)filter);
+    gl->TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->TextureParameteri(texture, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
     gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
     *out = texture;
     return HAIR_OK;

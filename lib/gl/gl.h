@@ -14,6 +14,8 @@ typedef enum hair_gl_pass {
     HAIR_GL_PASS_COUNT
 } hair_gl_pass;
 
+#define HAIR_GL_UNITS (HAIR_UNIT_SOLID + 1)
+
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 
 struct hair_gl_timer {
@@ -26,10 +28,11 @@ struct hair_gl_timer {
 // What a draw or a dispatch changes, to be put back. See state.c.
 struct hair_gl_saved {
     GLint      program, vertex_array, patch_vertices, active_texture, cull;
-    GLint      texture[HAIR_UNIT_SHADOW + 1], sampler;
-    GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_DRAW + 1];
-    GLintptr   storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_DRAW + 1];
-    GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_DRAW + 1];
+    GLint      texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
+    GLint      image[HAIR_IMAGE_SOLID + 1][6]; // name, level, layered, layer, access, format
+    GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
+    GLintptr   storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
+    GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
 struct hair_gl {
@@ -104,6 +107,11 @@ void        hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size
 
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
+
+// A 3D texture without mipmaps, what is in it undefined, its outermost texels drawn out. 0 and an error when the driver
+// refuses.
+hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
+                               GLenum filter, GLuint* out);
 void        hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
 void        hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 

@@ -21,6 +21,7 @@
     ROD_PASS_OF(name, label, defines) \
     ROD_PASS_OF(name##_THREAD, label "_thread", "HAIR_THREAD_PER_GUIDE=1 " defines)
 
+PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
 PASS(RESET, "sim/reset", "sim/reset.comp")
 PASS(TURN, "sim/turn", "sim/turn.comp")
 PASS(RESET_ROD, "sim/reset_rod", "HAIR_ROD=1 sim/reset.comp")

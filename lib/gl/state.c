@@ -28,6 +28,47 @@ static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, co
     }
 }
 
+// What a unit holds that the library binds there.
+static GLenum target_of(GLuint unit)
+{
+    if (unit == HAIR_UNIT_SHADOW) return GL_TEXTURE_2D;
+    return unit >= HAIR_UNIT_FIELD ? GL_TEXTURE_3D : GL_TEXTURE_BUFFER;
+}
+
+static void save_units(struct hair_gl* gl)
+{
+    struct hair_gl_saved* saved = &gl->saved;
+    gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
+    for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
+        GLenum target  = target_of(unit);
+        GLenum binding = target == GL_TEXTURE_2D   ? GL_TEXTURE_BINDING_2D
+                         : target == GL_TEXTURE_3D ? GL_TEXTURE_BINDING_3D
+                                                   : GL_TEXTURE_BINDING_BUFFER;
+        gl->GetIntegeri_v(binding, unit, &saved->texture[unit]);
+        if (target != GL_TEXTURE_BUFFER) gl->GetIntegeri_v(GL_SAMPLER_BINDING, unit, &saved->sampler[unit]);
+    }
+    static const GLenum parts[] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
+                                   GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
+        for (int i = 0; i < 6; ++i) gl->GetIntegeri_v(parts[i], unit, &saved->image[unit][i]);
+}
+
+static void restore_units(struct hair_gl* gl)
+{
+    const struct hair_gl_saved* saved = &gl->saved;
+    for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
+        // By target: glBindTextureUnit(unit, 0) would empty the unit's other targets too.
+        gl->ActiveTexture(GL_TEXTURE0 + unit);
+        gl->BindTexture(target_of(unit), (GLuint)saved->texture[unit]);
+        if (target_of(unit) != GL_TEXTURE_BUFFER) gl->BindSampler(unit, (GLuint)saved->sampler[unit]);
+    }
+    gl->ActiveTexture((GLenum)saved->active_texture);
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit) {
+        const GLint* i = saved->image[unit];
+        gl->BindImageTexture(unit, (GLuint)i[0], i[1], (GLboolean)i[2], i[3], (GLenum)i[4], (GLenum)i[5]);
+    }
+}
+
 void hair_gl_enter(struct hair_gl* gl)
 {
     if (gl->promise == HAIR_GL_CLOBBER) return;
@@ -35,18 +76,13 @@ void hair_gl_enter(struct hair_gl* gl)
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
     gl->GetIntegerv(GL_PATCH_VERTICES, &saved->patch_vertices);
-    gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
     saved->cull = gl->IsEnabled(GL_CULL_FACE);
-    for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit) {
-        GLenum binding = unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_BINDING_2D : GL_TEXTURE_BINDING_BUFFER;
-        gl->GetIntegeri_v(binding, unit, &saved->texture[unit]);
-    }
-    gl->GetIntegeri_v(GL_SAMPLER_BINDING, HAIR_UNIT_SHADOW, &saved->sampler);
+    save_units(gl);
     save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
                  GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_REDUCTION + 1, saved->storage, saved->storage_first,
                  saved->storage_size);
     save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
-                 HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
+                 HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
 // Nothing that the library may delete stays bound. A program that is deleted while current cannot be made current again
@@ -56,7 +92,9 @@ static void unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_DRAW + 1, NULL);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1, NULL);
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
+        gl->BindImageTexture(unit, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
 }
 
 void hair_gl_leave(struct hair_gl* gl)
@@ -70,16 +108,9 @@ void hair_gl_leave(struct hair_gl* gl)
     gl->BindVertexArray((GLuint)saved->vertex_array);
     gl->PatchParameteri(GL_PATCH_VERTICES, saved->patch_vertices);
     (saved->cull ? gl->Enable : gl->Disable)(GL_CULL_FACE);
-    for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit) {
-        // By target: glBindTextureUnit(unit, 0) would empty the unit's other targets too.
-        gl->ActiveTexture(GL_TEXTURE0 + unit);
-        gl->BindTexture(unit == HAIR_UNIT_SHADOW ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER,
-                        (GLuint)saved->texture[unit]);
-    }
-    gl->ActiveTexture((GLenum)saved->active_texture);
-    gl->BindSampler(HAIR_UNIT_SHADOW, (GLuint)saved->sampler);
+    restore_units(gl);
     restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_REDUCTION + 1, saved->storage,
                     saved->storage_first, saved->storage_size);
-    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW + 1, saved->uniform, saved->uniform_first,
+    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first,
                     saved->uniform_size);
 }

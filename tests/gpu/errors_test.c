@@ -47,6 +47,7 @@ static void null_objects_are_argument_errors(void** state)
     assert_int_equal(hair_draw(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_read(NULL, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_get_health(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_field(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_timings(NULL, NULL, 0), 0);
     hair_destroy(NULL);
     hair_context_destroy(NULL);
@@ -89,6 +90,7 @@ static void null_arguments_are_named(void** state)
     refused(test, hair_read(hair, HAIR_READ_GUIDES, NULL, 1, &count), HAIR_ERROR_ARGUMENT,
             "positions is NULL");
     refused(test, hair_get_health(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_health is NULL");
+    refused(test, hair_get_field(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_field_info is NULL");
     refused(test, hair_read(hair, (hair_read_what)3, positions, 1, &count), HAIR_ERROR_ARGUMENT,
             "what is 3, not in [0, 2]");
     drop(hair, groom);

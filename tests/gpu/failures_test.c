@@ -47,6 +47,7 @@ static void without_a_current_context_every_call_says_so(void** state)
     uint32_t          count;
     size_t            size;
     hair_health       health = hair_health_default();
+    hair_field_info   field  = hair_field_info_default();
     const char*       words  = "no OpenGL context is current";
     of.host                  = &test->host.host;
     of.get_proc              = hair_egl_get_proc;
@@ -62,6 +63,7 @@ static void without_a_current_context_every_call_says_so(void** state)
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
     refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL, words);
     refused(test, hair_get_health(hair, &health), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_get_field(hair, &field), HAIR_ERROR_OPENGL, words);
     hair_egl_make_current(test->egl);
     hair_test_ok(test, hair_step(hair, 0.1f));
     drop(hair, groom);

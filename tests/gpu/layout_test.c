@@ -100,6 +100,20 @@ static const struct member members[] = {
     UINT(hair_patch, count),
     FLOAT(hair_patch, density),
     UINT(hair_patch, unused),
+    VEC4(hair_field_params, rotation),
+    VEC4(hair_field_params, lower),
+    VEC4(hair_field_params, inverse),
+    VEC4(hair_field_solid, position),
+    VEC4(hair_field_solid, rotation),
+    VEC4(hair_field_solid, size),
+    UINT(hair_field_solid, shape),
+    UINT(hair_field_solid, number),
+    UINT(hair_field_solid, unused0),
+    UINT(hair_field_solid, unused1),
+    UINT(hair_field_brick, at),
+    UINT(hair_field_brick, first),
+    UINT(hair_field_brick, count),
+    UINT(hair_field_brick, unused),
     MAT4(hair_draw_params, view),
     MAT4(hair_draw_params, view_to_clip),
     MAT4(hair_draw_params, shadow),
@@ -128,9 +142,10 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),    STRUCT(hair_rest),    STRUCT(hair_rod),         STRUCT(hair_state),
-    STRUCT(hair_history),  STRUCT(hair_capsule), STRUCT(hair_substep),     STRUCT(hair_step_params),
-    STRUCT(hair_follower), STRUCT(hair_patch),   STRUCT(hair_draw_params),
+    STRUCT(hair_guide),       STRUCT(hair_rest),        STRUCT(hair_rod),         STRUCT(hair_state),
+    STRUCT(hair_history),     STRUCT(hair_capsule),     STRUCT(hair_substep),     STRUCT(hair_step_params),
+    STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params), STRUCT(hair_field_params),
+    STRUCT(hair_field_solid), STRUCT(hair_field_brick),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)
@@ -282,6 +297,11 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STEP(ACCURATE_THREAD_SOLIDS_32),
         STEP(SMOOTH_32),
         STEP(SMOOTH_256),
+        {HAIR_GL_VOXELISE, GL_UNIFORM_BLOCK, "field_buffer", HAIR_BIND_FIELD,
+         sizeof(struct hair_field_params)},
+        STORAGE(VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
+        STORAGE(VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
+        STORAGE(VOXELISE, "solid_buffer", SOLID, sizeof(struct hair_field_solid)),
         DRAW(EXPAND),
         DRAW(RIBBONS)};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {

@@ -152,6 +152,12 @@ static hair_result read_all(struct fixture* f)
         result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
     return result;
 }
+static hair_result ask_field(struct fixture* f)
+{
+    hair_field_info info   = hair_field_info_default();
+    hair_result     result = hair_get_field(f->hair, &info);
+    return result || info.distance_texture ? result : HAIR_ERROR_ARGUMENT;
+}
 static hair_result save_and_load(struct fixture* f)
 {
     static unsigned char bytes[65536];
@@ -190,6 +196,7 @@ static const struct {
     {"hair_step without a substep", step_without_substep},
     {"setters", set_all},
     {"hair_step with a solid", step},
+    {"hair_get_field", ask_field},
     {"hair_draw", draw},
     {"hair_read", read_all},
     {"hair_teleport", teleport},
@@ -222,9 +229,10 @@ static int may_change(const char* name)
     if (!number) return 0;
     int i = atoi(number + 1);
     if (strncmp(name, "GL_SHADER_STORAGE_BUFFER_", 25) == 0) return i < 8;
-    if (strncmp(name, "GL_UNIFORM_BUFFER_", 18) == 0) return i < 2;
+    if (strncmp(name, "GL_UNIFORM_BUFFER_", 18) == 0) return i < 3;
     if (strncmp(name, "GL_TEXTURE_BINDING_", 19) == 0 || strncmp(name, "GL_SAMPLER_BINDING", 18) == 0)
-        return i < 7;
+        return i < 10;
+    if (strncmp(name, "GL_IMAGE_BINDING_", 17) == 0) return i < 2;
     return 0;
 }
 

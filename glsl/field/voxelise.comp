@@ -1,0 +1,35 @@
+// voxelise.comp - a brick of the field written: the distance of each voxel's centre to the nearest of the solids that
+// reach into the brick, exactly, and which one that is. One work group per brick, one thread per voxel.
+#version 450 core
+#include "field_params.glsl"
+#include "workgroup.glsl"
+#include "field/shape.glsl"
+layout(local_size_x = HAIR_BRICK, local_size_y = HAIR_BRICK, local_size_z = HAIR_BRICK) in;
+
+#define DEEPEST 6e4 // m: what a half can hold
+
+layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_field_brick brick[]; };
+layout(std430, binding = HAIR_BIND_MEMBER) readonly buffer member_buffer { uint member[]; };
+layout(std430, binding = HAIR_BIND_SOLID) readonly buffer solid_buffer { hair_field_solid solid[]; };
+layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
+layout(binding = HAIR_IMAGE_SOLID, r32ui) writeonly uniform uimage3D solid_image;
+
+void main()
+{
+    hair_field_brick own      = brick[hair_group()];
+    ivec3            corner   = ivec3(own.at & 1023u, (own.at >> 10) & 1023u, own.at >> 20) * HAIR_BRICK;
+    ivec3            voxel    = corner + ivec3(gl_LocalInvocationID);
+    vec3             position = field.lower.xyz + (vec3(voxel) + 0.5) * field.lower.w;
+    float            nearest  = field.inverse.w;
+    uint             number   = HAIR_NO_SOLID;
+    for (uint i = own.first; i < own.first + own.count; ++i) {
+        hair_field_solid other    = solid[member[i]];
+        float            distance = solid_distance(other, position);
+        if (distance < nearest) {
+            nearest = distance;
+            number  = other.number;
+        }
+    }
+    imageStore(field_image, voxel, vec4(max(nearest, -DEEPEST)));
+    imageStore(solid_image, voxel, uvec4(number));
+}

@@ -1,0 +1,194 @@
+// bricks.c - which bricks of the field are written again, and which solids reach into each of them.
+//
+// A solid is left out of a brick where it is farther than the band, and where another is nearer to every voxel: distances
+// from a brick's middle change by no more than its radius on the way to a voxel.
+#include "lib/field/bricks.h"
+
+#include <string.h>
+
+#define MOST_PAIRS (1u << 18) // at once, unless one brick has more
+
+static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
+{
+    return (z * box->bricks[1] + y) * box->bricks[0] + x;
+}
+
+// What a solid's band touches within the bricks from `first` up to `end`.
+struct range {
+    uint32_t first[3], end[3];
+};
+
+static struct range overlap(const struct hair_placed* placed, const struct range* with)
+{
+    struct range range;
+    for (int i = 0; i < 3; ++i) {
+        range.first[i] = placed->first[i] > with->first[i] ? placed->first[i] : with->first[i];
+        range.end[i]   = placed->end[i] < with->end[i] ? placed->end[i] : with->end[i];
+        if (range.end[i] < range.first[i]) range.end[i] = range.first[i];
+    }
+    return range;
+}
+
+#define EACH_BRICK(range, x, y, z)                                                                           \
+    for (uint32_t z = (range).first[2]; z < (range).end[2]; ++z)                                             \
+        for (uint32_t y = (range).first[1]; y < (range).end[1]; ++y)                                         \
+            for (uint32_t x = (range).first[0]; x < (range).end[0]; ++x)
+
+static struct range all_of(const struct hair_field_box* box)
+{
+    return (struct range){{0, 0, 0}, {box->bricks[0], box->bricks[1], box->bricks[2]}};
+}
+
+void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed)
+{
+    const struct hair_field_box* box   = &field->box;
+    struct range                 all   = all_of(box);
+    struct range                 range = overlap(placed, &all);
+    float                        most  = box->far + hair_field_brick_radius(box);
+    EACH_BRICK(range, x, y, z)
+    {
+        uint32_t brick = brick_at(box, x, y, z);
+        if (!field->dirty[brick] && hair_field_distance_to(box, placed, x, y, z) < most)
+            field->dirty[brick] = 1;
+    }
+}
+
+// The bricks that hold all that are marked. Returns how many those are.
+static uint32_t find_dirty(const struct hair_solid_field* field, struct range* out)
+{
+    const struct hair_field_box* box   = &field->box;
+    struct range                 all   = all_of(box);
+    uint32_t                     count = 0;
+    *out                               = (struct range){{UINT32_MAX, UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
+    EACH_BRICK(all, x, y, z)
+    {
+        if (!field->dirty[brick_at(box, x, y, z)]) continue;
+        const uint32_t at[] = {x, y, z};
+        for (int i = 0; i < 3; ++i) {
+            if (at[i] < out->first[i]) out->first[i] = at[i];
+            if (at[i] + 1 > out->end[i]) out->end[i] = at[i] + 1;
+        }
+        ++count;
+    }
+    return count;
+}
+
+void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job)
+{
+    const struct hair_field_box* box = &field->box;
+    struct range                 dirty;
+    memset(job, 0, sizeof *job);
+    if (!find_dirty(field, &dirty)) return;
+    // At most how many members each will have.
+    memset(field->members, 0, hair_field_bricks(box) * sizeof *field->members);
+    for (uint32_t i = 0; i < field->count; ++i) {
+        struct range range = overlap(&field->placed[i], &dirty);
+        EACH_BRICK(range, x, y, z) field->members[brick_at(box, x, y, z)]++;
+    }
+    job->end = hair_field_bricks(box);
+}
+
+struct pair {
+    uint32_t brick, solid;
+    float    distance; // from the brick's middle
+};
+
+// Marked bricks from job->next on, until they have as many pairs as fit. Returns where to go on.
+static uint32_t take_bricks(const struct hair_solid_field* field, const struct hair_field_job* job,
+                            uint32_t* bricks, size_t* pairs)
+{
+    uint32_t end = job->next;
+    for (; end < job->end; ++end) {
+        if (!field->dirty[end]) continue;
+        if (*bricks && *pairs + field->members[end] > MOST_PAIRS) break;
+        *pairs += field->members[end];
+        ++*bricks;
+    }
+    return end;
+}
+
+// Solid after solid, brick after brick. Returns how many there are.
+static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_field_job* job, uint32_t end,
+                           struct pair* pairs)
+{
+    const struct hair_field_box* box   = &field->box;
+    uint32_t                     layer = box->bricks[0] * box->bricks[1], count = 0;
+    float                        radius = hair_field_brick_radius(box);
+    struct range                 slab   = all_of(box);
+    slab.first[2]                       = job->next / layer;
+    slab.end[2]                         = (end - 1) / layer + 1;
+    for (uint32_t b = job->next; b < end; ++b) field->best[b] = box->far;
+    for (uint32_t i = 0; i < field->count; ++i) {
+        struct range range = overlap(&field->placed[i], &slab);
+        EACH_BRICK(range, x, y, z)
+        {
+            uint32_t brick = brick_at(box, x, y, z);
+            if (brick < job->next || brick >= end || !field->dirty[brick]) continue;
+            float distance = hair_field_distance_to(box, &field->placed[i], x, y, z);
+            if (distance - radius > field->best[brick]) continue;
+            field->best[brick] = fminf(field->best[brick], distance + radius);
+            pairs[count++]     = (struct pair){brick, i, distance};
+        }
+    }
+    return count;
+}
+
+// Pairs become members, in the order of solids in every brick.
+static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* job, uint32_t end,
+                       const struct pair* pairs, uint32_t count)
+{
+    const struct hair_field_box* box    = &field->box;
+    float                        radius = hair_field_brick_radius(box);
+    uint32_t                     first = 0, last = HAIR_NO_SOLID;
+    for (uint32_t b = job->next; b < end; ++b) field->members[b] = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        field->members[pairs[i].brick] += pairs[i].distance - radius <= field->best[pairs[i].brick];
+    for (uint32_t b = job->next; b < end; ++b) {
+        if (!field->dirty[b]) continue;
+        uint32_t x = b % box->bricks[0], y = b / box->bricks[0] % box->bricks[1],
+                 z                = b / box->bricks[0] / box->bricks[1];
+        job->brick[job->bricks++] = (struct hair_field_brick){
+            .at = x + (y << 10) + (z << 20), .first = first, .count = field->members[b]};
+        uint32_t members  = field->members[b];
+        field->members[b] = first; // Where its next goes.
+        first += members;
+        field->dirty[b] = 0;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        if (!(pairs[i].distance - radius <= field->best[pairs[i].brick])) continue;
+        if (pairs[i].solid != last) job->solid[job->solids++] = field->placed[pairs[i].solid].solid;
+        last                                          = pairs[i].solid;
+        job->member[field->members[pairs[i].brick]++] = job->solids - 1;
+    }
+    job->members = first;
+}
+
+hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_job* job)
+{
+    const hair_host* host   = &field->gl->host;
+    uint32_t         bricks = 0;
+    size_t           most   = 0;
+    hair_field_end(field, job);
+    job->bricks = job->members = job->solids = 0;
+    uint32_t end                             = take_bricks(field, job, &bricks, &most);
+    if (!bricks) return HAIR_OK;
+    struct pair* pairs = hair_alloc(host, most, sizeof *pairs);
+    uint32_t     count = pairs ? find_pairs(field, job, end, pairs) : 0;
+    job->brick         = hair_alloc(host, bricks, sizeof *job->brick);
+    job->member        = hair_alloc(host, count, sizeof *job->member);
+    job->solid         = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->solid);
+    if (pairs && job->brick && job->member && job->solid) sort_pairs(field, job, end, pairs, count);
+    hair_free(host, pairs);
+    job->next = end;
+    return job->bricks ? HAIR_OK : hair_fail_memory(host, "what is to be written of the field");
+}
+
+void hair_field_end(struct hair_solid_field* field, struct hair_field_job* job)
+{
+    hair_free(&field->gl->host, job->brick);
+    hair_free(&field->gl->host, job->member);
+    hair_free(&field->gl->host, job->solid);
+    job->brick  = NULL;
+    job->member = NULL;
+    job->solid  = NULL;
+}

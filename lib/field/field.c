@@ -1,0 +1,207 @@
+// field.c - the field's textures, and what is dispatched to write them.
+#include "lib/field/bricks.h"
+
+#include <string.h>
+
+#define ALIGNMENT 256 // of ranges of storage buffers: the most that a driver may ask for
+
+void hair_field_create(struct hair_solid_field* field, struct hair_gl* gl, const struct hair_groom* groom,
+                       float voxel)
+{
+    memset(field, 0, sizeof *field);
+    field->gl  = gl;
+    field->box = hair_field_box_of(groom, voxel);
+}
+
+// As hair_field_create left it.
+static void clear(struct hair_solid_field* field)
+{
+    struct hair_gl* gl = field->gl;
+    hair_gl_free_texture(gl, &field->distance);
+    hair_gl_free_texture(gl, &field->number);
+    hair_gl_free_buffer(gl, &field->params);
+    hair_gl_free_buffer(gl, &field->work);
+    hair_free(&gl->host, field->placed);
+    hair_free(&gl->host, field->dirty);
+    hair_free(&gl->host, field->members);
+    hair_free(&gl->host, field->best);
+    *field = (struct hair_solid_field){.gl = gl, .box = field->box};
+}
+
+void hair_field_destroy(struct hair_solid_field* field)
+{
+    if (field->gl) clear(field);
+}
+
+static hair_result make(struct hair_solid_field* field)
+{
+    struct hair_gl*              gl     = field->gl;
+    const struct hair_field_box* box    = &field->box;
+    uint32_t                     bricks = hair_field_bricks(box), size[3];
+    for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
+    hair_result result = hair_gl_texture_3d(gl, "hair field", GL_R16F, size, GL_LINEAR, &field->distance);
+    if (!result)
+        result = hair_gl_texture_3d(gl, "hair field solid", GL_R32UI, size, GL_NEAREST, &field->number);
+    if (!result) result = hair_gl_uniform(gl, "hair field", sizeof(struct hair_field_params), &field->params);
+    if (!result) result = hair_gl_uniform(gl, "hair field work", ALIGNMENT, &field->work);
+    if (result) return result;
+    field->dirty   = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
+    field->members = hair_alloc(&gl->host, bricks, sizeof *field->members);
+    field->best    = hair_alloc(&gl->host, bricks, sizeof *field->best);
+    if (!field->dirty || !field->members || !field->best) return hair_fail_memory(&gl->host, "the field");
+    memset(field->dirty, 1, bricks);
+    return HAIR_OK;
+}
+
+// Placing ---------------------------------------------------------------------------------------------------
+
+static hair_result make_room(struct hair_solid_field* field, uint32_t count)
+{
+    if (count <= field->room) return HAIR_OK;
+    const hair_host*    host   = &field->gl->host;
+    uint32_t            room   = count < 16 ? 16 : count + count / 2;
+    struct hair_placed* placed = hair_alloc(host, room, sizeof *placed);
+    if (!placed) return hair_fail_memory(host, "solids in the field");
+    if (field->count) memcpy(placed, field->placed, field->count * sizeof *placed);
+    hair_free(host, field->placed);
+    field->placed = placed;
+    field->room   = room;
+    return HAIR_OK;
+}
+
+// Where solids are, instead of where they were; what they leave and enter is marked, if there is a field yet.
+static void place_all(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
+                      const struct hair_pose* head)
+{
+    uint32_t most = count > field->count ? count : field->count, near = 0;
+    for (uint32_t i = 0; i < most; ++i) {
+        struct hair_placed* placed = &field->placed[i];
+        int                 was = i < field->count, is = i < count;
+        struct hair_placed  now = {0};
+        if (is) now = hair_field_place(&field->box, &solids[i], i, head);
+        if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
+            if (was && field->dirty) hair_field_mark(field, placed);
+            if (is && field->dirty) hair_field_mark(field, &now);
+            *placed = now;
+        }
+        near += is && hair_field_is_inside(placed);
+    }
+    field->count = count;
+    field->near  = near;
+}
+
+// Writing ---------------------------------------------------------------------------------------------------
+
+static void write_params(struct hair_solid_field* field, hair_quat rotation)
+{
+    const struct hair_field_box* box    = &field->box;
+    float                        brick  = HAIR_BRICK * box->voxel;
+    struct hair_field_params     params = {.rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
+                                           .lower    = {box->lower.x, box->lower.y, box->lower.z, box->voxel},
+                                           .inverse  = {1 / (brick * (float)box->bricks[0]),
+                                                        1 / (brick * (float)box->bricks[1]),
+                                                        1 / (brick * (float)box->bricks[2]), box->far}};
+    field->rotation                     = rotation;
+    hair_gl_write_uniform(field->gl, field->params, sizeof params, &params);
+}
+
+static size_t aligned(size_t size)
+{
+    return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
+// Bricks, members and solids, one after the other in one buffer.
+static hair_result dispatch(struct hair_solid_field* field, const struct hair_field_job* job)
+{
+    struct hair_gl* gl        = field->gl;
+    const size_t    sizes[]   = {job->bricks * sizeof *job->brick, job->members * sizeof *job->member,
+                                 job->solids * sizeof *job->solid};
+    const void*     parts[]   = {job->brick, job->member, job->solid};
+    const GLuint    buffers[] = {field->work, field->work, field->work};
+    GLintptr        at[3];
+    GLsizeiptr      length[3];
+    size_t          all = 0;
+    GLint64         got = 0;
+    for (int i = 0; i < 3; ++i) {
+        at[i]     = (GLintptr)all;
+        length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
+        all += aligned((size_t)length[i]);
+    }
+    unsigned char* bytes = hair_alloc(&gl->host, all, 1);
+    if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
+    for (int i = 0; i < 3; ++i)
+        if (sizes[i]) memcpy(bytes + at[i], parts[i], sizes[i]);
+    hair_gl_write_uniform(gl, field->work, all, bytes);
+    hair_free(&gl->host, bytes);
+    gl->GetNamedBufferParameteri64v(field->work, GL_BUFFER_SIZE, &got);
+    if (got != (GLint64)all)
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for hair field work",
+                         all);
+    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 3, buffers, at, length);
+    hair_gl_run(gl, HAIR_GL_VOXELISE, job->bricks);
+    return HAIR_OK;
+}
+
+static hair_result write_marked(struct hair_solid_field* field)
+{
+    struct hair_gl*       gl = field->gl;
+    struct hair_field_job job;
+    hair_result           result;
+    int                   ran = 0;
+    hair_field_begin(field, &job);
+    while ((result = hair_field_next(field, &job)) == HAIR_OK && job.bricks) {
+        if (!ran) {
+            gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
+            gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
+            gl->BindImageTexture(HAIR_IMAGE_SOLID, field->number, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32UI);
+        }
+        ran    = 1;
+        result = dispatch(field, &job);
+        if (result) break;
+    }
+    hair_field_end(field, &job);
+    // What is written again must not be overtaken, nor what the host reads of it.
+    if (ran) gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    return result;
+}
+
+static int is_same(hair_quat a, hair_quat b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
+hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
+                              const struct hair_pose* head)
+{
+    if (!count) {
+        if (field->placed) clear(field);
+        return HAIR_OK;
+    }
+    hair_result result = make_room(field, count);
+    if (!result) place_all(field, solids, count, head);
+    if (!result && field->near && !field->distance) {
+        result = make(field);
+        if (!result) write_params(field, head->rotation);
+    }
+    if (!result && field->distance) {
+        if (!is_same(field->rotation, head->rotation)) write_params(field, head->rotation);
+        result = write_marked(field);
+    }
+    if (result) clear(field);
+    return result;
+}
+
+int hair_field_is_near(const struct hair_solid_field* field)
+{
+    return field->distance && field->near;
+}
+
+void hair_field_bind(const struct hair_solid_field* field)
+{
+    struct hair_gl* gl = field->gl;
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
+    gl->BindTextureUnit(HAIR_UNIT_FIELD, field->distance);
+    gl->BindTextureUnit(HAIR_UNIT_SOLID, field->number);
+    gl->BindSampler(HAIR_UNIT_FIELD, 0);
+    gl->BindSampler(HAIR_UNIT_SOLID, 0);
+}

@@ -1,0 +1,169 @@
+// place.c - the field's box, and solids in it.
+#include "lib/field/place.h"
+
+#include <string.h>
+
+#define SWING 0.25f     // of the longest strand: how far beyond its rest shape hair is looked for
+#define STILL 0.01f     // of a voxel: a solid that moves less has not moved; errors of rounding do no more
+#define EVERYWHERE 1e9f // m
+
+static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
+{
+    *lower = hair_v3(fminf(lower->x, at.x - around), fminf(lower->y, at.y - around),
+                     fminf(lower->z, at.z - around));
+    *upper = hair_v3(fmaxf(upper->x, at.x + around), fmaxf(upper->y, at.y + around),
+                     fmaxf(upper->z, at.z + around));
+}
+
+// Hair is within a strand's length of its roots, and most of it, most of the time, near its rest shape: a box of all that
+// it can reach is several times as long as that of long hair at rest, and mostly empty. So it is the rest shape and a
+// quarter of the longest strand around it, as far as that can be reached. What swings farther finds no solid there;
+// guides do not depend on it.
+static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_vec3* upper)
+{
+    hair_vec3 reach[2] = {{EVERYWHERE, EVERYWHERE, EVERYWHERE}, {-EVERYWHERE, -EVERYWHERE, -EVERYWHERE}};
+    float     longest  = 0;
+    *lower = reach[0], *upper = reach[1];
+    for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
+        const struct hair_guide* guide = &groom->guides[i];
+        for (uint32_t k = 0; k < guide->count; ++k) {
+            hair_vec4 at = groom->rest[guide->first + k].position;
+            include(hair_v3(at.x, at.y, at.z), 0, lower, upper);
+            if (k == 0) include(hair_v3(at.x, at.y, at.z), guide->arc_length, &reach[0], &reach[1]);
+        }
+        longest = fmaxf(longest, guide->arc_length);
+    }
+    float around = SWING * longest;
+    *lower       = hair_v3(fmaxf(lower->x - around, reach[0].x), fmaxf(lower->y - around, reach[0].y),
+                           fmaxf(lower->z - around, reach[0].z));
+    *upper       = hair_v3(fminf(upper->x + around, reach[1].x), fminf(upper->y + around, reach[1].y),
+                           fminf(upper->z + around, reach[1].z));
+}
+
+static uint32_t count_bricks(float length, float voxel)
+{
+    uint32_t voxels = (uint32_t)fminf(fmaxf(ceilf(length / voxel - 1e-3f), 1), HAIR_FIELD_LONGEST);
+    return (voxels + HAIR_BRICK - 1) / HAIR_BRICK;
+}
+
+struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float voxel)
+{
+    hair_vec3 lower, upper;
+    find_bounds(groom, &lower, &upper);
+    hair_vec3             size = hair_sub(upper, lower), middle = hair_lerp(lower, upper, 0.5f);
+    float                 longest = fmaxf(size.x, fmaxf(size.y, size.z));
+    struct hair_field_box box;
+    box.voxel     = fmaxf(fminf(fmaxf(voxel, longest / HAIR_FIELD_LONGEST), longest / HAIR_FIELD_SHORTEST),
+                          HAIR_FIELD_LEAST);
+    box.far       = HAIR_FIELD_BAND * box.voxel;
+    box.bricks[0] = count_bricks(size.x, box.voxel);
+    box.bricks[1] = count_bricks(size.y, box.voxel);
+    box.bricks[2] = count_bricks(size.z, box.voxel);
+    float half    = 0.5f * HAIR_BRICK * box.voxel;
+    box.lower     = hair_sub(middle, hair_v3(half * (float)box.bricks[0], half * (float)box.bricks[1],
+                                             half * (float)box.bricks[2]));
+    return box;
+}
+
+// Solids ----------------------------------------------------------------------------------------------------
+
+static hair_quat quat_of(hair_vec4 q)
+{
+    return (hair_quat){q.x, q.y, q.z, q.w};
+}
+
+// A box in the solid's own axes, and how far its surface is around that at most.
+static void find_extent(const struct hair_field_solid* solid, hair_vec3* half, float* around)
+{
+    *half   = hair_v3(0, solid->shape == HAIR_SHAPE_CAPSULE ? solid->size.y : 0, 0);
+    *around = solid->size.x + solid->position.w;
+}
+
+static void find_bricks(const struct hair_field_box* box, struct hair_placed* placed)
+{
+    const struct hair_field_solid* solid = &placed->solid;
+    hair_quat                      turn  = quat_of(solid->rotation);
+    hair_vec3                      half;
+    float                          around;
+    find_extent(solid, &half, &around);
+    hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
+              z          = hair_rotate(turn, hair_v3(0, 0, half.z));
+    const float extent[] = {fabsf(x.x) + fabsf(y.x) + fabsf(z.x), fabsf(x.y) + fabsf(y.y) + fabsf(z.y),
+                            fabsf(x.z) + fabsf(y.z) + fabsf(z.z)};
+    const float at[]     = {solid->position.x - box->lower.x, solid->position.y - box->lower.y,
+                            solid->position.z - box->lower.z};
+    float       brick    = HAIR_BRICK * box->voxel;
+    int         outside  = 0;
+    for (int i = 0; i < 3; ++i) {
+        float first      = (at[i] - extent[i] - around - box->far) / brick;
+        float end        = (at[i] + extent[i] + around + box->far) / brick;
+        float most       = (float)box->bricks[i];
+        placed->first[i] = (uint16_t)fminf(fmaxf(floorf(first), 0), most);
+        placed->end[i]   = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
+        outside |= placed->first[i] >= placed->end[i];
+    }
+    if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
+}
+
+struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_solid* solid,
+                                    uint32_t number, const struct hair_pose* head)
+{
+    hair_quat back = hair_quat_conjugate(head->rotation);
+    hair_vec3 from = {(float)((double)solid->position[0] - head->position[0]),
+                      (float)((double)solid->position[1] - head->position[1]),
+                      (float)((double)solid->position[2] - head->position[2])};
+    hair_vec3 at   = hair_rotate(back, from);
+    hair_quat own  = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
+    hair_quat turn = hair_quat_multiply(back, hair_quat_normalize(own));
+
+    struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, 0},
+                                           .rotation = {turn.x, turn.y, turn.z, turn.w},
+                                           .size     = {solid->size[0], solid->size[1], 0, 0},
+                                           .shape    = (hair_uint)solid->shape,
+                                           .number   = number}};
+    find_bricks(box, &placed);
+    return placed;
+}
+
+int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed* from,
+                         const struct hair_placed* to)
+{
+    const struct hair_field_solid *a = &from->solid, *b = &to->solid;
+    if (a->shape != b->shape || a->number != b->number || a->position.w != b->position.w ||
+        memcmp(&a->size, &b->size, sizeof a->size))
+        return 1;
+    // A point moves by its centre's way and by the turn times its distance from it, of which only that in the box counts.
+    hair_vec3 half = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
+                                0.5f * HAIR_BRICK * box->voxel);
+    hair_vec3 centre = hair_v3(a->position.x, a->position.y, a->position.z);
+    hair_vec3 extent;
+    float     around, arm = hair_distance(centre, hair_add(box->lower, half)) + hair_length(half);
+    find_extent(a, &extent, &around);
+    arm = fminf(arm, hair_length(extent) + around);
+
+    float     sign = a->rotation.x * b->rotation.x + a->rotation.y * b->rotation.y +
+                             a->rotation.z * b->rotation.z + a->rotation.w * b->rotation.w <
+                         0
+                         ? -1.0f
+                         : 1.0f;
+    float     turn = 0;
+    hair_vec3 way =
+        hair_v3(b->position.x - a->position.x, b->position.y - a->position.y, b->position.z - a->position.z);
+    const float d[] = {b->rotation.x - sign * a->rotation.x, b->rotation.y - sign * a->rotation.y,
+                       b->rotation.z - sign * a->rotation.z, b->rotation.w - sign * a->rotation.w};
+    for (int i = 0; i < 4; ++i) turn += d[i] * d[i];
+    return !(hair_length(way) + 2 * sqrtf(turn) * arm <= STILL * box->voxel);
+}
+
+float hair_field_distance_to(const struct hair_field_box* box, const struct hair_placed* placed, uint32_t x,
+                             uint32_t y, uint32_t z)
+{
+    const struct hair_field_solid* solid = &placed->solid;
+    float                          brick = HAIR_BRICK * box->voxel;
+    hair_vec3                      middle =
+        hair_add(box->lower, hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), brick));
+    hair_vec3 p = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
+    p           = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
+    if (solid->shape == HAIR_SHAPE_CAPSULE) p.y -= fminf(fmaxf(p.y, -solid->size.y), solid->size.y);
+    return hair_length(p) - solid->size.x - solid->position.w;
+}

@@ -1,0 +1,37 @@
+// fields.h - the field read back, and what it should hold by closed forms in double precision.
+#ifndef HAIR_TESTS_SUPPORT_FIELDS_H
+#define HAIR_TESTS_SUPPORT_FIELDS_H
+
+#include "tests/support/support.h" // before what includes OpenGL's own header
+
+#include "lib/field/field.h"
+
+struct hair_test_field {
+    uint32_t  size[3];
+    float*    distance;
+    uint32_t* number;
+};
+
+// Of a field that is there.
+struct hair_test_field hair_test_field_read(const struct hair_solid_field* field);
+void                   hair_test_field_free(struct hair_test_field* read);
+
+static inline size_t hair_test_field_count(const struct hair_test_field* read)
+{
+    return (size_t)read->size[0] * read->size[1] * read->size[2];
+}
+
+// From a point of the world to the surface. m.
+double hair_test_distance(const hair_solid* solid, const double point[3]);
+// To the nearest of them; `number` becomes its place. INFINITY of none.
+double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number);
+
+// Where the middle of the i-th voxel is in the world.
+void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* head, size_t i,
+                     double point[3]);
+
+// A solid of any shape, near the middle of the box, for it has been said to be within `reach` of it.
+hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
+                               uint32_t* random);
+
+#endif
