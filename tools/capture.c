@@ -121,7 +121,7 @@ static int make_render(struct capture* capture)
 
 static hair_result set_solids(struct capture* capture, const float transform[16])
 {
-    hair_solid solids[HAIR_MAX_SOLIDS];
+    hair_solid solids[HAIR_RIG_SOLIDS];
     uint32_t   count = hair_rig_solids(&capture->options.scene, transform, solids);
     return hair_set_solids(capture->hair, solids, count, sizeof *solids);
 }

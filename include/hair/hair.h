@@ -1,7 +1,8 @@
 /// hair.h - strand hair in real time: simulated by OpenGL compute, drawn by tessellation.
 ///
 /// A hair_groom is the haircut: immutable, no GPU, shared by any number of heads. A hair_context is the
-/// library's hold on one OpenGL context. A hair_instance is one head of living hair: a groom in a context.
+/// library's hold on one OpenGL context. A hair_instance is one head of living hair: a groom in a context. A
+/// hair_form is the shape of a solid that no simpler shape describes: immutable and shared as well.
 ///
 ///   Words      strand: one hair. guide: a strand that is simulated. follower: a strand made while drawing,
 ///              by interpolation. root, tip: first and last vertex of a strand. scalp: the surface that
@@ -9,8 +10,8 @@
 ///   Units      metres, kilograms, seconds, radians. Right-handed; +y is up in the built-in haircuts only.
 ///              Matrices are 16 floats, column-major. Colours are linear, Rec. 709 primaries.
 ///   Ownership  Arrays and strings passed in are copied before the call returns. X_create is undone by
-///              X_destroy, which takes NULL. A groom may be destroyed while instances use it. A context is
-///              destroyed after its instances.
+///              X_destroy, which takes NULL. A groom or a form may be destroyed while instances use it. A
+///              context is destroyed after its instances.
 ///   Errors     A fallible call returns a hair_result. Anything but HAIR_OK leaves the object as it was and
 ///              sends one sentence to hair_host.log. Nothing throws, exits or prints.
 ///   Threads    No globals. A context and its instances belong to one thread at a time; different contexts,
@@ -46,6 +47,7 @@
 #endif
 
 typedef struct hair_groom    hair_groom;
+typedef struct hair_form     hair_form;
 typedef struct hair_context  hair_context;
 typedef struct hair_instance hair_instance;
 
@@ -158,6 +160,43 @@ HAIR_DESC(hair_groom_info)
 
 HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out);
 
+// Forms: no GPU, [any thread] -------------------------------------------------------------------------------
+
+/// The shape of a solid by a triangle mesh, kept as the distance to it at the nodes of a grid. A mesh is closed
+/// when at every edge as many triangles pass one way as the other, by the positions of vertices; then it has an
+/// inside. An open one is taken for a shell, and the log warns. Triangles may touch, cross and be degenerate.
+typedef struct hair_form_desc {
+    hair_made        made;
+    const hair_host* host;         ///< NULL: the C library's allocator, no log. Kept as long as the form is.
+    const float*     positions;    ///< xyz per vertex, in the form's own space. m. [-1e6, 1e6]. Required.
+    const uint32_t*  triangles;    ///< Three indices each, counter-clockwise from outside. Required.
+    uint32_t         vertex_count; ///< [1, 16777216].
+    uint32_t         triangle_count; ///< [1, 16777216].
+    uint32_t         resolution;     ///< Voxels along the longest side. [8, 256]. Default 64.
+    float
+        voxel; ///< Their size instead, as far as 256 of them suffice. m. 0 (by resolution) to 1e6. Default 0.
+    float thickness; ///< Of the shell that an open mesh is; at least 2 voxels. m. [0, 1e6]. Default 0.
+} hair_form_desc;
+HAIR_DESC(hair_form_desc)
+
+/// Take the distance to the mesh at every node of the grid. Seconds for a fine grid or for millions of triangles.
+HAIR_API hair_result hair_form_create(const hair_form_desc* desc, hair_form** out);
+HAIR_API void        hair_form_destroy(hair_form* form);
+
+typedef struct hair_form_info {
+    hair_made made;
+    uint32_t  closed;             ///< 1: the mesh has an inside. 0: it is a shell.
+    uint32_t  unused;             ///< Triangles that use a vertex twice.
+    uint32_t  size[3];            ///< Nodes of the grid along each axis.
+    float     voxel;              ///< Between two of them. m.
+    float     thickness;          ///< Of the shell. 0 where there is none. m.
+    float     lower[3], upper[3]; ///< Bounds of the surface. m.
+    uint64_t  bytes;              ///< Of memory.
+} hair_form_info;
+HAIR_DESC(hair_form_info)
+
+HAIR_API hair_result hair_form_describe(const hair_form* form, hair_form_info* out);
+
 // Context: [GL] ---------------------------------------------------------------------------------------------
 
 typedef enum hair_gl_state {
@@ -221,7 +260,7 @@ typedef struct hair_physics {
     hair_root root;     ///< Default HAIR_ROOT_CLAMPED.
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
     float     wind[3];  ///< Velocity of the air. m/s. [-1000, 1000]. Default 0.
-    float     friction; ///< Coulomb's coefficient with solids. [0, 10]. Default 0.3.
+    float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
 } hair_physics;
 HAIR_DESC(hair_physics)
 
@@ -288,20 +327,36 @@ HAIR_API hair_result hair_set_transform(hair_instance* hair, const float transfo
 
 typedef enum hair_shape {
     HAIR_SHAPE_SPHERE = 0, ///< size[0]: radius.
-    HAIR_SHAPE_CAPSULE     ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
+    HAIR_SHAPE_CAPSULE,    ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
+    HAIR_SHAPE_BOX,        ///< size: half the lengths of its sides.
+    HAIR_SHAPE_CYLINDER,   ///< size[0]: radius. size[1]: half its height, along local y.
+    HAIR_SHAPE_CONE,       ///< size[0]: radius of its base, at local y = -size[1]. Its tip is at +size[1].
+    HAIR_SHAPE_PLANE,      ///< All that is below local y = 0.
+    HAIR_SHAPE_FORM        ///< `form`, `scale` times as large.
 } hair_shape;
 
+/// Start from hair_solid_default.
 typedef struct hair_solid {
-    hair_shape shape;
-    float      position[3]; ///< World. m. [-1e9, 1e9].
-    float      rotation[4]; ///< World. Unit quaternion, xyzw.
-    float      size[2];     ///< As the shape says. m. [0, 1e6], radius > 0.
+    hair_shape shape;       ///< Default HAIR_SHAPE_SPHERE.
+    float      position[3]; ///< World. m. [-1e9, 1e9]. Default 0.
+    float      rotation[4]; ///< World. Unit quaternion, xyzw. Default identity.
+    float      size[3];     ///< As the shape says. m. [0, 1e6], above 0 unless it is rounded. Default 0.
+    float      rounding;    ///< Added all round, which rounds edges. m. [0, 1e6]. Default 0.
+    float      scale;       ///< Of a form. [1e-6, 1e6]. Default 1.
+    float      friction; ///< Coulomb's coefficient is this times hair_physics.friction. [0, 100]. Default 1.
+    const hair_form* form; ///< Of HAIR_SHAPE_FORM; held as long as the solid is. Default NULL.
+    uint64_t         key;  ///< Tells it from others, from step to step. 0: its place does. Default 0.
 } hair_solid;
 
-#define HAIR_MAX_SOLIDS 64 ///< That one instance collides with.
+static inline hair_solid hair_solid_default(void)
+{
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0}, 0, 1, 1, NULL, 0};
+    return solid;
+}
 
-/// Replace the solids; `stride` is sizeof(hair_solid). The i-th moves from where the i-th was at the last
-/// step, so keep their order; one more than before starts where it is. count in [0, HAIR_MAX_SOLIDS].
+/// Replace the solids; `stride` is sizeof(hair_solid). count in [0, 1048576]. A solid moves from where the one of
+/// its key was at the last step; of those without a key the i-th from where the i-th was, so keep their order. One
+/// that was not there, or had another shape, starts where it is.
 HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count,
                                      size_t stride);
 
@@ -317,14 +372,15 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
 /// Write all that the coming motion depends on but settings (physics, look): strands, head, solids, the time
-/// since the last substep. `size` becomes the bytes it takes, also when `capacity` is too small, which is an
-/// error; NULL and a capacity of 0 only ask for it. Waits.
+/// since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
+/// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
 
 /// Go on from what hair_save wrote, here or elsewhere: with the same settings and inputs the same driver gives
 /// the same bits. Any bytes may be given: what is no saved state is refused, and so is one of guides with other
 /// numbers of vertices, of another solver or of another hair_desc.substep. Where that is 0, substeps go on as long
-/// as the solver wants them with the physics that are set here.
+/// as the solver wants them with the physics that are set here. Forms are those of the same content that the
+/// instance's solids have; others are not there until the solids are set again.
 HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t size);
 
 typedef enum hair_pass {

@@ -14,8 +14,9 @@ struct hair_context {
 struct hair_instance {
     hair_context*           context;
     char                    label[64];
-    double                  max_dt;     // s
-    int                     has_slowed; // dt was beyond max_dt, and the log has said so
+    double                  max_dt;       // s
+    int                     has_slowed;   // dt was beyond max_dt, and the log has said so
+    int                     has_left_out; // guides pass through some solids, and the log has said so
     struct hair_sim         sim;
     struct hair_smooth      smooth;
     struct hair_draw        draw;

@@ -24,7 +24,7 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
 hair_result hair_update_field(hair_instance* hair)
 {
     const struct hair_solids* solids = &hair->sim.solids;
-    return hair_field_update(&hair->field, solids->now, solids->count, &hair->sim.at_step);
+    return hair_field_update(&hair->field, solids->now.solid, solids->now.count, &hair->sim.at_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)

@@ -128,7 +128,15 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    return hair_solids_set(&hair->context->host, &hair->sim.solids, solids, count, stride);
+    const hair_host* host   = &hair->context->host;
+    hair_result      result = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
+    if (!result && count > hair->sim.solids.capsules && !hair->has_left_out) {
+        hair->has_left_out = 1;
+        hair_log(host, HAIR_LOG_WARNING,
+                 "%s: of %u solids guides collide with %u, which are spheres and capsules, the %d nearest",
+                 hair->label, count, hair->sim.solids.capsules, HAIR_STEP_SOLIDS);
+    }
+    return result;
 }
 
 hair_result hair_step(hair_instance* hair, float dt)

@@ -1,54 +1,211 @@
-// solid.c - spheres and capsules between two poses of the head.
+// solid.c - solids between two poses of the head.
 #include "lib/collide/solid.h"
 
 #include <string.h>
 
-_Static_assert(HAIR_MAX_SOLIDS == HAIR_STEP_SOLIDS, "hair.h and shared.h promise the same number of solids");
+#include "lib/collide/form.h"
+#include "lib/collide/pair.h"
+
+// How many of `size` a shape uses.
+static int sizes_of(hair_shape shape)
+{
+    switch (shape) {
+    case HAIR_SHAPE_SPHERE: return 1;
+    case HAIR_SHAPE_CAPSULE:
+    case HAIR_SHAPE_CYLINDER:
+    case HAIR_SHAPE_CONE: return 2;
+    case HAIR_SHAPE_BOX: return 3;
+    default: return 0;
+    }
+}
+
+static int in_range(float value, float min, float max)
+{
+    return value >= min && value <= max; // False for NaN.
+}
+
+static hair_result check_size(const hair_host* host, const hair_solid* solid, uint32_t i)
+{
+    int sizes = sizes_of(solid->shape);
+    for (int k = 0; k < sizes; ++k) {
+        int may_be_0 = solid->rounding > 0 || (solid->shape == HAIR_SHAPE_CAPSULE && k == 1);
+        if (!in_range(solid->size[k], 0, 1e6f) || (solid->size[k] == 0 && !may_be_0))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[%d] is %g, not in %s0, 1e6]", i, k,
+                             (double)solid->size[k], may_be_0 ? "[" : "(");
+    }
+    return HAIR_OK;
+}
+
+static hair_result check_rotation(const hair_host* host, const hair_solid* solid, uint32_t i)
+{
+    float norm = 0;
+    for (int k = 0; k < 4; ++k) norm += solid->rotation[k] * solid->rotation[k];
+    if (fabsf(norm - 1) <= 1e-3f) return HAIR_OK;
+    return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].rotation has norm %g, not 1", i,
+                     (double)sqrtf(norm));
+}
 
 static hair_result check(const hair_host* host, const hair_solid* solid, uint32_t i)
 {
-    if ((uint32_t)solid->shape > HAIR_SHAPE_CAPSULE)
+    const struct {
+        const char* name;
+        float       value, min, max;
+    } numbers[] = {{"position[0]", solid->position[0], -1e9f, 1e9f},
+                   {"position[1]", solid->position[1], -1e9f, 1e9f},
+                   {"position[2]", solid->position[2], -1e9f, 1e9f},
+                   {"rounding", solid->rounding, 0, 1e6f},
+                   {"friction", solid->friction, 0, 100},
+                   {"scale", solid->scale, 1e-6f, 1e6f}};
+    if ((uint32_t)solid->shape > HAIR_SHAPE_FORM)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].shape is %d, not in [0, %d]", i,
-                         (int)solid->shape, HAIR_SHAPE_CAPSULE);
-    for (int k = 0; k < 3; ++k)
-        if (!(fabsf(solid->position[k]) <= 1e9f))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].position[%d] is %g, not in [-1e9, 1e9]",
-                             i, k, (double)solid->position[k]);
-    float norm = 0;
-    for (int k = 0; k < 4; ++k) norm += solid->rotation[k] * solid->rotation[k];
-    if (!(fabsf(norm - 1) <= 1e-3f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].rotation has norm %g, not 1", i,
-                         (double)sqrtf(norm));
-    if (!(solid->size[0] > 0 && solid->size[0] <= 1e6f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[0] is %g, not in (0, 1e6]", i,
-                         (double)solid->size[0]);
-    if (solid->shape == HAIR_SHAPE_CAPSULE && !(solid->size[1] >= 0 && solid->size[1] <= 1e6f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].size[1] is %g, not in [0, 1e6]", i,
-                         (double)solid->size[1]);
+                         (int)solid->shape, HAIR_SHAPE_FORM);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k)
+        if (!in_range(numbers[k].value, numbers[k].min, numbers[k].max))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].%s is %g, not in [%g, %g]", i,
+                             numbers[k].name, (double)numbers[k].value, (double)numbers[k].min,
+                             (double)numbers[k].max);
+    hair_result result = check_rotation(host, solid, i);
+    return result ? result : check_size(host, solid, i);
+}
+
+static hair_solid solid_at(const hair_solid* from, uint32_t i, size_t stride)
+{
+    hair_solid solid;
+    memcpy(&solid, (const unsigned char*)from + i * stride, sizeof solid);
+    return solid;
+}
+
+// Lists -----------------------------------------------------------------------------------------------------
+
+static hair_result reserve(const hair_host* host, struct hair_solid_list* list, uint32_t count)
+{
+    if (count <= list->capacity) return HAIR_OK;
+    uint32_t    capacity = count < 8 ? 8 : count + count / 2;
+    hair_solid* grown    = hair_alloc(host, capacity, sizeof *grown);
+    if (!grown) return hair_fail_memory(host, "solids");
+    if (list->count) memcpy(grown, list->solid, list->count * sizeof *grown);
+    hair_free(host, list->solid);
+    list->solid    = grown;
+    list->capacity = capacity;
+    return HAIR_OK;
+}
+
+static hair_result reserve_all(const hair_host* host, struct hair_solids* solids, uint32_t count,
+                               uint32_t count_before)
+{
+    hair_result result = reserve(host, &solids->now, count);
+    if (!result) result = reserve(host, &solids->before, count > count_before ? count : count_before);
+    if (result || count <= solids->capacity) return result;
+    uint32_t* pair = hair_alloc(host, solids->now.capacity, sizeof *pair);
+    if (!pair) return hair_fail_memory(host, "solids");
+    if (solids->now.count) memcpy(pair, solids->pair, solids->now.count * sizeof *pair);
+    hair_free(host, solids->pair);
+    solids->pair     = pair;
+    solids->capacity = solids->now.capacity;
+    return HAIR_OK;
+}
+
+// There is room. Forms are held before others are released: they may be the same.
+static void put(struct hair_solid_list* list, const hair_solid* from, uint32_t count, size_t stride)
+{
+    for (uint32_t i = 0; i < count; ++i) hair_form_hold(solid_at(from, i, stride).form);
+    for (uint32_t i = 0; i < list->count; ++i) hair_form_release(list->solid[i].form);
+    for (uint32_t i = 0; i < count; ++i) list->solid[i] = solid_at(from, i, stride);
+    list->count = count;
+}
+
+static void count_capsules(struct hair_solids* solids)
+{
+    solids->capsules = 0;
+    for (uint32_t i = 0; i < solids->now.count && solids->capsules < HAIR_STEP_SOLIDS; ++i)
+        solids->capsules += solids->now.solid[i].shape <= HAIR_SHAPE_CAPSULE;
+}
+
+static hair_result check_list(const hair_host* host, const hair_solid* from, uint32_t count, size_t stride)
+{
+    if (count > HAIR_MOST_SOLIDS)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid count is %u, not in [0, %u]", count,
+                         HAIR_MOST_SOLIDS);
+    if (count && !from)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids is NULL but their count is %u", count);
+    if (count && (stride < sizeof(hair_solid) || stride > 4096))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid stride is %zu, not in [%zu, 4096]", stride,
+                         sizeof(hair_solid));
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_solid  solid  = solid_at(from, i, stride);
+        hair_result result = check(host, &solid, i);
+        if (result) return result;
+    }
     return HAIR_OK;
 }
 
 hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from,
                             uint32_t count, size_t stride)
 {
-    if (count > HAIR_MAX_SOLIDS)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid count is %u, not in [0, %d]", count,
-                         HAIR_MAX_SOLIDS);
-    if (count && !from)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solids is NULL but their count is %u", count);
-    if (count && (stride < sizeof(hair_solid) || stride > 4096))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid stride is %zu, not in [%zu, 4096]", stride,
-                         sizeof(hair_solid));
-    hair_solid taken[HAIR_MAX_SOLIDS];
-    for (uint32_t i = 0; i < count; ++i) {
-        memcpy(&taken[i], (const unsigned char*)from + i * stride, sizeof taken[i]);
-        hair_result result = check(host, &taken[i], i);
-        if (result) return result;
+    hair_result result = check_list(host, from, count, stride);
+    for (uint32_t i = 0; i < count && !result; ++i) {
+        hair_solid solid = solid_at(from, i, stride);
+        if (solid.shape == HAIR_SHAPE_FORM && !solid.form)
+            result = hair_fail(host, HAIR_ERROR_ARGUMENT, "solids[%u].form is NULL", i);
+        if (solid.shape != HAIR_SHAPE_FORM && solid.form)
+            result = hair_fail(host, HAIR_ERROR_ARGUMENT,
+                               "solids[%u].form is not NULL, but its shape is not HAIR_SHAPE_FORM", i);
     }
-    if (count) memcpy(solids->now, taken, count * sizeof *taken);
-    solids->count = count;
+    if (!result) result = reserve_all(host, solids, count, solids->before.count);
+    if (!result)
+        result = hair_pair_solids(host, from, count, stride, solids->before.solid, solids->before.count,
+                                  solids->pair);
+    if (result) return result;
+    put(&solids->now, from, count, stride);
+    count_capsules(solids);
     return HAIR_OK;
 }
+
+hair_result hair_solids_restore(const hair_host* host, struct hair_solids* solids, const hair_solid* now,
+                                uint32_t count, const hair_solid* before, uint32_t count_before)
+{
+    hair_result result = check_list(host, now, count, sizeof *now);
+    if (!result) result = check_list(host, before, count_before, sizeof *before);
+    if (!result) result = reserve_all(host, solids, count, count_before);
+    if (!result) result = hair_pair_solids(host, now, count, sizeof *now, before, count_before, solids->pair);
+    if (result) return result;
+    put(&solids->now, now, count, sizeof *now);
+    put(&solids->before, before, count_before, sizeof *before);
+    count_capsules(solids);
+    return HAIR_OK;
+}
+
+void hair_solids_free(const hair_host* host, struct hair_solids* solids)
+{
+    put(&solids->now, NULL, 0, 0);
+    put(&solids->before, NULL, 0, 0);
+    hair_free(host, solids->now.solid);
+    hair_free(host, solids->before.solid);
+    hair_free(host, solids->pair);
+    *solids = (struct hair_solids){0};
+}
+
+const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t i)
+{
+    const hair_solid* now = &solids->now.solid[i];
+    uint32_t          k   = solids->pair[i];
+    if (k >= solids->before.count) return now;
+    const hair_solid* before = &solids->before.solid[k];
+    return before->shape == now->shape ? before : now;
+}
+
+void hair_solids_settle(struct hair_solids* solids)
+{
+    put(&solids->before, solids->now.solid, solids->now.count, sizeof *solids->now.solid);
+    for (uint32_t i = 0; i < solids->now.count; ++i) solids->pair[i] = i;
+}
+
+void hair_solids_forget(struct hair_solids* solids)
+{
+    put(&solids->before, NULL, 0, 0);
+}
+
+// As capsules -----------------------------------------------------------------------------------------------
 
 static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
 {
@@ -57,10 +214,11 @@ static void place(const hair_solid* solid, const struct hair_pose* head, hair_ve
                         (float)((double)solid->position[2] - head->position[2])};
     hair_quat q      = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
     float     half   = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
+    float     radius = solid->size[0] + solid->rounding;
     hair_vec3 axis   = hair_rotate(hair_quat_normalize(q), hair_v3(0, half, 0));
     hair_vec3 a = hair_sub(center, axis), b = hair_add(center, axis);
-    ends[0] = (hair_vec4){a.x, a.y, a.z, solid->size[0]};
-    ends[1] = (hair_vec4){b.x, b.y, b.z, solid->size[0]};
+    ends[0] = (hair_vec4){a.x, a.y, a.z, radius};
+    ends[1] = (hair_vec4){b.x, b.y, b.z, radius};
 }
 
 // The turn from one pose of a solid to the next, as far as its capsule's ends do not show it.
@@ -82,22 +240,50 @@ static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
     return (hair_vec4){spin.x, spin.y, spin.z, 0};
 }
 
-uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
-                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_MAX_SOLIDS])
+// From the head to the surface.
+static float distance_of(const hair_solid* solid, const struct hair_pose* head)
 {
-    for (uint32_t i = 0; i < solids->count; ++i) {
-        // Another shape than before is another solid: it starts where it is.
-        const hair_solid* now  = &solids->now[i];
-        int               same = i < solids->count_before && solids->before[i].shape == now->shape;
-        place(same ? &solids->before[i] : now, head_before, out[i].start);
-        place(now, head_now, out[i].end);
-        out[i].spin = spin_between(same ? &solids->before[i] : now, now);
-    }
-    return solids->count;
+    hair_vec4 end[2];
+    place(solid, head, end);
+    hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
+    float     t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
+    return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
 }
 
-void hair_solids_settle(struct hair_solids* solids)
+// The nearest of those that are capsules, in their order. Of two as near the earlier one stays.
+static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head,
+                       uint32_t chosen[HAIR_STEP_SOLIDS])
 {
-    memcpy(solids->before, solids->now, sizeof solids->now);
-    solids->count_before = solids->count;
+    float    distance[HAIR_STEP_SOLIDS];
+    uint32_t count = 0, farthest = 0;
+    for (uint32_t i = 0; i < solids->now.count; ++i) {
+        const hair_solid* solid = &solids->now.solid[i];
+        if (solid->shape > HAIR_SHAPE_CAPSULE) continue;
+        float far = distance_of(solid, head);
+        if (count == HAIR_STEP_SOLIDS) {
+            if (far >= distance[farthest]) continue;
+            for (uint32_t k = farthest; k + 1 < count; ++k)
+                chosen[k] = chosen[k + 1], distance[k] = distance[k + 1];
+            --count;
+        }
+        chosen[count] = i, distance[count++] = far;
+        farthest = 0;
+        for (uint32_t k = 1; k < count && count == HAIR_STEP_SOLIDS; ++k)
+            if (distance[k] >= distance[farthest]) farthest = k;
+    }
+    return count;
+}
+
+uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
+                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS])
+{
+    uint32_t chosen[HAIR_STEP_SOLIDS], count = choose(solids, head_now, chosen);
+    for (uint32_t i = 0; i < count; ++i) {
+        const hair_solid *now    = &solids->now.solid[chosen[i]],
+                         *before = hair_solids_before(solids, chosen[i]);
+        place(before, head_before, out[i].start);
+        place(now, head_now, out[i].end);
+        out[i].spin = spin_between(before, now);
+    }
+    return count;
 }

@@ -6,21 +6,44 @@
 #include "lib/base/pose.h"
 #include "glsl/shared.h"
 
-struct hair_solids {
-    hair_solid now[HAIR_MAX_SOLIDS], before[HAIR_MAX_SOLIDS]; // before: at the last step
-    uint32_t   count;
-    uint32_t   count_before;
+#define HAIR_MOST_SOLIDS 1048576u // of one instance
+
+// Holds the forms of its solids.
+struct hair_solid_list {
+    hair_solid* solid;
+    uint32_t    count, capacity;
 };
+
+struct hair_solids {
+    struct hair_solid_list now, before; // before: at the last step; it has room for as many as there are now
+    uint32_t*              pair;        // of each now: its place in before, or HAIR_UNPAIRED
+    uint32_t               capacity;    // of pair
+    uint32_t               capsules;    // what hair_solids_capsules will return
+};
+
+#define HAIR_UNPAIRED UINT32_MAX
 
 // Take `count` solids, each `stride` bytes from the next. On failure nothing has changed.
 hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from,
                             uint32_t count, size_t stride);
 
-// As capsules from where the head was to where it is. Returns how many.
+// The same of both lists at once, of solids that were saved: a form may be missing, and then its solid touches nothing.
+hair_result hair_solids_restore(const hair_host* host, struct hair_solids* solids, const hair_solid* now,
+                                uint32_t count, const hair_solid* before, uint32_t count_before);
+void        hair_solids_free(const hair_host* host, struct hair_solids* solids);
+
+// Where the i-th was at the last step: itself where it was not there.
+const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t i);
+
+// The spheres and capsules, from where the head was to where it is: the HAIR_STEP_SOLIDS nearest to it, in their
+// order. Returns how many.
 uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
-                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_MAX_SOLIDS]);
+                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS]);
 
 // The step is over: now becomes before.
 void hair_solids_settle(struct hair_solids* solids);
+
+// Where they were says nothing about how they move.
+void hair_solids_forget(struct hair_solids* solids);
 
 #endif

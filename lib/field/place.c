@@ -102,6 +102,7 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
         placed->end[i]   = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
         outside |= placed->first[i] >= placed->end[i];
     }
+    outside |= solid->shape > HAIR_SHAPE_CAPSULE;
     if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
 }
 
@@ -116,7 +117,7 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
     hair_quat own  = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
     hair_quat turn = hair_quat_multiply(back, hair_quat_normalize(own));
 
-    struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, 0},
+    struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, solid->rounding},
                                            .rotation = {turn.x, turn.y, turn.z, turn.w},
                                            .size     = {solid->size[0], solid->size[1], 0, 0},
                                            .shape    = (hair_uint)solid->shape,

@@ -12,8 +12,9 @@
 #include <string.h>
 
 #include "lib/base/bytes.h"
+#include "lib/collide/form.h"
 
-#define VERSION 2 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 3 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -24,11 +25,19 @@
 #define LEAST_SUBSTEP 1e-6 // s
 #define MOST_SUBSTEP 0.11
 
-_Static_assert(sizeof(hair_solid) == 40 && sizeof(struct hair_pose) == 40 &&
+_Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) == 40 &&
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
 #define MOST_BUFFERS 4 // that walk() lists
+#define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
+#define SOLID_BYTES (4 * SOLID_WORDS + 16)
+
+// Solids that are read, before they are checked and their forms are held.
+struct loaded_solids {
+    hair_solid* solid;
+    uint32_t    count;
+};
 
 // Goes over the fields to count, write or read and check them.
 struct cursor {
@@ -38,7 +47,8 @@ struct cursor {
     unsigned char*       write; // all the bytes, or neither: count only
     unsigned char*       own;   // as many; what is read of buffers, in the machine's order
     size_t               at, end;
-    hair_result          result; // the first failure's; nothing is read after it
+    struct loaded_solids now, before; // what is read of them
+    hair_result          result;      // the first failure's; nothing is read after it
     uint32_t             buffers;
     struct {
         GLuint buffer;
@@ -133,18 +143,58 @@ static void walk_pose(struct cursor* c, const char* name, struct hair_pose* pose
                       c->at, (double)sqrtf(norm));
 }
 
-// As bits: check_solids knows which of the numbers matter to a shape.
-static void walk_solids(struct cursor* c, const char* name, hair_solid* solids, uint32_t* count)
+// The form of that mark among the solids there are. NULL: none.
+static const hair_form* find_form(const struct hair_solids* solids, uint64_t mark)
 {
-    walk_uint(c, name, count, HAIR_MAX_SOLIDS);
-    for (uint32_t i = 0; i < *count && !c->result; ++i)
-        for (size_t k = 0; k < sizeof *solids; k += 4) {
-            unsigned char* at = (unsigned char*)&solids[i] + k;
-            uint32_t       bits;
-            memcpy(&bits, at, sizeof bits);
-            walk_uint(c, name, &bits, UINT32_MAX);
-            memcpy(at, &bits, sizeof bits);
+    const struct hair_solid_list* lists[] = {&solids->now, &solids->before};
+    for (int k = 0; k < 2 && mark; ++k)
+        for (uint32_t i = 0; i < lists[k]->count; ++i) {
+            const hair_form* form = lists[k]->solid[i].form;
+            if (form && form->mark == mark) return form;
         }
+    return NULL;
+}
+
+// As bits: hair_solids_restore knows which of the numbers matter to a shape.
+static void walk_solid(struct cursor* c, const struct hair_solids* there, hair_solid* solid)
+{
+    for (size_t k = 0; k < SOLID_WORDS; ++k) {
+        uint32_t bits;
+        memcpy(&bits, (unsigned char*)solid + 4 * k, sizeof bits);
+        walk_uint(c, "solid", &bits, UINT32_MAX);
+        memcpy((unsigned char*)solid + 4 * k, &bits, sizeof bits);
+    }
+    uint32_t marks[4] = {0, 0, (uint32_t)solid->key, (uint32_t)(solid->key >> 32)};
+    if (solid->form) {
+        marks[0] = (uint32_t)solid->form->mark;
+        marks[1] = (uint32_t)(solid->form->mark >> 32);
+    }
+    for (int k = 0; k < 4; ++k) walk_uint(c, "solid", &marks[k], UINT32_MAX);
+    if (!c->read) return;
+    solid->key  = marks[2] | (uint64_t)marks[3] << 32;
+    solid->form = NULL;
+    if (solid->shape == HAIR_SHAPE_FORM) solid->form = find_form(there, marks[0] | (uint64_t)marks[1] << 32);
+}
+
+// Read into `loaded`. There are no more than bytes for them.
+static void walk_solids(struct cursor* c, const char* name, struct hair_solids* there,
+                        struct hair_solid_list* list, struct loaded_solids* loaded)
+{
+    hair_solid* solid = list->solid;
+    uint32_t    count = list->count;
+    walk_uint(c, name, &count, HAIR_MOST_SOLIDS);
+    if (c->read && !c->result) {
+        if (count > (c->end - c->at) / SOLID_BYTES) {
+            c->result = hair_fail(c->host, HAIR_ERROR_FILE,
+                                  "the %s before byte %zu of the saved state is %u, more than it holds", name,
+                                  c->at, count);
+            return;
+        }
+        solid = loaded->solid = hair_alloc(c->host, count, sizeof *solid);
+        loaded->count         = count;
+        if (!solid) c->result = hair_fail_memory(c->host, "the solids to load");
+    }
+    for (uint32_t i = 0; i < count && !c->result; ++i) walk_solid(c, there, &solid[i]);
 }
 
 // Floats, whatever they are to a solver. A buffer that the instance has no use for is 0.
@@ -191,8 +241,8 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_pose(c, "head at the end of the last substep", &sim->last_after, MOST_PAST);
     walk_pose(c, "head at the last step", &sim->at_step, MOST_PAST);
     walk_pose(c, "head", &sim->head, MOST_PLACE);
-    walk_solids(c, "number of solids", sim->solids.now, &sim->solids.count);
-    walk_solids(c, "number of solids at the last step", sim->solids.before, &sim->solids.count_before);
+    walk_solids(c, "number of solids", &sim->solids, &sim->solids.now, &c->now);
+    walk_solids(c, "number of solids at the last step", &sim->solids, &sim->solids.before, &c->before);
     walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
     walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
     if (sim->solver != HAIR_SOLVER_ACCURATE)
@@ -246,23 +296,16 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
     return HAIR_OK;
 }
 
-static hair_result check_solids(const hair_host* host, const struct hair_solids* solids)
-{
-    struct hair_solids checked;
-    hair_result result = hair_solids_set(host, &checked, solids->now, solids->count, sizeof *solids->now);
-    if (result) return result;
-    return hair_solids_set(host, &checked, solids->before, solids->count_before, sizeof *solids->before);
-}
-
-// Into `sim`, which is a copy, and c->own.
-static hair_result read(struct cursor* c, struct hair_sim* sim)
+// Into `sim`, which is a copy, `solids` and c->own.
+static hair_result read(struct cursor* c, struct hair_sim* sim, struct hair_solids* solids)
 {
     walk(c, sim);
     if (!c->result && c->at != c->end)
         c->result =
             hair_fail(c->host, HAIR_ERROR_FILE,
                       "the fields of the saved state end at byte %zu, not at byte %zu", c->at, c->end);
-    return c->result ? c->result : check_solids(c->host, &sim->solids);
+    if (c->result) return c->result;
+    return hair_solids_restore(c->host, solids, c->now.solid, c->now.count, c->before.solid, c->before.count);
 }
 
 // By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has
@@ -288,11 +331,19 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     struct cursor c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
     c.own           = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
-    result = read(&c, &loaded);
+    struct hair_solids solids = {0};
+    result                    = read(&c, &loaded, &solids);
     if (!result) result = upload(&c);
     hair_free(host, c.own);
-    if (result) return result;
-    *sim = loaded;
+    hair_free(host, c.now.solid);
+    hair_free(host, c.before.solid);
+    if (result) {
+        hair_solids_free(host, &solids);
+        return result;
+    }
+    hair_solids_free(host, &sim->solids);
+    *sim        = loaded;
+    sim->solids = solids;
     hair_sim_show(sim);
     return HAIR_OK;
 }

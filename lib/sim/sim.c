@@ -18,7 +18,7 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
     hair_gl_pass pass = smallest[sim->solver];
-    int          kind = (sim->solids.count > 0) + 2 * hair_sim_is_curved(sim) + 4 * (sim->by_thread != 0);
+    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * (sim->by_thread != 0);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
@@ -55,6 +55,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
 void hair_sim_destroy(struct hair_sim* sim)
 {
     if (!sim->gl) return;
+    hair_solids_free(&sim->gl->host, &sim->solids);
     hair_gl_free_buffer(sim->gl, &sim->guide);
     hair_gl_free_buffer(sim->gl, &sim->rest);
     hair_gl_free_buffer(sim->gl, &sim->state);
@@ -119,12 +120,12 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
 static uint32_t substeps_at_once(const struct hair_sim* sim)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    uint32_t solids = sim->solids.count < 8 ? sim->solids.count : 8; // that one vertex may meet
+    uint32_t solids = sim->solids.capsules < 8 ? sim->solids.capsules : 8; // that one vertex may meet
     uint32_t rounds;
     if (!sim->rods)
-        rounds = sim->physics.iterations * (4 + solids) + 2 * sim->solids.count + 20;
+        rounds = sim->physics.iterations * (4 + solids) + 2 * sim->solids.capsules + 20;
     else if (sim->by_thread)
-        rounds = sim->most_vertices * (170 + (solids ? 20 * (4 + 2 * solids) : 0)) + sim->solids.count;
+        rounds = sim->most_vertices * (170 + (solids ? 20 * (4 + 2 * solids) : 0)) + sim->solids.capsules;
     else
         rounds = 400 + 6 * sim->most_vertices + 60 * (4 + 2 * solids);
     uint32_t most = 65000 / rounds;
@@ -245,7 +246,7 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[1] = to->position[1] + (double)arm.y;
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
-    sim->solids.count_before = 0; // Where solids were says nothing about how they move now.
+    hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now    = vec4_of_quat(to->rotation);

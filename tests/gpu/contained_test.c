@@ -44,9 +44,9 @@ static const struct wound wounds[] = {
 
 static hair_instance* make(struct hair_test* test, const hair_groom* groom, int way, uint32_t solids)
 {
-    hair_instance* hair  = NULL;
-    hair_desc      desc  = hair_test_way(way);
-    hair_solid     solid = {HAIR_SHAPE_SPHERE, {0.02f, 0, 0}, {0, 0, 0, 1}, {0.1f, 0}};
+    hair_instance* hair = NULL;
+    hair_desc      desc = hair_test_way(way);
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.02f, 0, 0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_set_solids(hair, &solid, solids, sizeof solid));
     return hair;

@@ -176,7 +176,8 @@ static void hair_step_finds_it(struct hair_test* test, struct broken* b)
 {
     static float before[300], after[300];
     uint32_t     count;
-    hair_solid   solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_solid   solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                          {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, before, 100, &count));
     hair_test_ok(test, hair_set_solids(b->hair, &solid, 1, sizeof solid));
     assert_int_equal(hair_step(b->hair, 1.0f / 60), HAIR_ERROR_OPENGL);

@@ -348,13 +348,13 @@ static void there_is_no_field_where_no_solid_is_near(void** state)
 static void whatever_the_solids_nothing_that_is_not_finite_is_written(void** state)
 {
     static const hair_solid hostile[] = {
-        {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e-30f, 0}},
-        {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e6f, 0}},
-        {HAIR_SHAPE_SPHERE, {0, -1e6f, 0}, {0, 0, 0, 1}, {1e6f, 0}},
-        {HAIR_SHAPE_SPHERE, {1e9f, -1e9f, 1e9f}, {0, 0, 0, 1}, {1, 0}},
-        {HAIR_SHAPE_CAPSULE, {0}, {0.6f, 0, 0, 0.8f}, {1e-30f, 1e6f}},
-        {HAIR_SHAPE_CAPSULE, {0}, {1, 0, 0, 0}, {1e6f, 0}},
-        {HAIR_SHAPE_CAPSULE, {-1e9f, 0, 0}, {0, 0, 1, 0}, {1e6f, 1e6f}},
+        {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e-30f, 0}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e6f, 0}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_SPHERE, {0, -1e6f, 0}, {0, 0, 0, 1}, {1e6f, 0}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_SPHERE, {1e9f, -1e9f, 1e9f}, {0, 0, 0, 1}, {1, 0}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_CAPSULE, {0}, {0.6f, 0, 0, 0.8f}, {1e-30f, 1e6f}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_CAPSULE, {0}, {1, 0, 0, 0}, {1e6f, 0}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_CAPSULE, {-1e9f, 0, 0}, {0, 0, 1, 0}, {1e6f, 1e6f}, .scale = 1, .friction = 1},
     };
     struct fixture f;
     begin(*state, origin, &f);
@@ -442,9 +442,9 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
     struct hair_test* test  = *state;
     hair_groom*       groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_desc         desc  = hair_desc_default();
-    hair_solid        ball  = {HAIR_SHAPE_SPHERE, {1.02f, 2, 3}, {0, 0, 0, 1}, {0.05f, 0}};
-    hair_field_info   info  = hair_field_info_default();
-    hair_instance*    hair  = NULL;
+    hair_solid ball = {HAIR_SHAPE_SPHERE, {1.02f, 2, 3}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_field_info info = hair_field_info_default();
+    hair_instance*  hair = NULL;
     // Turned by 90 degrees about y.
     const float turned[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 2, 3, 1};
     memcpy(desc.transform, turned, sizeof turned);

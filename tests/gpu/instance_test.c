@@ -195,8 +195,13 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
     hair_test_ok(test, hair_set_physics(hair, &physics));
     for (int i = 0; i <= 60; ++i) {
         hair_solid solids[2] = {
-            {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.09f, 0}},
-            {HAIR_SHAPE_CAPSULE, {0.3f - 0.0025f * (float)i, 0.1f, 0}, {0, 0, 0, 1}, {0.04f, 0.1f}}};
+            {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.09f, 0}, .scale = 1, .friction = 1},
+            {HAIR_SHAPE_CAPSULE,
+             {0.3f - 0.0025f * (float)i, 0.1f, 0},
+             {0, 0, 0, 1},
+             {0.04f, 0.1f},
+             .scale    = 1,
+             .friction = 1}};
         hair_test_ok(test, hair_set_solids(hair, solids, 2, sizeof *solids));
         hair_test_ok(test, hair_step(hair, 1.0f / 60));
     }
@@ -264,7 +269,8 @@ static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
     for (int out = 0; out < 2; ++out) {
         hair_instance* hair  = NULL;
         hair_desc      desc  = hair_test_way(way);
-        hair_solid     solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0}};
+        hair_solid     solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0},
+                                .scale = 1,        .friction = 1};
         desc.transform[12]   = out ? 1e5f : 0;
         hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
         hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
@@ -300,7 +306,8 @@ static void instances_beside_each_other_are_as_if_alone(void** state)
     static float           seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
     struct hair_test*      test  = *state;
     hair_groom*            groom = make_groom(test);
-    hair_solid             solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_solid             solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                                    {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_instance*         hair[2];
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
@@ -367,8 +374,9 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
         physics.damping = 1000 * hair_random(&random), physics.pull_root = 30 * hair_random(&random);
         physics.angular = 30 * hair_random(&random), physics.bend = hair_random(&random);
         physics.iterations = 1 + (uint32_t)(40 * hair_random(&random));
-        hair_solid solid   = {
-              HAIR_SHAPE_CAPSULE, {far, -far, 0}, {0, 0, 0, 1}, {1e-3f + 10 * hair_random(&random), far}};
+        hair_solid solid   = {HAIR_SHAPE_CAPSULE, {far, -far, 0},
+                              {0, 0, 0, 1},       {1e-3f + 10 * hair_random(&random), far},
+                              .scale = 1,         .friction = 1};
         hair_test_ok(test, hair_set_physics(hair, &physics));
         hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)i % 2, sizeof solid));
         hair_test_ok(test, i % 7 ? hair_set_transform(hair, there) : hair_teleport(hair, there));
@@ -415,7 +423,7 @@ static void a_step_shorter_than_rounding_moves_no_solid_too_far(void** state)
     hair_physics          physics = hair_physics_default();
     memset(physics.gravity, 0, sizeof physics.gravity);
     hair_test_ok(test, hair_set_physics(hair, &physics));
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}};
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}, .scale = 1, .friction = 1};
     hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
     hair_test_ok(test, hair_step(hair, (float)((1 - 3e-6) / 120)));
     read(test, hair, HAIR_READ_GUIDES, &before);

@@ -27,7 +27,8 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     static float   positions[3 * MOST];
     hair_instance* hair  = NULL;
     hair_desc      desc  = hair_test_way(way);
-    hair_solid     solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1}, {0.05f, 0}};
+    hair_solid     solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                            {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_view      view  = hair_view_default();
     hair_look      look  = hair_look_default();
     hair_physics   other = hair_physics_default();
@@ -129,9 +130,9 @@ static void check_compiled(struct hair_test* test, int way)
 {
     static const char* const names[HAIR_TEST_WAYS] = {
         "direct", "direct_thread", "accurate", "accurate_thread", "follow", "follow_thread", "redblack"};
-    hair_context* context  = make_context(test);
-    hair_solid    solid    = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}};
-    hair_physics  limp     = hair_physics_default();
+    hair_context* context = make_context(test);
+    hair_solid    solid = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_physics  limp  = hair_physics_default();
     uint32_t      compiled = 0;
     limp.hold              = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
     for (int kind = 0; kind < 4; ++kind) {

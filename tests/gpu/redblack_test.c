@@ -316,8 +316,8 @@ static void a_step_is_what_the_application_asked_for(void** state)
     physics.damping = 3, physics.pull_root = 5, physics.pull_tip = 0.75f, physics.angular = 1.5f;
     physics.bend = 0.15f, physics.iterations = 19, physics.margin = 0.002f, physics.gravity[0] = 1;
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
-    hair_solid solid = {
-        HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)}, {0.05f, 0.1f}};
+    hair_solid solid = {HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)},
+                        {0.05f, 0.1f},      .scale = 1,       .friction = 1};
     hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
     hair_test_ok(f.test, hair_reset(f.hair));
     double angle = 0.3, to[3] = {0.04, -0.01, 0.02};

@@ -17,7 +17,9 @@ static hair_physics loose(float friction)
 
 static hair_solid sphere(double x, double y, double z, double radius)
 {
-    return (hair_solid){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z}, {0, 0, 0, 1}, {(float)radius, 0}};
+    return (hair_solid){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z},
+                        {0, 0, 0, 1},      {(float)radius, 0},
+                        .scale = 1,        .friction = 1};
 }
 
 // Its axis along z, turned by `angle` about it.
@@ -27,7 +29,9 @@ static hair_solid capsule(double x, double y, double radius, double angle)
     hair_solid solid = {HAIR_SHAPE_CAPSULE,
                         {(float)x, (float)y, 0},
                         {(float)(h * c), (float)(h * s), (float)(h * s), (float)(h * c)},
-                        {(float)radius, 0.5f}};
+                        {(float)radius, 0.5f},
+                        .scale    = 1,
+                        .friction = 1};
     return solid;
 }
 
@@ -266,9 +270,9 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
 
 static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
 {
-    hair_solid   solids[HAIR_MAX_SOLIDS];
+    hair_solid   solids[HAIR_STEP_SOLIDS];
     hair_physics physics = loose(0.3f);
-    for (int i = 0; i < HAIR_MAX_SOLIDS; ++i) {
+    for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) {
         double row = i / 8;
         solids[i]  = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
                             0.015 + 0.004 * (i % 4));
@@ -282,13 +286,13 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
                                        hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
             hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
             hair_test_live(*state, &strands, &desc, &living[run]);
-            put(&living[run], solids, HAIR_MAX_SOLIDS);
+            put(&living[run], solids, HAIR_STEP_SOLIDS);
             hair_test_wait(&living[run], 180);
             hair_test_read_guides(&living[run]);
             hair_test_strands_free(&strands);
         }
         double deepest = -INFINITY;
-        for (int i = 0; i < HAIR_MAX_SOLIDS; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
+        for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
         print_message("    solver %d: up to %.2g m deep in the margin\n", solver, deepest);
         assert_true(deepest < 1e-5);
         assert_true(hair_test_stretch(&living[0]) < 0.01);

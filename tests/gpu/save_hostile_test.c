@@ -11,15 +11,16 @@
 
 // Where the fields are: lib/sim/save.c.
 enum {
-    VERSION = 8,
-    WHOLE   = 12,
-    SUBSTEP = 28,
-    LEFT    = 60,
-    LAST    = 68,
-    STRUCK  = 76,
-    POSES   = 80,
-    HEAD    = POSES + 3 * 40,
-    SOLIDS  = POSES + 4 * 40
+    VERSION     = 8,
+    WHOLE       = 12,
+    SUBSTEP     = 28,
+    LEFT        = 60,
+    LAST        = 68,
+    STRUCK      = 76,
+    POSES       = 80,
+    HEAD        = POSES + 3 * 40,
+    SOLIDS      = POSES + 4 * 40,
+    SOLID_BYTES = 72
 };
 
 // As the library hashes, so that what is harmful looks undamaged.
@@ -42,7 +43,7 @@ static hair_instance* make_small(struct hair_test* test, int way)
     hair_instance* hair     = hair_test_subject_make(test, &subject);
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_move(test, hair, &subject, 4);
-    assert_int_equal(hair->sim.solids.count, 2);
+    assert_int_equal(hair->sim.solids.now.count, 2);
     return hair;
 }
 
@@ -126,7 +127,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     struct hair_test_blob        good = hair_test_save(test, hair);
     // Solids now and before; then of every vertex its state, then its frame, and then its rates.
     size_t vertices = hair->sim.guide_vertices,
-           states   = SOLIDS + 8 + 40 * (hair->sim.solids.count + hair->sim.solids.count_before),
+           states   = SOLIDS + 8 + SOLID_BYTES * (hair->sim.solids.now.count + hair->sim.solids.before.count),
            tip      = states + 32 * (vertices - 1);
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     assert_int_equal(rates + 32 * vertices + 8, good.size);
@@ -138,7 +139,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_short, 27, HAIR_ERROR_FILE, "the 27 bytes are no saved state"},
         {load_short, 28, HAIR_ERROR_FILE, "ends at byte 28, not at byte "},
         {load_flipped, 3, HAIR_ERROR_FILE, "\"hairsave\" at byte 0"},
-        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 3, not 2"},
+        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 2, not 3"},
         {load_flipped, WHOLE, HAIR_ERROR_FILE, "as byte 12 says"},
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
@@ -158,10 +159,10 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 200 of the saved state is 2e+09, not in [-1e+09"},
         {load_with_nan, HEAD + 24, HAIR_ERROR_FILE, "the head at byte "},
         {load_with_minus_1, HEAD + 24, HAIR_ERROR_FILE, "the rotation of the head"},
-        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids at byte 240 of the saved state is 65, not in [0, 64]"},
+        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids before byte 244 of the saved state is 65, more than it holds"},
         {load_with_65, SOLIDS + 4, HAIR_ERROR_ARGUMENT, "solids[0].shape is 65"},
         {load_with_nan_float, SOLIDS + 4 + 32, HAIR_ERROR_ARGUMENT, "solids[0].size[0] is "},
-        {load_with_nan_float, SOLIDS + 84 + 8, HAIR_ERROR_ARGUMENT, "solids[0].position[0] is "},
+        {load_with_nan_float, SOLIDS + 4 + 2 * SOLID_BYTES + 8, HAIR_ERROR_ARGUMENT, "solids[0].position[0] is "},
         {load_with_nan_float, tip, HAIR_ERROR_FILE, "the guide vertices at byte "},
         {load_with_2e9_float, tip + 28, HAIR_ERROR_FILE, "is 2e+09, not in [-1e+09, 1e+09]"},
         {load_with_nan_float, frames, HAIR_ERROR_FILE, "the frames of segments at byte "},
@@ -286,7 +287,7 @@ static void load_the_farthest(struct hair_test* test, int way)
         for (int p = 0; p < 4; ++p)
             for (int k = 0; k < 3; ++k)
                 hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
-        for (size_t at = SOLIDS + 4 + 2 * 84; at < blob.size - 8; at += 4)
+        for (size_t at = SOLIDS + 4 + 2 * (4 + 2 * SOLID_BYTES); at < blob.size - 8; at += 4)
             hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
         assert_true(survives(test, hair, blob));
     }

@@ -117,7 +117,7 @@ static hair_result set_all(struct fixture* f)
     hair_physics physics = hair_physics_default();
     hair_look    look    = hair_look_default();
     hair_desc    desc    = hair_desc_default();
-    hair_solid   solid   = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}};
+    hair_solid   solid   = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
     look.segments        = 100; // of two parts
     physics.damping      = 5;   // of which rods are made anew
     hair_result result   = hair_set_physics(f->hair, &physics);

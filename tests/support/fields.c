@@ -84,14 +84,15 @@ static float between(uint32_t* random, float least, float most)
 hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
                                uint32_t* random)
 {
-    hair_solid solid = {.shape = hair_random(random) < 0.5f ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE};
-    hair_vec3  side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
-                                 0.5f * HAIR_BRICK * box->voxel);
-    hair_vec3  at   = hair_add(hair_add(box->lower, side),
-                               hair_v3(between(random, -reach, reach), between(random, -reach, reach),
-                                       between(random, -reach, reach)));
-    hair_vec3  turned   = hair_rotate(head->rotation, at);
-    hair_quat  q        = hair_quat_normalize((hair_quat){between(random, -1, 1), between(random, -1, 1),
+    hair_solid solid = hair_solid_default();
+    solid.shape      = hair_random(random) < 0.5f ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
+    hair_vec3 side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
+                                0.5f * HAIR_BRICK * box->voxel);
+    hair_vec3 at   = hair_add(hair_add(box->lower, side),
+                              hair_v3(between(random, -reach, reach), between(random, -reach, reach),
+                                      between(random, -reach, reach)));
+    hair_vec3 turned    = hair_rotate(head->rotation, at);
+    hair_quat q         = hair_quat_normalize((hair_quat){between(random, -1, 1), between(random, -1, 1),
                                                           between(random, -1, 1), between(random, -1, 1)});
     const float place[] = {turned.x, turned.y, turned.z}, way[] = {q.x, q.y, q.z, q.w};
     for (int i = 0; i < 3; ++i) solid.position[i] = (float)(head->position[i] + (double)place[i]);

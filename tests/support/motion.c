@@ -72,13 +72,24 @@ void hair_test_move(struct hair_test* test, hair_instance* hair, const struct ha
 {
     float      transform[16], time = 0.11f * (float)i + (float)subject->seed;
     hair_quat  q        = turn(time);
-    hair_solid solids[] = {
-        {HAIR_SHAPE_SPHERE,
-         {0.15f * cosf(2 * time), 0.1f, 0.15f * sinf(2 * time)},
-         {0, 0, 0, 1},
-         {0.08f, NAN}},
-        {HAIR_SHAPE_CAPSULE, {0.1f * sinf(time), 0.1f, 0}, {q.x, q.y, q.z, q.w}, {0.05f, 0.04f}},
-        {HAIR_SHAPE_SPHERE, {-0.1f, 0.2f * cosf(time), 0.1f}, {0, 0, 0, 1}, {0.07f, 0}}};
+    hair_solid solids[] = {{HAIR_SHAPE_SPHERE,
+                            {0.15f * cosf(2 * time), 0.1f, 0.15f * sinf(2 * time)},
+                            {0, 0, 0, 1},
+                            {0.08f, NAN},
+                            .scale    = 1,
+                            .friction = 1},
+                           {HAIR_SHAPE_CAPSULE,
+                            {0.1f * sinf(time), 0.1f, 0},
+                            {q.x, q.y, q.z, q.w},
+                            {0.05f, 0.04f},
+                            .scale    = 1,
+                            .friction = 1},
+                           {HAIR_SHAPE_SPHERE,
+                            {-0.1f, 0.2f * cosf(time), 0.1f},
+                            {0, 0, 0, 1},
+                            {0.07f, 0},
+                            .scale    = 1,
+                            .friction = 1}};
     if (i % 6 == 0) hair_test_set(test, hair, subject, i);
     if (i % 3 == 2) return;
     hair_test_pose(time, transform);

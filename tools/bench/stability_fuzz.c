@@ -121,7 +121,8 @@ static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, 
 static hair_solid any_solid(uint64_t* state)
 {
     double     axis[3], angle = even(state, 0, BENCH_PI);
-    hair_solid solid = {.shape = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE};
+    hair_solid solid = hair_solid_default();
+    solid.shape      = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
     any_direction(state, axis);
     for (int k = 0; k < 3; ++k) {
         solid.position[k] = (float)even(state, -0.3, 0.3);
@@ -191,9 +192,10 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
     struct bench_living living;
     struct bench_watch  watch;
     if (!bench_live(bench, &scene, &living)) return false;
-    hair_solid  none = {.shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}};
-    bool        ok   = bench_watch(&living, &watch);
-    hair_health own  = hair_health_default();
+    hair_solid none = {
+        .shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}, .scale = 1, .friction = 1};
+    bool        ok  = bench_watch(&living, &watch);
+    hair_health own = hair_health_default();
     for (int s = 0; s < 4; ++s) watch.solids[s] = none;
     if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
         if (all->finite && (!watch.finite || watch.stretch >= all->stretch)) *worst = number;

@@ -246,7 +246,9 @@ static hair_solid ball_at(double x, double y, double z)
     return (hair_solid){.shape    = HAIR_SHAPE_SPHERE,
                         .position = {(float)x, (float)y, (float)z},
                         .rotation = {0, 0, 0, 1},
-                        .size     = {0.05f, 0}};
+                        .size     = {0.05f, 0},
+                        .scale    = 1,
+                        .friction = 1};
 }
 
 // A ball comes at 5 m/s, and goes.

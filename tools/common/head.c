@@ -325,7 +325,9 @@ static hair_solid solid_of(const struct pill* pill)
     hair_solid solid = {HAIR_SHAPE_CAPSULE,
                         {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2},
                         {x / norm, 0, z / norm, w / norm},
-                        {pill->radius, size / 2}};
+                        {pill->radius, size / 2},
+                        .scale    = 1,
+                        .friction = 1};
     return solid;
 }
 

@@ -82,15 +82,16 @@ static void carry(const float transform[16], float share, hair_solid* solid)
 }
 
 uint32_t hair_rig_solids(const struct hair_scene* scene, const float transform[16],
-                         hair_solid out[HAIR_MAX_SOLIDS])
+                         hair_solid out[HAIR_RIG_SOLIDS])
 {
     uint32_t count = 0;
-    if (scene->head) count = head_solids(out, HAIR_MAX_SOLIDS - HAIR_SCENE_SOLIDS - 1);
+    if (scene->head) count = head_solids(out, HEAD_SOLIDS);
     for (uint32_t i = 0; i < count; ++i) carry(transform, weight(out[i].position[1]), &out[i]);
 
     uint32_t others = count;
     if (scene->subject == HAIR_SUBJECT_FUR)
-        out[count++] = (hair_solid){.rotation = {0, 0, 0, 1}, .size = {scene->ball_radius}};
+        out[count++] =
+            (hair_solid){.rotation = {0, 0, 0, 1}, .size = {scene->ball_radius}, .scale = 1, .friction = 1};
     memcpy(out + count, scene->solids, scene->solid_count * sizeof *out);
     count += scene->solid_count;
     for (uint32_t i = others; i < count; ++i) carry(transform, 1, &out[i]);

@@ -140,7 +140,8 @@ static bool read_solids(const place* json, const char* key, const json_t* value,
                                     END};
     struct hair_scene* scene     = out;
     for (uint32_t i = 0; i < HAIR_SCENE_SOLIDS; ++i)
-        scene->solids[i] = (hair_solid){.rotation = {0, 0, 0, 1}, .size = {0.1f, 0.1f}};
+        scene->solids[i] =
+            (hair_solid){.rotation = {0, 0, 0, 1}, .size = {0.1f, 0.1f, 0.1f}, .scale = 1, .friction = 1};
     return hair_json_array(json, key, value, entries, scene->solids, sizeof *scene->solids, HAIR_SCENE_SOLIDS,
                            &scene->solid_count);
 }

@@ -1,0 +1,192 @@
+// distance.c - the exact signed distance to solids. glsl/solid_distance.glsl says the same.
+#include "lib/collide/distance.h"
+
+#include <math.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double clamp(double value, double least, double most)
+{
+    return fmin(fmax(value, least), most);
+}
+
+// `length` of v, and v / length; `otherwise` where it has no direction.
+static double direction(const double v[3], const double otherwise[3], double out[3])
+{
+    double length = sqrt(dot(v, v));
+    for (int k = 0; k < 3; ++k) out[k] = length > 1e-30 ? v[k] / length : otherwise[k];
+    return length;
+}
+
+static const double up[3] = {0, 1, 0};
+
+static double to_capsule(double radius, double half, const double p[3], double gradient[3])
+{
+    const double out[3]  = {p[0], p[1] - clamp(p[1], -half, half), p[2]};
+    const double away[3] = {1, 0, 0};
+    return direction(out, half > 0 ? away : up, gradient) - radius;
+}
+
+static double to_box(const float size[3], const double p[3], double gradient[3])
+{
+    double out[3], q[3], deepest = -INFINITY;
+    int    face = 0;
+    for (int k = 0; k < 3; ++k) {
+        q[k]   = fabs(p[k]) - (double)size[k];
+        out[k] = copysign(fmax(q[k], 0), p[k]);
+        if (q[k] > deepest) deepest = q[k], face = k;
+    }
+    const double inside[3] = {face == 0 ? copysign(1, p[0]) : 0, face == 1 ? copysign(1, p[1]) : 0,
+                              face == 2 ? copysign(1, p[2]) : 0};
+    return direction(out, inside, gradient) + fmin(deepest, 0);
+}
+
+// What turns about the y axis is known by its profile: a polygon in the half-plane of (distance from the axis,
+// height). This is the distance to a segment of it.
+struct profile {
+    double distance, out[2]; // out: from the nearest point of the profile
+};
+
+static void edge(const double p[2], const double a[2], const double b[2], struct profile* nearest)
+{
+    double d[2]   = {b[0] - a[0], b[1] - a[1]};
+    double length = d[0] * d[0] + d[1] * d[1];
+    double t      = length > 0 ? clamp(((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length, 0, 1) : 0;
+    double out[2] = {p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1]};
+    double far    = sqrt(out[0] * out[0] + out[1] * out[1]);
+    if (far < nearest->distance) *nearest = (struct profile){far, {out[0], out[1]}};
+}
+
+// `flank`: the normal of the side, for points on the surface.
+static double revolve(struct profile nearest, int inside, const double flank[2], const double p[3],
+                      double gradient[3])
+{
+    double around = sqrt(p[0] * p[0] + p[2] * p[2]), sign = inside ? -1 : 1;
+    double n[2] = {flank[0], flank[1]};
+    if (nearest.distance > 1e-15) {
+        n[0] = sign * nearest.out[0] / nearest.distance;
+        n[1] = sign * nearest.out[1] / nearest.distance;
+    }
+    gradient[0] = around > 0 ? n[0] * p[0] / around : n[0];
+    gradient[1] = n[1];
+    gradient[2] = around > 0 ? n[0] * p[2] / around : 0;
+    return sign * nearest.distance;
+}
+
+static double to_cylinder(double radius, double half, const double p[3], double gradient[3])
+{
+    const double   at[2] = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]}, flank[2] = {1, 0};
+    const double   profile[4][2] = {{0, -half}, {radius, -half}, {radius, half}, {0, half}};
+    struct profile nearest       = {INFINITY, {0, 0}};
+    for (int k = 0; k < 3; ++k) edge(at, profile[k], profile[k + 1], &nearest);
+    return revolve(nearest, at[0] < radius && fabs(at[1]) < half, flank, p, gradient);
+}
+
+static double to_cone(double radius, double half, const double p[3], double gradient[3])
+{
+    const double   at[2]         = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]};
+    const double   slant         = sqrt(radius * radius + 4 * half * half);
+    const double   flank[2]      = {slant > 0 ? 2 * half / slant : 1, slant > 0 ? radius / slant : 0};
+    const double   profile[3][2] = {{0, -half}, {radius, -half}, {0, half}};
+    struct profile nearest       = {INFINITY, {0, 0}};
+    for (int k = 0; k < 2; ++k) edge(at, profile[k], profile[k + 1], &nearest);
+    int inside = at[1] > -half && at[0] * flank[0] + (at[1] - half) * flank[1] < 0;
+    return revolve(nearest, inside, flank, p, gradient);
+}
+
+double hair_distance_to_shape(hair_shape shape, const float size[3], const double point[3],
+                              double gradient[3])
+{
+    double  own[3];
+    double* out = gradient ? gradient : own;
+    double  a = (double)size[0], b = (double)size[1];
+    switch (shape) {
+    case HAIR_SHAPE_SPHERE: return to_capsule(a, 0, point, out);
+    case HAIR_SHAPE_CAPSULE: return to_capsule(a, b, point, out);
+    case HAIR_SHAPE_BOX: return to_box(size, point, out);
+    case HAIR_SHAPE_CYLINDER: return to_cylinder(a, b, point, out);
+    case HAIR_SHAPE_CONE: return to_cone(a, b, point, out);
+    default: out[0] = 0, out[1] = 1, out[2] = 0; return point[1]; // A plane.
+    }
+}
+
+// Forms -----------------------------------------------------------------------------------------------------
+
+// Within the grid.
+static double interpolate(const hair_form* form, const double at[3], double slope[3])
+{
+    size_t node = 0, step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
+    double t[3];
+    for (int k = 0; k < 3; ++k) {
+        double x = (at[k] - (double)form->origin[k]) / (double)form->voxel;
+        double i = clamp(floor(x), 0, form->size[k] - 2);
+        t[k]     = clamp(x - i, 0, 1);
+        node += (size_t)i * step[k];
+    }
+    double value = 0;
+    slope[0] = slope[1] = slope[2] = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        int    x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+        double u = x ? t[0] : 1 - t[0], v = y ? t[1] : 1 - t[1], w = z ? t[2] : 1 - t[2];
+        double d = (double)form->distance[node + (size_t)x + (size_t)y * step[1] + (size_t)z * step[2]];
+        value += u * v * w * d;
+        slope[0] += (x ? 1 : -1) * v * w * d;
+        slope[1] += (y ? 1 : -1) * u * w * d;
+        slope[2] += (z ? 1 : -1) * u * v * d;
+    }
+    return value;
+}
+
+double hair_distance_to_form(const hair_form* form, const double point[3], double gradient[3])
+{
+    double  own[3], inside[3], slope[3], beyond = 0;
+    double* out = gradient ? gradient : own;
+    for (int k = 0; k < 3; ++k) {
+        double first = (double)form->origin[k], last = first + (double)form->voxel * (form->size[k] - 1);
+        inside[k] = clamp(point[k], first, last);
+        beyond += (point[k] - inside[k]) * (point[k] - inside[k]);
+    }
+    double distance = interpolate(form, inside, slope);
+    direction(slope, up, out);
+    if (beyond == 0) return distance;
+    double away[3];
+    for (int k = 0; k < 3; ++k) away[k] = point[k] - inside[k] + distance * out[k];
+    return direction(away, up, out);
+}
+
+// In the world ----------------------------------------------------------------------------------------------
+
+// By the unit quaternion q; `sign` -1: back.
+static void rotate(const float q[4], double sign, const double v[3], double out[3])
+{
+    double norm = 0, u[3];
+    for (int k = 0; k < 4; ++k) norm += (double)q[k] * (double)q[k];
+    for (int k = 0; k < 3; ++k) u[k] = sign * (double)q[k] / sqrt(norm);
+    double w    = (double)q[3] / sqrt(norm);
+    double t[3] = {2 * (u[1] * v[2] - u[2] * v[1]), 2 * (u[2] * v[0] - u[0] * v[2]),
+                   2 * (u[0] * v[1] - u[1] * v[0])};
+    double r[3] = {v[0] + w * t[0] + u[1] * t[2] - u[2] * t[1], v[1] + w * t[1] + u[2] * t[0] - u[0] * t[2],
+                   v[2] + w * t[2] + u[0] * t[1] - u[1] * t[0]};
+    for (int k = 0; k < 3; ++k) out[k] = r[k];
+}
+
+double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3])
+{
+    double local[3], normal[3], distance, scale = (double)solid->scale;
+    for (int k = 0; k < 3; ++k) local[k] = point[k] - (double)solid->position[k];
+    rotate(solid->rotation, -1, local, local);
+    if (solid->shape != HAIR_SHAPE_FORM) {
+        distance = hair_distance_to_shape(solid->shape, solid->size, local, normal);
+    } else if (solid->form) {
+        for (int k = 0; k < 3; ++k) local[k] /= scale;
+        distance = scale * hair_distance_to_form(solid->form, local, normal);
+    } else {
+        for (int k = 0; k < 3; ++k) normal[k] = up[k];
+        distance = INFINITY;
+    }
+    if (gradient) rotate(solid->rotation, 1, normal, gradient);
+    return distance - (double)solid->rounding;
+}

@@ -1,0 +1,258 @@
+// form.c - distances to a triangle mesh at the nodes of a grid.
+//
+// How far is found by a tree of triangles, starting from the nearest one of the node before. On which side is the same
+// at two neighbouring nodes whose distances together are more than from one to the other: no surface fits between. So
+// nodes fall into few sets of one sign each, for which one winding number is enough (Jacobson et al. 2013).
+#include "lib/collide/form.h"
+#include "lib/collide/triangles.h"
+
+#include <string.h>
+
+#define LEAST_SIZE 1e-6f     // m: of a mesh
+#define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
+#define MOST_VOXELS 256      // along the longest side
+
+static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
+{
+    for (size_t i = 0; i < 3 * (size_t)desc->vertex_count; ++i)
+        if (!(fabsf(desc->positions[i]) <= 1e6f))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_form_desc.positions[%zu] is %g, not in [-1e6, 1e6]", i,
+                             (double)desc->positions[i]);
+    for (size_t i = 0; i < 3 * (size_t)desc->triangle_count; ++i)
+        if (desc->triangles[i] >= desc->vertex_count)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_form_desc.triangles[%zu] is %u, but there are %u vertices", i,
+                             desc->triangles[i], desc->vertex_count);
+    return HAIR_OK;
+}
+
+// The grid --------------------------------------------------------------------------------------------------
+
+static float longest(hair_vec3 size)
+{
+    return fmaxf(size.x, fmaxf(size.y, size.z));
+}
+
+static float farthest_from_origin(const struct hair_triangles* t)
+{
+    return longest((hair_vec3){fabsf(t->center.x), fabsf(t->center.y), fabsf(t->center.z)}) +
+           longest(t->bounds.upper);
+}
+
+// How fine, and how thick a shell is, so that neither makes more nodes than the resolution says.
+static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles* t, hair_form_info* info)
+{
+    float side      = longest(hair_sub(t->bounds.upper, t->bounds.lower));
+    float voxels    = (float)(desc->voxel > 0 ? MOST_VOXELS : desc->resolution);
+    float thickness = info->closed ? 0 : desc->thickness;
+    info->voxel     = fmaxf(desc->voxel, (side + thickness) / voxels);
+    if (!info->closed && thickness < 2 * info->voxel) {
+        info->voxel = fmaxf(desc->voxel, side / (voxels - 2));
+        thickness   = 2 * info->voxel;
+    }
+    info->thickness = thickness;
+}
+
+static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triangles* t, hair_form* form)
+{
+    const hair_host* host = &form->host;
+    float side = longest(hair_sub(t->bounds.upper, t->bounds.lower)), far = farthest_from_origin(t);
+    if (!(side >= LEAST_SIZE))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "hair_form_desc: the mesh is %g m long, which is less than %g m", (double)side,
+                         (double)LEAST_SIZE);
+    choose_voxel(desc, t, &form->info);
+    form->voxel = form->info.voxel;
+    if (form->voxel < FINEST_VOXEL * far)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "hair_form_desc: the mesh is %g m long but up to %g m from its origin: too far for "
+                         "voxels of %g m",
+                         (double)side, (double)far, (double)form->voxel);
+    float       room      = form->info.thickness / 2 + HAIR_FORM_PADDING * form->voxel;
+    const float lower[3]  = {t->bounds.lower.x, t->bounds.lower.y, t->bounds.lower.z};
+    const float upper[3]  = {t->bounds.upper.x, t->bounds.upper.y, t->bounds.upper.z};
+    const float center[3] = {t->center.x, t->center.y, t->center.z};
+    for (int k = 0; k < 3; ++k) {
+        form->size[k]       = (uint32_t)ceilf((upper[k] - lower[k] + 2 * room) / form->voxel) + 1;
+        form->info.size[k]  = form->size[k];
+        form->info.lower[k] = center[k] + lower[k] - form->info.thickness / 2;
+        form->info.upper[k] = center[k] + upper[k] + form->info.thickness / 2;
+        // The mesh in the middle of it.
+        form->origin[k] = center[k] - form->voxel * (float)(form->size[k] - 1) / 2;
+    }
+    size_t nodes     = (size_t)form->size[0] * form->size[1] * form->size[2];
+    form->distance   = hair_alloc(host, nodes, sizeof *form->distance);
+    form->info.bytes = sizeof *form + nodes * sizeof *form->distance;
+    return form->distance ? HAIR_OK : hair_fail_memory(host, "a form's distances");
+}
+
+static hair_vec3 place_of(const hair_form* form, const struct hair_triangles* t, const uint32_t at[3])
+{
+    return (hair_vec3){form->origin[0] - t->center.x + form->voxel * (float)at[0],
+                       form->origin[1] - t->center.y + form->voxel * (float)at[1],
+                       form->origin[2] - t->center.z + form->voxel * (float)at[2]};
+}
+
+static size_t node_of(const hair_form* form, const uint32_t at[3])
+{
+    return at[0] + form->size[0] * (at[1] + (size_t)form->size[1] * at[2]);
+}
+
+static void measure(hair_form* form, const struct hair_triangles* t)
+{
+    uint32_t nearest = 0, at[3];
+    float    band    = HAIR_FORM_BAND * form->voxel + form->info.thickness / 2;
+    for (at[2] = 0; at[2] < form->size[2]; ++at[2])
+        for (at[1] = 0; at[1] < form->size[1]; ++at[1])
+            for (uint32_t i = 0; i < form->size[0]; ++i) { // There and back, so that the next is a neighbour.
+                at[0] = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
+                form->distance[node_of(form, at)] =
+                    hair_triangles_distance(t, place_of(form, t, at), band, &nearest);
+            }
+}
+
+// Sides -----------------------------------------------------------------------------------------------------
+
+enum { UNKNOWN, OUTSIDE, INSIDE };
+
+struct sides {
+    const hair_form* form;
+    unsigned char*   side;  // of each node
+    uint32_t*        stack; // nodes whose neighbours are to be told
+    size_t           depth;
+};
+
+static void tell(struct sides* sides, size_t node, unsigned char side)
+{
+    sides->side[node]            = side;
+    sides->stack[sides->depth++] = (uint32_t)node; // Once each: it was unknown.
+}
+
+// All that is on the same side as what is on the stack.
+static void spread(struct sides* sides)
+{
+    const hair_form* form    = sides->form;
+    const size_t     step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
+    while (sides->depth > 0) {
+        size_t       node  = sides->stack[--sides->depth];
+        const size_t at[3] = {node % step[1], node / step[1] % form->size[1], node / step[2]};
+        for (int k = 0; k < 6; ++k) {
+            int axis = k / 2;
+            if (at[axis] == (k % 2 ? form->size[axis] - 1 : 0)) continue;
+            size_t next = k % 2 ? node + step[axis] : node - step[axis];
+            if (sides->side[next] == UNKNOWN &&
+                form->distance[node] + form->distance[next] > 1.0001f * form->voxel)
+                tell(sides, next, sides->side[node]);
+        }
+    }
+}
+
+static hair_result find_sides(hair_form* form, const struct hair_triangles* t)
+{
+    size_t       nodes = (size_t)form->size[0] * form->size[1] * form->size[2], node = 0;
+    struct sides sides = {.form = form};
+    sides.side         = hair_alloc(&form->host, nodes, sizeof *sides.side);
+    sides.stack        = hair_alloc(&form->host, nodes, sizeof *sides.stack);
+    hair_result result =
+        sides.side && sides.stack ? HAIR_OK : hair_fail_memory(&form->host, "the inside of a form");
+    uint32_t at[3];
+    for (at[2] = 0; at[2] < form->size[2] && !result; ++at[2])
+        for (at[1] = 0; at[1] < form->size[1]; ++at[1])
+            for (at[0] = 0; at[0] < form->size[0]; ++at[0], ++node) {
+                if (sides.side[node] != UNKNOWN) continue;
+                int is_inside = fabsf(hair_triangles_winding(t, place_of(form, t, at))) > 0.5f;
+                tell(&sides, node, is_inside ? INSIDE : OUTSIDE);
+                spread(&sides);
+            }
+    for (node = 0; node < nodes && !result; ++node)
+        if (sides.side[node] == INSIDE) form->distance[node] = -form->distance[node];
+    hair_free(&form->host, sides.side);
+    hair_free(&form->host, sides.stack);
+    return result;
+}
+
+static void thicken(hair_form* form)
+{
+    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
+    for (size_t i = 0; i < nodes; ++i) form->distance[i] -= form->info.thickness / 2;
+}
+
+// The whole -------------------------------------------------------------------------------------------------
+
+static uint64_t mark_of(const hair_form* form)
+{
+    const unsigned char* parts[] = {(const unsigned char*)form->size, (const unsigned char*)form->origin,
+                                    (const unsigned char*)&form->voxel, (const unsigned char*)form->distance};
+    size_t               nodes   = (size_t)form->size[0] * form->size[1] * form->size[2];
+    size_t               words[] = {3, 3, 1, nodes};
+    uint64_t             mark    = 0xcbf29ce484222325u; // FNV-1a, a word at a time
+    for (int k = 0; k < 4; ++k)
+        for (size_t i = 0; i < words[k]; ++i) {
+            uint32_t word;
+            memcpy(&word, parts[k] + 4 * i, sizeof word);
+            mark = (mark ^ word) * 0x100000001b3u;
+        }
+    return mark ? mark : 1;
+}
+
+static hair_result fill(const hair_form_desc* desc, struct hair_triangles* t, hair_form* form)
+{
+    hair_result result =
+        hair_triangles_build(&form->host, desc->positions, desc->triangles, desc->triangle_count, t);
+    if (result) return result;
+    if (!t->count)
+        return hair_fail(&form->host, HAIR_ERROR_ARGUMENT,
+                         "hair_form_desc: none of %u triangles has three different corners",
+                         desc->triangle_count);
+    form->info.unused = desc->triangle_count - t->count;
+    form->info.closed = (uint32_t)hair_triangles_are_closed(t);
+    result            = lay_grid(desc, t, form);
+    if (result) return result;
+    measure(form, t);
+    if (form->info.closed) return find_sides(form, t);
+    thicken(form);
+    hair_log(&form->host, HAIR_LOG_WARNING, "a form's mesh of %u triangles is not closed: a shell of %g m",
+             t->count, (double)form->info.thickness);
+    return HAIR_OK;
+}
+
+hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, hair_form** out)
+{
+    hair_result result = check_arrays(host, desc);
+    if (result) return result;
+    hair_form* form = hair_alloc(host, 1, sizeof *form);
+    if (!form) return hair_fail_memory(host, "a form");
+    struct hair_triangles triangles = {0};
+    form->host                      = *host;
+    form->info                      = hair_form_info_default();
+    atomic_init(&form->holders, 1);
+    result = fill(desc, &triangles, form);
+    hair_triangles_free(host, &triangles);
+    if (result) {
+        hair_form_release(form);
+        return result;
+    }
+    form->mark = mark_of(form);
+    *out       = form;
+    return HAIR_OK;
+}
+
+// Who holds a form may not change it, but may let go of it.
+static hair_form* own(const hair_form* form)
+{
+    return (hair_form*)(uintptr_t)form;
+}
+
+void hair_form_hold(const hair_form* form)
+{
+    if (form) atomic_fetch_add_explicit(&own(form)->holders, 1, memory_order_relaxed);
+}
+
+void hair_form_release(const hair_form* form)
+{
+    if (!form || atomic_fetch_sub_explicit(&own(form)->holders, 1, memory_order_acq_rel) != 1) return;
+    hair_host host = form->host;
+    hair_free(&host, form->distance);
+    hair_free(&host, own(form));
+}

@@ -1,0 +1,62 @@
+// pair.c - solids by their keys: most often in the same order as before, else both sorted and merged.
+#include "lib/collide/pair.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct place {
+    uint64_t key;
+    uint32_t index;
+};
+
+static int compare(const void* a, const void* b)
+{
+    const struct place *x = a, *y = b;
+    int                 by_key = (x->key > y->key) - (x->key < y->key);
+    return by_key ? by_key : (x->index > y->index) - (x->index < y->index);
+}
+
+static uint64_t key_of(const hair_solid* solids, uint32_t i, size_t stride)
+{
+    hair_solid solid;
+    memcpy(&solid, (const unsigned char*)solids + i * stride, sizeof solid);
+    return solid.key;
+}
+
+static void sort(const hair_solid* solids, uint32_t count, size_t stride, struct place* out)
+{
+    for (uint32_t i = 0; i < count; ++i) out[i] = (struct place){key_of(solids, i, stride), i};
+    if (count) qsort(out, count, sizeof *out, compare);
+}
+
+static void merge(const struct place* now, uint32_t count, const struct place* before, uint32_t count_before,
+                  uint32_t* pair)
+{
+    uint32_t i = 0, k = 0;
+    while (i < count && k < count_before)
+        if (now[i].key == before[k].key)
+            pair[now[i++].index] = before[k++].index;
+        else if (now[i].key < before[k].key)
+            ++i;
+        else
+            ++k;
+}
+
+hair_result hair_pair_solids(const hair_host* host, const hair_solid* now, uint32_t count, size_t stride,
+                             const hair_solid* before, uint32_t count_before, uint32_t* pair)
+{
+    uint32_t both = count < count_before ? count : count_before, same = 0;
+    while (same < both && key_of(now, same, stride) == before[same].key) ++same;
+    if (same == both) {
+        for (uint32_t i = 0; i < count; ++i) pair[i] = i < both ? i : UINT32_MAX;
+        return HAIR_OK;
+    }
+    struct place* places = hair_alloc(host, (size_t)count + count_before, sizeof *places);
+    if (!places) return hair_fail_memory(host, "the order of solids");
+    sort(now, count, stride, places);
+    sort(before, count_before, sizeof *before, places + count);
+    for (uint32_t i = 0; i < count; ++i) pair[i] = UINT32_MAX;
+    merge(places, count, places + count, count_before, pair);
+    hair_free(host, places);
+    return HAIR_OK;
+}

@@ -1,0 +1,346 @@
+// triangles.c - the tree of boxes over triangles: sorted along a Morton curve, then a complete binary tree.
+#include "lib/collide/triangles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DIGIT 10 // bits of a Morton code along an axis, and of one round of the radix sort
+#define ROUNDS 3
+#define TOO_FAR 0.02f // as hair_triangles_distance promises
+
+static hair_vec3 corner(const struct hair_triangles* t, uint32_t place, int k)
+{
+    return hair_sub(
+        hair_load3(t->positions + 3 * (size_t)t->indices[3 * (size_t)t->order[place] + (size_t)k]),
+        t->center);
+}
+
+static hair_vec3 least(hair_vec3 a, hair_vec3 b)
+{
+    return (hair_vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
+}
+
+static hair_vec3 most(hair_vec3 a, hair_vec3 b)
+{
+    return (hair_vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
+}
+
+static int same(hair_vec3 a, hair_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// Order -----------------------------------------------------------------------------------------------------
+
+// The lowest ten bits, each two places from the next.
+static uint32_t spread(uint32_t x)
+{
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+static uint32_t cell(float value, float lower, float scale)
+{
+    return (uint32_t)fminf(fmaxf((value - lower) * scale, 0), (1 << DIGIT) - 1);
+}
+
+static uint32_t code_of(const struct hair_triangles* t, uint32_t place, float scale)
+{
+    hair_vec3 sum = hair_add(hair_add(corner(t, place, 0), corner(t, place, 1)), corner(t, place, 2));
+    hair_vec3 at = hair_scale(sum, 1.0f / 3), lower = t->bounds.lower;
+    return spread(cell(at.x, lower.x, scale)) | spread(cell(at.y, lower.y, scale)) << 1 |
+           spread(cell(at.z, lower.z, scale)) << 2;
+}
+
+// By the upper half, least digit first: what is alike stays in order.
+static void sort(uint64_t* keys, uint64_t* other, uint32_t count)
+{
+    for (int round = 0; round < ROUNDS; ++round) {
+        uint32_t start[1 << DIGIT] = {0}, at = 0;
+        int      shift = 32 + DIGIT * round;
+        for (uint32_t i = 0; i < count; ++i) ++start[keys[i] >> shift & ((1 << DIGIT) - 1)];
+        for (uint32_t k = 0; k < 1 << DIGIT; ++k) {
+            uint32_t size = start[k];
+            start[k]      = at;
+            at += size;
+        }
+        for (uint32_t i = 0; i < count; ++i) other[start[keys[i] >> shift & ((1 << DIGIT) - 1)]++] = keys[i];
+        uint64_t* swap = keys;
+        keys           = other;
+        other          = swap;
+    }
+}
+
+static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
+{
+    uint64_t* keys = hair_alloc(host, 2 * (size_t)t->count, sizeof *keys);
+    if (!keys) return hair_fail_memory(host, "the order of a form's triangles");
+    uint64_t* other = keys + t->count;
+    hair_vec3 size  = hair_sub(t->bounds.upper, t->bounds.lower);
+    float     scale = (float)(1 << DIGIT) / fmaxf(fmaxf(size.x, size.y), fmaxf(size.z, 1e-30f));
+    for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | t->order[i];
+    sort(keys, other, t->count);
+    for (uint32_t i = 0; i < t->count; ++i)
+        t->order[i] = (uint32_t)other[i]; // After an odd number of rounds.
+    hair_free(host, keys);
+    return HAIR_OK;
+}
+
+// Nodes -----------------------------------------------------------------------------------------------------
+
+// The leaves of a complete tree lie on two levels; those of the lower one come first along the curve.
+static uint32_t leaf_of(const struct hair_triangles* t, uint32_t node)
+{
+    return node + 1 >= t->lowest ? node + 1 - t->lowest : node + 1 + t->leaves - t->lowest;
+}
+
+static void make_leaf(struct hair_triangles* t, uint32_t node)
+{
+    uint32_t        first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
+    struct hair_box box   = {corner(t, first, 0), corner(t, first, 0)};
+    hair_vec3       area = {0, 0, 0}, center = {0, 0, 0};
+    float           weight = 0;
+    for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i) {
+        hair_vec3 a = corner(t, i, 0), b = corner(t, i, 1), c = corner(t, i, 2);
+        hair_vec3 own  = hair_scale(hair_cross(hair_sub(b, a), hair_sub(c, a)), 0.5f);
+        float     size = hair_length(own);
+        box.lower      = least(least(box.lower, a), least(b, c));
+        box.upper      = most(most(box.upper, a), most(b, c));
+        area           = hair_add(area, own);
+        center         = hair_add(center, hair_scale(hair_add(a, hair_add(b, c)), size / 3));
+        weight += size;
+    }
+    t->box[node]           = box;
+    t->dipole[node].area   = area;
+    t->dipole[node].radius = weight; // Until the boxes are done.
+    t->dipole[node].center = weight > 0 ? hair_scale(center, 1 / weight) : box.lower;
+}
+
+static void join(struct hair_triangles* t, uint32_t node)
+{
+    const struct hair_box *   a = &t->box[2 * node + 1], *b = &t->box[2 * node + 2];
+    const struct hair_dipole *x = &t->dipole[2 * node + 1], *y = &t->dipole[2 * node + 2];
+    float                     weight = x->radius + y->radius;
+    t->box[node]                     = (struct hair_box){least(a->lower, b->lower), most(a->upper, b->upper)};
+    t->dipole[node].area             = hair_add(x->area, y->area);
+    t->dipole[node].radius           = weight;
+    t->dipole[node].center = weight > 0 ? hair_lerp(x->center, y->center, y->radius / weight) : x->center;
+}
+
+static void make_nodes(struct hair_triangles* t)
+{
+    uint32_t nodes = 2 * t->leaves - 1;
+    for (uint32_t node = nodes; node-- > 0;)
+        if (node >= t->leaves - 1)
+            make_leaf(t, node);
+        else
+            join(t, node);
+    for (uint32_t node = 0; node < nodes; ++node) {
+        hair_vec3 center = t->dipole[node].center;
+        t->dipole[node].radius =
+            hair_length(most(hair_sub(t->box[node].upper, center), hair_sub(center, t->box[node].lower)));
+    }
+}
+
+static void find_bounds(struct hair_triangles* t)
+{
+    struct hair_box bounds = {corner(t, 0, 0), corner(t, 0, 0)};
+    for (uint32_t i = 0; i < t->count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            bounds.lower = least(bounds.lower, corner(t, i, k));
+            bounds.upper = most(bounds.upper, corner(t, i, k));
+        }
+    hair_vec3 half = hair_scale(hair_sub(bounds.upper, bounds.lower), 0.5f);
+    t->center      = hair_add(bounds.lower, half);
+    t->bounds      = (struct hair_box){hair_sub(bounds.lower, t->center), hair_sub(bounds.upper, t->center)};
+}
+
+hair_result hair_triangles_build(const hair_host* host, const float* positions, const uint32_t* indices,
+                                 uint32_t count, struct hair_triangles* out)
+{
+    struct hair_triangles t = {.positions = positions, .indices = indices};
+    hair_result           result;
+    t.order = hair_alloc(host, count, sizeof *t.order);
+    if (!t.order) return hair_fail_memory(host, "a form's triangles");
+    for (uint32_t i = 0; i < count; ++i) {
+        t.order[t.count] = i;
+        hair_vec3 a = corner(&t, t.count, 0), b = corner(&t, t.count, 1), c = corner(&t, t.count, 2);
+        t.count += !same(a, b) && !same(b, c) && !same(c, a);
+    }
+    if (t.count) {
+        find_bounds(&t);
+        t.leaves = (t.count + HAIR_TRIANGLES_PER_LEAF - 1) / HAIR_TRIANGLES_PER_LEAF;
+        for (t.lowest = 1; 2 * t.lowest <= 2 * t.leaves - 1;) t.lowest *= 2;
+        t.box    = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
+        t.dipole = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.dipole);
+        result   = t.box && t.dipole ? put_in_order(host, &t) : hair_fail_memory(host, "a form's triangles");
+        if (result) {
+            hair_triangles_free(host, &t);
+            return result;
+        }
+        make_nodes(&t);
+    }
+    *out = t;
+    return HAIR_OK;
+}
+
+void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles)
+{
+    hair_free(host, triangles->order);
+    hair_free(host, triangles->box);
+    hair_free(host, triangles->dipole);
+    *triangles = (struct hair_triangles){0};
+}
+
+// Distance --------------------------------------------------------------------------------------------------
+
+static float squared_to_segment(hair_vec3 p, hair_vec3 a, hair_vec3 b)
+{
+    hair_vec3 d = hair_sub(b, a), out = hair_sub(p, a);
+    float     t = hair_dot(out, d) / fmaxf(hair_dot(d, d), 1e-37f);
+    out         = hair_sub(out, hair_scale(d, fminf(fmaxf(t, 0), 1)));
+    return hair_dot(out, out);
+}
+
+static float squared_to_triangle(const struct hair_triangles* t, uint32_t place, hair_vec3 p)
+{
+    hair_vec3 a = corner(t, place, 0), b = corner(t, place, 1), c = corner(t, place, 2);
+    hair_vec3 ab = hair_sub(b, a), bc = hair_sub(c, b), ca = hair_sub(a, c);
+    hair_vec3 normal = hair_cross(ca, ab);
+    float     size   = hair_dot(normal, normal);
+    // Over the triangle, when it is on the same side of all three edges.
+    if (size > 1e-37f && hair_dot(hair_cross(normal, ab), hair_sub(p, a)) >= 0 &&
+        hair_dot(hair_cross(normal, bc), hair_sub(p, b)) >= 0 &&
+        hair_dot(hair_cross(normal, ca), hair_sub(p, c)) >= 0) {
+        float height = hair_dot(normal, hair_sub(p, a));
+        return height * height / size;
+    }
+    return fminf(squared_to_segment(p, a, b),
+                 fminf(squared_to_segment(p, b, c), squared_to_segment(p, c, a)));
+}
+
+static float squared_to_box(const struct hair_box* box, hair_vec3 p)
+{
+    hair_vec3 zero = {0, 0, 0};
+    hair_vec3 out  = most(most(hair_sub(box->lower, p), hair_sub(p, box->upper)), zero);
+    return hair_dot(out, out);
+}
+
+// What is this far, squared, or farther is not looked at.
+static float limit_of(float squared, float band)
+{
+    float distance = sqrtf(squared), limit = distance - TOO_FAR * fmaxf(distance - band, 0);
+    return limit * limit;
+}
+
+float hair_triangles_distance(const struct hair_triangles* t, hair_vec3 point, float band, uint32_t* nearest)
+{
+    struct {
+        uint32_t node;
+        float    squared;
+    } stack[64]      = {{0, 0}};
+    uint32_t depth   = 1;
+    float    squared = squared_to_triangle(t, *nearest, point), limit = limit_of(squared, band);
+    while (depth > 0) {
+        uint32_t node = stack[--depth].node;
+        if (stack[depth].squared >= limit) continue;
+        if (node < t->leaves - 1) {
+            uint32_t a = 2 * node + 1, b = a + 1;
+            float    to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
+            int      b_first       = to_b < to_a; // The nearer one goes on top.
+            stack[depth].node      = b_first ? a : b;
+            stack[depth++].squared = b_first ? to_a : to_b;
+            stack[depth].node      = b_first ? b : a;
+            stack[depth++].squared = b_first ? to_b : to_a;
+            continue;
+        }
+        uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
+        for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i) {
+            float own = squared_to_triangle(t, i, point);
+            if (own >= squared) continue;
+            squared  = own;
+            limit    = limit_of(squared, band);
+            *nearest = i;
+        }
+    }
+    return sqrtf(squared);
+}
+
+// Winding ---------------------------------------------------------------------------------------------------
+
+#define FROM_AFAR 3.0f // radii: from there on a dipole stands for its triangles
+#define PI_4 12.56637061f
+
+// Van Oosterom and Strackee 1983.
+static float solid_angle(const struct hair_triangles* t, uint32_t place, hair_vec3 p)
+{
+    hair_vec3 a = hair_sub(corner(t, place, 0), p), b = hair_sub(corner(t, place, 1), p),
+              c = hair_sub(corner(t, place, 2), p);
+    float la = hair_length(a), lb = hair_length(b), lc = hair_length(c);
+    float above = hair_dot(a, hair_cross(b, c));
+    float below = la * lb * lc + hair_dot(a, b) * lc + hair_dot(b, c) * la + hair_dot(c, a) * lb;
+    return above == 0 && below == 0 ? 0 : 2 * atan2f(above, below);
+}
+
+float hair_triangles_winding(const struct hair_triangles* t, hair_vec3 point)
+{
+    uint32_t stack[64] = {0}, depth = 1;
+    float    sum = 0;
+    while (depth > 0) {
+        uint32_t                  node   = stack[--depth];
+        const struct hair_dipole* dipole = &t->dipole[node];
+        hair_vec3                 to     = hair_sub(dipole->center, point);
+        float                     far    = hair_length(to);
+        if (far > FROM_AFAR * dipole->radius) {
+            sum += hair_dot(dipole->area, to) / (far * far * far);
+        } else if (node < t->leaves - 1) {
+            stack[depth++] = 2 * node + 1;
+            stack[depth++] = 2 * node + 2;
+        } else {
+            uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
+            for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i)
+                sum += solid_angle(t, i, point);
+        }
+    }
+    return sum / PI_4;
+}
+
+// Closed ----------------------------------------------------------------------------------------------------
+
+// Murmur3's final mixing.
+static uint64_t mix(uint64_t x)
+{
+    x = (x ^ x >> 33) * 0xff51afd7ed558ccdu;
+    x = (x ^ x >> 33) * 0xc4ceb9fe1a85ec53u;
+    return x ^ x >> 33;
+}
+
+static uint64_t hash_of(hair_vec3 p)
+{
+    uint64_t hash = 0x9e3779b97f4a7c15u;
+    float    v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 is 0.
+    for (int k = 0; k < 3; ++k) {
+        uint32_t bits;
+        memcpy(&bits, &v[k], sizeof bits);
+        hash = mix(hash ^ bits) + 0x9e3779b97f4a7c15u;
+    }
+    return hash;
+}
+
+// Every edge has a random number; it is added one way and taken off the other. A sum of 0 that is not made of zeros
+// is one chance in 2^64, and then only a sign would be wrong.
+int hair_triangles_are_closed(const struct hair_triangles* t)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < t->count; ++i) {
+        uint64_t v[4] = {hash_of(corner(t, i, 0)), hash_of(corner(t, i, 1)), hash_of(corner(t, i, 2))};
+        v[3]          = v[0];
+        for (int k = 0; k < 3; ++k) {
+            uint64_t edge = mix(mix(v[k] < v[k + 1] ? v[k] : v[k + 1]) + (v[k] < v[k + 1] ? v[k + 1] : v[k]));
+            sum += v[k] < v[k + 1] ? edge : 0 - edge;
+        }
+    }
+    return sum == 0;
+}
