@@ -47,12 +47,12 @@ vec3 reduced_from(vec4 m, uint block, uint reach)
 }
 
 // Of a work group: parallel cyclic reduction of pairs of vertices, the matrix's part of it done (lib/sim/reduce.c).
-// Implicit Euler is rare, and substitutes.
+// Implicit Euler is rare, and substitutes; so does who has no reduction, since threads have the guides mostly.
 void solve_implicit(bool euler)
 {
     MEET;
-    if (euler) {
-        substitute(true);
+    if (euler || uint(reduction.length()) < params.vertices) {
+        substitute(euler);
         return;
     }
     uint i = gl_LocalInvocationID.x, block = i / 2u, at = guide_first + i, blocks = (guide_count + 1u) / 2u;

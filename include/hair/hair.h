@@ -299,7 +299,8 @@ HAIR_DESC(hair_look)
 typedef enum hair_mapping {
     HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
     HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other.
-    HAIR_MAPPING_THREAD    ///< A thread per guide: fastest on software rasterisers.
+    HAIR_MAPPING_THREAD    ///< A thread per guide: fastest on software rasterisers, which may not let one
+                           ///< thread do all for long guides among many solids. Then a work group does.
 } hair_mapping;
 
 typedef struct hair_desc {

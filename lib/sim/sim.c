@@ -8,6 +8,32 @@
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
+// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
+// nothing. How often a substep goes round at the worst: every method tried, each with all its steps, each vertex in
+// reach of all solids. A loop that nobody enters goes round once.
+#define MOST_ROUNDS 65000
+
+static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
+{
+    uint32_t solids = sim->solids.capsules, met = solids ? 44 * (solids + 6) : 0;
+    if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
+    if (by_thread) return (sim->most_vertices + 1) * (170 + met) + 3 * (solids + 1);
+    return 600 + 8 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+}
+
+// Where a thread would have too much to do, it is a work group's.
+static int is_by_thread(const struct hair_sim* sim)
+{
+    return sim->by_thread && (!sim->gl->software || rounds_of_substep(sim, 1) <= MOST_ROUNDS);
+}
+
+static uint32_t substeps_at_once(const struct hair_sim* sim)
+{
+    if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
+    uint32_t most = MOST_ROUNDS / rounds_of_substep(sim, is_by_thread(sim));
+    return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
+}
+
 // In the order of passes.inl: four sizes, with solids, curved, by thread.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
@@ -18,7 +44,7 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
     hair_gl_pass pass = smallest[sim->solver];
-    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * (sim->by_thread != 0);
+    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
@@ -115,23 +141,6 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
     params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
 }
 
-// How many substeps a dispatch does. llvmpipe leaves every loop of a shader once it has gone round 65,535 times in
-// all its loops together, and says nothing: there they are so few that even the worst stays below that.
-static uint32_t substeps_at_once(const struct hair_sim* sim)
-{
-    if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    uint32_t solids = sim->solids.capsules < 8 ? sim->solids.capsules : 8; // that one vertex may meet
-    uint32_t rounds;
-    if (!sim->rods)
-        rounds = sim->physics.iterations * (4 + solids) + 2 * sim->solids.capsules + 20;
-    else if (sim->by_thread)
-        rounds = sim->most_vertices * (170 + (solids ? 20 * (4 + 2 * solids) : 0)) + sim->solids.capsules;
-    else
-        rounds = 400 + 6 * sim->most_vertices + 60 * (4 + 2 * solids);
-    uint32_t most = 65000 / rounds;
-    return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
-}
-
 static void upload(struct hair_sim* sim, const struct hair_step_params* params)
 {
     hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
@@ -188,7 +197,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         write_now(sim, &params);
         upload(sim, &params);
         uint32_t groups =
-            sim->by_thread ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
+            is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
         hair_gl_run(sim->gl, pass, groups);
         done += count;
         params.share_start = params.substep[count - 1].displacement.w;
