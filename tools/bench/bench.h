@@ -19,7 +19,8 @@ struct bench_options {
     const char*               only_method;
     hair_mapping              mapping;
     uint32_t                  strands; // 0: as the suite has it
-    int64_t                   scene;   // of random ones, only this; -1: all
+    uint32_t                  scene;   // of random ones, the first, and
+    uint32_t                  scenes;  // how many; 0: as the suite has it
     int                       device;
     bool                      quick, quiet, verbose;
 };

@@ -9,6 +9,8 @@
 
 static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_physics, &bench_stability};
 
+#define MOST_SCENE 999999999
+
 enum name { JSON = 256, CSV, QUICK, CASE, METHOD, MAPPING, STRANDS, SCENE, DEVICE, QUIET, VERBOSE, VERSION };
 
 static const struct row {
@@ -24,7 +26,7 @@ static const struct row {
     {"method", METHOD, "NAME", "only this solver: direct, accurate, follow or redblack"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
     {"strands", STRANDS, "N", "copies of the strand that are timed; 1000"},
-    {"scene", SCENE, "N", "of the case fuzz, only this random scene"},
+    {"scene", SCENE, "N", "of the case fuzz, only this random scene, or those of N-M"},
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
     {"quiet", QUIET, NULL, "no progress"},
     {"verbose", VERBOSE, NULL, "pass on all that the library logs"},
@@ -78,6 +80,19 @@ static bool parse_count(const char* option, const char* text, uint32_t least, ui
     return false;
 }
 
+// Of scenes: N, or N-M with both ends.
+static bool parse_range(const char* option, const char* text, struct bench_options* out)
+{
+    char        first[16] = "";
+    uint32_t    last;
+    const char* dash = strchr(text, '-');
+    snprintf(first, sizeof first, "%.*s", (int)(dash ? dash - text : 12), text);
+    if (!parse_count(option, first, 0, MOST_SCENE, &out->scene)) return false;
+    if (!parse_count(option, dash ? dash + 1 : first, out->scene, MOST_SCENE, &last)) return false;
+    out->scenes = last - out->scene + 1;
+    return true;
+}
+
 static bool parse_name(const char* option, const char* text, const char* const* names, uint32_t* out)
 {
     for (*out = 0; names[*out]; ++*out)
@@ -100,10 +115,7 @@ static bool take(const struct row* row, const char* value, struct bench_options*
         out->mapping = (hair_mapping)number;
         return true;
     case STRANDS: return parse_count(row->name, value, 1, 65535, &out->strands);
-    case SCENE:
-        if (!parse_count(row->name, value, 0, UINT32_MAX, &number)) return false;
-        out->scene = number;
-        return true;
+    case SCENE: return parse_range(row->name, value, out);
     case DEVICE:
         if (!parse_count(row->name, value, 0, 1000, &number)) return false;
         out->device = (int)number;
@@ -138,7 +150,7 @@ int bench_parse(int count, char** arguments, struct bench_options* out)
     for (int i = 0; i < ROW_COUNT; ++i)
         table[i] =
             (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, 1000 + i};
-    *out = (struct bench_options){.scene = -1, .device = -1};
+    *out = (struct bench_options){.device = -1};
     for (int found; (found = getopt_long(count, arguments, "h", table, NULL)) != -1;) {
         if (found == '?') return misuse();
         if (found == 'h' || rows[found - 1000].option == 'h') return print_help();

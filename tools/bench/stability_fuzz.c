@@ -1,6 +1,7 @@
 // stability_fuzz.c - random scenes, the same ones every time: any shape, any setting that the library takes, any
 // motion. Nothing may be stretched or other than finite.
 #include "tools/bench/stability.h"
+#include "tools/common/file.h"
 
 #include <math.h>
 #include <string.h>
@@ -198,6 +199,11 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
     hair_health own = hair_health_default();
     for (int s = 0; s < 4; ++s) watch.solids[s] = none;
     if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
+        if (solver != HAIR_SOLVER_REDBLACK && (!watch.finite || watch.stretch > BENCH_MOST_STRETCH))
+            hair_complain(BENCH_TOOL,
+                          "scene %u, %s: %s, stretch %.3g, %u vertices, %u euler, %u follow, %u reset",
+                          number, bench_solver_name(solver), watch.finite ? "finite" : "not finite",
+                          watch.stretch, scene.vertices, own.euler, own.follow, own.reset);
         if (all->finite && (!watch.finite || watch.stretch >= all->stretch)) *worst = number;
         all->finite  = all->finite && watch.finite;
         all->stretch = fmax(all->stretch, watch.stretch);
@@ -218,9 +224,8 @@ static void fuzz(struct bench* bench, hair_solver solver)
     struct bench_watch all    = {.finite = true};
     hair_health        health = hair_health_default();
     struct bench_scene scene  = bench_scene_default();
-    int64_t            only   = bench->options.scene;
-    uint32_t           first = only < 0 ? 0 : (uint32_t)only, worst = first, lived = 0;
-    uint32_t           count = only >= 0 ? 1 : bench->options.quick ? 200 : 10000;
+    uint32_t           first = bench->options.scene, worst = first, lived = 0;
+    uint32_t count = bench->options.scenes ? bench->options.scenes : bench->options.quick ? 200 : 10000;
     for (uint32_t i = 0; i < count && !bench_was_interrupted(); ++i)
         lived += live_through(bench, solver, first + i, &all, &health, &worst);
     if (lived <= count / 2) {
