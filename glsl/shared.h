@@ -48,6 +48,11 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
 #define HAIR_BIND_MEMBER 1 // uint[]             places in the next, of the solids that reach into each brick
 #define HAIR_BIND_SOLID 2  // hair_field_solid[]
+// The passes of the crowd, which is what a hair feels of the hair around it, read the state and the history; and:
+#define HAIR_BIND_CROWD 3  // int[]          of the grid: four per node, mass and momentum; then one, volume
+#define HAIR_BIND_SHARE 5  // hair_share[]   per guide vertex, never written
+#define HAIR_BIND_LIMIT 6  // float[]        per node, never written: volume from which it presses
+#define HAIR_BIND_PUSH 7   // hair_vec4[]    per guide vertex: acceleration, m/s^2
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
@@ -59,6 +64,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_STEP 0 // hair_step_params
 #define HAIR_BIND_DRAW 1 // hair_draw_params
 #define HAIR_BIND_FIELD 2 // hair_field_params
+#define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -67,6 +73,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
+#define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
 
@@ -85,6 +92,8 @@ typedef uint32_t hair_uint;
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
+#define HAIR_CROWD_NODES 32    // along an axis, at most
+#define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -186,6 +195,27 @@ struct hair_step_params {
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
 };
 HAIR_SIZE(hair_step_params, 208 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 80)
+
+// What a guide vertex puts into the crowd's grid, in its units.
+struct hair_share {
+    hair_uint mass, volume;
+    hair_uint first, end; // vertices of its guide
+};
+HAIR_SIZE(hair_share, 16)
+
+// What the hair's mass, momentum and volume are gathered in: a grid that goes along with the head.
+struct hair_crowd_params {
+    hair_vec4 rotation; // of the head, where the last substep left it
+    hair_vec4 moved;    // xyz: displacement of the head's origin over that, m; w: speed per displacement, 1/s
+    hair_vec4 lower;    // xyz: node 0, in the head's frame, m; w: distance between nodes, m
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint vertices;  // of all guides
+    float     cohesion;  // share of a relative velocity to be removed, per second, 1/s
+    float     volume;    // m^2/s^2
+    float     most_push; // of volume, m/s^2
+    hair_uint unused;
+};
+HAIR_SIZE(hair_crowd_params, 80)
 
 // A strand that is made while drawing. With t from 0 at its root to 1 at its tip, u = t length_ratio,
 // g_k(u) and F_k(u) position and frame of guide k, o(t) the cubic Bezier curve of `offset`:

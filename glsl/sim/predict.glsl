@@ -1,8 +1,9 @@
 // predict.glsl - where a substep would lead if lengths were free and no solid in the way. With v the velocity, c the
 // damping, u the wind, g the gravity, w the pull to the target t, f the bending force on the mass m:
 //
-//   dv/dt = g + f/m + w^2 (t - x) - c (v - u)
+//   dv/dt = g + f/m + w^2 (t - x) - c (v - u) + a
 //
+// with a, where there is a crowd, what the hair around does, the same for a block of substeps.
 // All in displacements over a substep of length h. `wanted` is the answer.
 #include "sim/implicit.glsl"
 
@@ -13,6 +14,10 @@
 
 OWN(vec3, rate);        // h v at the end of the last substep,
 OWN(vec3, rate_before); // and of the one before
+#ifdef HAIR_CROWD
+layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
+OWN(vec3, push); // a
+#endif
 OWN(vec4, aim);         // rest position from the root, in groom space; w^2
 float     known;     // 0: at rest, just begun; 1: `rate` is known; 2: `rate_before` too
 bool      stiff;     // SHAKE takes bending implicitly
@@ -64,6 +69,9 @@ void predict(int method)
         vec3 bending = bending_force(i);
         vec3 force   = params.gravity.xyz;
         if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved, i) : vec3(0.0)) - GET(place, i));
+#ifdef HAIR_CROWD
+        force += own(push);
+#endif
         PUT(moved, i, vec3(0.0));
         if (slack[i] > 0.0) {
             if (method == SHAKE) leap(i, force, wind, bending);

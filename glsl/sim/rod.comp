@@ -32,6 +32,9 @@ void load()
         own(aim)             = vec4(from_root, rod[at].segment.z);
         own(strain)          = rod[at].strain;
         if (CURVED) own(section) = material[at];
+#ifdef HAIR_CROWD
+        own(push)            = texelFetch(push_texture, int(at)).xyz;
+#endif
 #if HAIR_SOLVER != SHAKE
         own(rate)            = history[at].rate.xyz * rescale;
         own(rate_before)     = history[at].rate_before.xyz * rescale;

@@ -238,7 +238,7 @@ typedef enum hair_root {
     HAIR_ROOT_FREE         ///< Held by nothing.
 } hair_root;
 
-/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, wind, friction.
+/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, wind to volume.
 typedef struct hair_physics {
     hair_made made;
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
@@ -261,6 +261,11 @@ typedef struct hair_physics {
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
     float     wind[3];  ///< Velocity of the air. m/s. [-1000, 1000]. Default 0.
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
+    float     cohesion; ///< Decay rate of velocity relative to the hair around. 1/s. [0, 1000]. Default 0.
+    /// How hair resists being denser than at rest, as a gas does, by its speed of sound squared: it is e times as
+    /// dense at the foot of a height of volume / gravity. At most what crosses half a cell of the grid, 1 cm or
+    /// more, in 1/120 s.
+    float volume; ///< m^2/s^2. [0, 100]. Default 0.
 } hair_physics;
 HAIR_DESC(hair_physics)
 

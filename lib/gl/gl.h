@@ -60,11 +60,11 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass but those of GUIDE_PASS that nothing has needed; those that fail keep the program they had, and
-// the first failure is returned.
+// Compile every pass but those of GUIDE_PASS and of the crowd that nothing has needed; those that fail keep the program
+// they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 
-// The program that a row of GUIDE_PASS runs, compiled when first needed: a head of hair needs one of its four sizes.
+// The program that such a row runs, compiled when first needed: a head of hair needs one of its four sizes.
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
 
 // One program of stages such as "NAME=1 draw/patch.vert draw/patch.tesc", definitions first; `captured`: outputs for transform feedback, or NULL.

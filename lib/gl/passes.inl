@@ -10,22 +10,28 @@
     PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
     PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
 
-// A solver of rods is eight such passes, for hair with and without what it can do without: solids, curved or flat
-// strands; and by a work group or a thread per guide.
+// A solver of rods is sixteen such passes, for hair with and without what it can do without: solids, curved or flat
+// strands, the crowd of other hair; and by a work group or a thread per guide.
 #define ROD_PASS_OF(name, label, defines) \
     GUIDE_PASS(name, label, defines "sim/rod.comp") \
     GUIDE_PASS(name##_SOLIDS, label "_solids", defines "HAIR_SOLIDS=1 sim/rod.comp") \
     GUIDE_PASS(name##_CURVED, label "_curved", defines "HAIR_CURVED=1 sim/rod.comp") \
     GUIDE_PASS(name##_CURVED_SOLIDS, label "_curved_solids", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 sim/rod.comp")
-#define ROD_PASS(name, label, defines) \
+#define ROD_PASS_BY(name, label, defines) \
     ROD_PASS_OF(name, label, defines) \
     ROD_PASS_OF(name##_THREAD, label "_thread", "HAIR_THREAD_PER_GUIDE=1 " defines)
+#define ROD_PASS(name, label, defines) \
+    ROD_PASS_BY(name, label, defines) \
+    ROD_PASS_BY(name##_CROWD, label "_crowd", "HAIR_CROWD=1 " defines)
 
 PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
 PASS(RESET, "sim/reset", "sim/reset.comp")
 PASS(TURN, "sim/turn", "sim/turn.comp")
 PASS(RESET_ROD, "sim/reset_rod", "HAIR_ROD=1 sim/reset.comp")
 PASS(TURN_ROD, "sim/turn_rod", "HAIR_ROD=1 sim/turn.comp")
+PASS(CROWD_CLEAR, "sim/crowd_clear", "HAIR_CROWD=1 sim/crowd_clear.comp")
+PASS(CROWD_SPLAT, "sim/crowd_splat", "HAIR_CROWD=1 sim/crowd_splat.comp")
+PASS(CROWD_GATHER, "sim/crowd_gather", "HAIR_CROWD=1 sim/crowd_gather.comp")
 ROD_PASS(DIRECT, "sim/direct", "HAIR_SOLVER=1 ")
 ROD_PASS(ACCURATE, "sim/accurate", "HAIR_SOLVER=0 ")
 ROD_PASS(FOLLOW, "sim/follow", "HAIR_SOLVER=3 ")
@@ -39,5 +45,6 @@ PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/stra
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
 #undef ROD_PASS
+#undef ROD_PASS_BY
 #undef ROD_PASS_OF
 #undef GUIDE_PASS

@@ -129,16 +129,18 @@ static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
     return HAIR_OK;
 }
 
-static int is_of_a_size(hair_gl_pass pass)
+// Of a size that no guide may have, or of what hair can do without.
+static int is_optional(hair_gl_pass pass)
 {
-    return strstr(passes[pass].stages, "HAIR_GUIDE_THREADS=") != NULL;
+    const char* stages = passes[pass].stages;
+    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
 {
     hair_result first = HAIR_OK;
     for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
-        if (is_of_a_size((hair_gl_pass)pass) && !gl->program[pass]) continue;
+        if (is_optional((hair_gl_pass)pass) && !gl->program[pass]) continue;
         hair_result result = compile_pass(gl, (hair_gl_pass)pass);
         if (!first) first = result;
     }

@@ -105,7 +105,13 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
     hair_result result = make_buffers(sim);
-    return result ? result : make(sim, 0);
+    if (!result) result = make(sim, 0);
+    return result ? result : hair_sim_need_crowd(sim);
+}
+
+hair_result hair_sim_need_crowd(struct hair_sim* sim)
+{
+    return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
 }
 
 hair_result hair_sim_renew_rods(struct hair_sim* sim)
@@ -128,6 +134,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->history);
     hair_gl_free_buffer(sim->gl, &sim->material);
     hair_gl_free_buffer(sim->gl, &sim->reduction);
+    hair_crowd_free(sim);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
     hair_free(host, sim->rods);

@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 3 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 4 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -29,7 +29,8 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
-#define MOST_BUFFERS 4 // that walk() lists
+#define MOST_BEAT 1000 // substeps of the crowd's block: more than there are of the shortest
+#define MOST_BUFFERS 5 // that walk() lists
 #define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 
@@ -226,6 +227,20 @@ static void walk_buffer(struct cursor* c, const char* name, GLuint buffer, size_
     c->at = end;
 }
 
+// Within a block of substeps what other hair does is part of the state. An instance without cohesion and volume reads
+// over it.
+static void walk_crowd(struct cursor* c, struct hair_crowd* crowd, uint32_t vertices)
+{
+    size_t size = vertices * sizeof(hair_vec4);
+    walk_uint(c, "number of substeps since the crowd was looked at", &crowd->beat, MOST_BEAT);
+    if (crowd->beat == 0 || c->result) return;
+    walk_buffer(c, "crowd's accelerations", crowd->push, size);
+    for (size_t i = 0; i < size && !crowd->push && !c->result; i += 4) {
+        float number = 0;
+        walk_float(c, "crowd's accelerations", &number, MOST_STATE);
+    }
+}
+
 // All that is saved, in order: of which haircut it is, and what the coming motion depends on.
 static void walk(struct cursor* c, struct hair_sim* sim)
 {
@@ -248,6 +263,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     if (sim->solver != HAIR_SOLVER_ACCURATE)
         walk_buffer(c, "rates of guide vertices", sim->history,
                     sim->guide_vertices * sizeof(struct hair_history));
+    walk_crowd(c, &sim->crowd, sim->guide_vertices);
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)
@@ -325,11 +341,12 @@ static hair_result upload(const struct cursor* c)
 hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
 {
     const hair_host* host   = &sim->gl->host;
-    struct hair_sim  loaded = *sim;
     hair_result      result = check_frame(host, bytes, size);
+    if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded.
     if (result) return result;
-    struct cursor c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
-    c.own           = hair_alloc(host, 1, c.end);
+    struct hair_sim loaded = *sim;
+    struct cursor   c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
+    c.own             = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
     struct hair_solids solids = {0};
     result                    = read(&c, &loaded, &solids);
@@ -344,6 +361,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     hair_solids_free(host, &sim->solids);
     *sim        = loaded;
     sim->solids = solids;
+    if (!sim->crowd.push) sim->crowd.beat = 0;
     hair_sim_show(sim);
     return HAIR_OK;
 }

@@ -34,7 +34,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids, curved, by thread.
+// In the order of passes.inl: four sizes, with solids, curved, by thread, in a crowd.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -44,7 +44,8 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
     hair_gl_pass pass = smallest[sim->solver];
-    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim);
+    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim) +
+               8 * hair_crowd_is_on(sim);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
@@ -175,6 +176,8 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     struct hair_step_params params = {0};
     hair_result             result = hair_sim_renew_rods(sim);
     hair_gl_pass            pass   = solver_pass(sim);
+    int                     crowd  = hair_crowd_is_on(sim);
+    if (!result) result = hair_sim_need_crowd(sim);
     if (!result) result = hair_gl_need(sim->gl, pass);
     if (result) return result;
     write_physics(sim, &params);
@@ -189,8 +192,10 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     if (sim->rods) hair_sim_bind_rods(sim);
     params.share_start = (float)fmax(-(sim->substep - first) / dt, -1);
     for (uint32_t done = 0; done < total;) {
-        uint32_t most         = substeps_at_once(sim);
-        uint32_t count        = total - done < most ? total - done : most;
+        uint32_t most  = substeps_at_once(sim);
+        uint32_t block = crowd ? hair_crowd_left(sim) : most;
+        uint32_t count = total - done < most ? total - done : most;
+        if (block < count) count = block;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         sim->last_substep     = sim->substep;
         write_substeps(sim, &params, count, first + done * sim->substep, dt);
@@ -198,7 +203,9 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         upload(sim, &params);
         uint32_t groups =
             is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
+        if (crowd) hair_crowd_bind(sim);
         hair_gl_run(sim->gl, pass, groups);
+        if (crowd) hair_crowd_count(sim, count);
         done += count;
         params.share_start = params.substep[count - 1].displacement.w;
         params.rescale     = 1;
@@ -207,6 +214,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         write_now(sim, &params);
         upload(sim, &params);
     }
+    if (!crowd) sim->crowd.beat = 0;
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
     return HAIR_OK;
@@ -218,6 +226,7 @@ static void settle(struct hair_sim* sim)
     sim->last_before = sim->last_after = sim->at_step = sim->head;
     sim->left                                         = 0;
     sim->last_substep                                 = sim->substep;
+    sim->crowd.beat                                   = 0;
     hair_solids_settle(&sim->solids);
 }
 
@@ -255,6 +264,7 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[1] = to->position[1] + (double)arm.y;
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
+    sim->crowd.beat = 0;              // What other hair does was found for how the head was turned.
     hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);

@@ -6,6 +6,7 @@
 #include "lib/collide/solid.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/groom.h"
+#include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
 
 struct hair_sim {
@@ -29,6 +30,7 @@ struct hair_sim {
     struct hair_pose   at_step;       // at the last step, and
     struct hair_pose   head;          // where it is to be at the next
     struct hair_solids solids;
+    struct hair_crowd  crowd;
 };
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom);
@@ -44,6 +46,7 @@ void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the gui
 // rods.c: what the solvers of rods need beside the state. `write` fills in their share of the parameters.
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
 hair_result hair_sim_renew_rods(struct hair_sim* sim); // if the physics have changed so
+hair_result hair_sim_need_crowd(struct hair_sim* sim); // what physics with cohesion or volume take
 void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);
 void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);

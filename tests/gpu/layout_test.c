@@ -84,6 +84,21 @@ static const struct member members[] = {
     VEC4(hair_step_params, solid[0].end[1]),
     VEC4(hair_step_params, solid[63].end[1]),
     VEC4(hair_step_params, solid[63].spin),
+    UINT(hair_share, mass),
+    UINT(hair_share, volume),
+    UINT(hair_share, first),
+    UINT(hair_share, end),
+    VEC4(hair_crowd_params, rotation),
+    VEC4(hair_crowd_params, moved),
+    VEC4(hair_crowd_params, lower),
+    UINT(hair_crowd_params, nodes_x),
+    UINT(hair_crowd_params, nodes_y),
+    UINT(hair_crowd_params, nodes_z),
+    UINT(hair_crowd_params, vertices),
+    FLOAT(hair_crowd_params, cohesion),
+    FLOAT(hair_crowd_params, volume),
+    FLOAT(hair_crowd_params, most_push),
+    UINT(hair_crowd_params, unused),
     UINT(hair_follower, guide0),
     UINT(hair_follower, guide1),
     UINT(hair_follower, guide2),
@@ -142,10 +157,10 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),       STRUCT(hair_rest),        STRUCT(hair_rod),         STRUCT(hair_state),
-    STRUCT(hair_history),     STRUCT(hair_capsule),     STRUCT(hair_substep),     STRUCT(hair_step_params),
-    STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params), STRUCT(hair_field_params),
-    STRUCT(hair_field_solid), STRUCT(hair_field_brick),
+    STRUCT(hair_guide),       STRUCT(hair_rest),        STRUCT(hair_rod),          STRUCT(hair_state),
+    STRUCT(hair_history),     STRUCT(hair_capsule),     STRUCT(hair_substep),      STRUCT(hair_step_params),
+    STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params),  STRUCT(hair_field_params),
+    STRUCT(hair_field_solid), STRUCT(hair_field_brick), STRUCT(hair_crowd_params), STRUCT(hair_share),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)

@@ -107,7 +107,8 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
     hair_instance*               hair[3];
     for (uint32_t n = 0; n < 3; ++n) {
         subjects[n] = hair_test_subject_of(n);
-        hair[n]     = hair_test_subject_make(test, &subjects[n]);
+        if (n > 0) subjects[n].physics.cohesion = 6, subjects[n].physics.volume = 0.2f;
+        hair[n] = hair_test_subject_make(test, &subjects[n]);
         for (uint32_t half = 0; half < 2; ++half) {
             hair_test_run(test, hair[n], &subjects[n], 20 * half, 20 * half + 20);
             hair_test_look(test, hair[n], &alone[n][half]);

@@ -1,0 +1,57 @@
+// crowd.glsl - the grid of the crowd, and where a guide vertex is in it: see lib/sim/crowd.h.
+#include "shared.h"
+#include "rotation.glsl"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_STATE) readonly buffer state_buffer { hair_state state[]; };
+layout(std430, binding = HAIR_BIND_HISTORY) readonly buffer history_buffer { hair_history history[]; };
+layout(std430, binding = HAIR_BIND_CROWD) buffer crowd_buffer { int crowd[]; };
+layout(std430, binding = HAIR_BIND_SHARE) readonly buffer share_buffer { hair_share share[]; };
+layout(std430, binding = HAIR_BIND_LIMIT) readonly buffer limit_buffer { float limit[]; };
+layout(std430, binding = HAIR_BIND_PUSH) writeonly buffer push_buffer { vec4 push[]; };
+layout(std140, binding = HAIR_BIND_CROWD_PARAMS) uniform crowd_params_buffer { hair_crowd_params params; };
+
+uint  thread() { return hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; }
+uvec3 nodes() { return uvec3(params.nodes_x, params.nodes_y, params.nodes_z); }
+
+uvec3 lowest; // of the eight nodes around the vertex
+vec3  part;   // of the way to the next, per axis
+
+// By the bits, for comparisons with NaN may be compiled away. What is not finite, or nowhere near, is no part of the
+// crowd: others must not feel it, and its guide goes back to its rest pose.
+bool is_sound(vec3 v) { return (floatBitsToUint(dot(v, v)) & 0x7fffffffu) < floatBitsToUint(1e8); }
+
+// In the grid. What is outside, which only hair that does not keep its length can be, is at its border.
+vec3 spot_of(uint i)
+{
+    vec3 from = rotate(quat_conjugate(params.rotation), state[i].position.xyz) - params.lower.xyz;
+    return clamp(from / params.lower.w, vec3(0.0), vec3(nodes() - 1u));
+}
+
+void find_spot(uint i)
+{
+    vec3 at = spot_of(i);
+    lowest  = min(uvec3(at), nodes() - 2u);
+    part    = at - vec3(lowest);
+}
+
+uvec3 corner_of(uint k) { return uvec3(k & 1u, k >> 1u & 1u, k >> 2u); }
+
+uint node_of(uvec3 corner)
+{
+    uvec3 at = lowest + corner;
+    return at.x + params.nodes_x * (at.y + params.nodes_y * at.z);
+}
+
+vec3 shares_of(uvec3 corner) { return mix(1.0 - part, part, vec3(corner)); }
+
+vec3 rate_of(uint i) { return i < uint(history.length()) ? history[i].rate.xyz : state[i].displacement.xyz; }
+
+bool counts(uint i) { return is_sound(state[i].position.xyz) && is_sound(rate_of(i)); }
+
+// Relative to the head's origin, in the world's axes; of HAIR_CROWD_SPEED, in [-1, 1].
+vec3 speed_of(uint i)
+{
+    return clamp((rate_of(i) - params.moved.xyz) * (params.moved.w / HAIR_CROWD_SPEED), vec3(-1.0), vec3(1.0));
+}

@@ -1,0 +1,12 @@
+// crowd_clear.comp - an empty grid. One thread per four numbers in it.
+#version 450 core
+#include "shared.h"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+layout(std430, binding = HAIR_BIND_CROWD) writeonly buffer crowd_buffer { ivec4 crowd[]; };
+
+void main()
+{
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i < uint(crowd.length())) crowd[i] = ivec4(0);
+}

@@ -1,0 +1,299 @@
+// crowd.c - the grid of the crowd: made of the groom at rest, filled and read at the start of every block.
+#include "lib/sim/crowd.h"
+
+#include "lib/sim/sim.h"
+
+#define BLOCK (1.0 / 120) // s, or a substep if that is longer
+#define LEAST_CELL 0.01f  // m: finer than guides are apart there would be nothing to gather
+#define MOST_IN_BIN 32    // vertices that are looked at of those in a cell
+
+int hair_crowd_is_on(const struct hair_sim* sim)
+{
+    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.volume > 0);
+}
+
+// Around all that hair can reach that keeps its length.
+static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
+{
+    struct hair_crowd* crowd    = &sim->crowd;
+    float              lower[3] = {INFINITY, INFINITY, INFINITY};
+    float              upper[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    for (uint32_t i = 0; i < sim->guides; ++i) {
+        const float* root = &rest[guides[i].first].position.x;
+        for (int k = 0; k < 3; ++k) {
+            lower[k] = fminf(lower[k], root[k] - guides[i].arc_length);
+            upper[k] = fmaxf(upper[k], root[k] + guides[i].arc_length);
+            widest   = fmaxf(widest, upper[k] - lower[k]);
+        }
+    }
+    crowd->lower = hair_load3(lower);
+    crowd->cell  = fmaxf(LEAST_CELL, widest / (HAIR_CROWD_NODES - 1));
+    for (int k = 0; k < 3; ++k) {
+        uint32_t nodes  = (uint32_t)ceilf((upper[k] - lower[k]) / crowd->cell) + 1;
+        crowd->nodes[k] = nodes < 2 ? 2 : nodes < HAIR_CROWD_NODES ? nodes : HAIR_CROWD_NODES;
+    }
+}
+
+static uint32_t node_count(const struct hair_crowd* crowd)
+{
+    return crowd->nodes[0] * crowd->nodes[1] * crowd->nodes[2];
+}
+
+// In fours, as they are cleared.
+static uint32_t grid_fours(const struct hair_crowd* crowd)
+{
+    return (5 * node_count(crowd) + 3) / 4;
+}
+
+struct spot {
+    uint32_t node[3]; // the lowest of the eight around
+    float    part[3]; // of the way to the next, per axis
+};
+
+static struct spot spot_of(const struct hair_crowd* crowd, const hair_vec4* position)
+{
+    const float at[3] = {position->x - crowd->lower.x, position->y - crowd->lower.y,
+                         position->z - crowd->lower.z};
+    struct spot spot;
+    for (int k = 0; k < 3; ++k) {
+        float    g   = fminf(fmaxf(at[k] / crowd->cell, 0), (float)(crowd->nodes[k] - 1));
+        uint32_t n   = (uint32_t)g;
+        spot.node[k] = n < crowd->nodes[k] - 2 ? n : crowd->nodes[k] - 2;
+        spot.part[k] = g - (float)spot.node[k];
+    }
+    return spot;
+}
+
+static uint32_t node_at(const struct hair_crowd* crowd, uint32_t x, uint32_t y, uint32_t z)
+{
+    return x + crowd->nodes[0] * (y + crowd->nodes[1] * z);
+}
+
+// What is worked out at rest. Arrays of one block.
+struct draft {
+    double*   mass;   // of every vertex: half the length of the segments beside it. m
+    double*   volume; // that it has for itself, in cells
+    double*   filled; // of every node, by volume
+    uint32_t* bin;    // where the vertices of the cell begin in `vertex`
+    uint32_t* vertex; // sorted by cell
+};
+
+static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest,
+                  struct draft* draft)
+{
+    for (uint32_t g = 0; g < sim->guides; ++g)
+        for (uint32_t i = 0; i < guides[g].count; ++i) {
+            uint32_t at     = guides[g].first + i;
+            double   before = i > 0 ? (double)rest[at - 1].position.w : 0;
+            draft->mass[at] = (before + (double)rest[at].position.w) / 2;
+        }
+}
+
+static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struct draft* draft)
+{
+    const struct hair_crowd* crowd = &sim->crowd;
+    for (int place = 0; place < 2; ++place) {
+        for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
+            struct spot s   = spot_of(crowd, &rest[i].position);
+            uint32_t    bin = node_at(crowd, s.node[0], s.node[1], s.node[2]);
+            if (place)
+                draft->vertex[draft->bin[bin + 1]++] = i;
+            else
+                ++draft->bin[bin + 2];
+        }
+        for (uint32_t n = 2; !place && n < node_count(crowd) + 2; ++n) draft->bin[n] += draft->bin[n - 1];
+    }
+}
+
+// Mass around a vertex by the grid's own weights, as if a node were right there. At least that of a straight strand
+// along an axis, which puts most into a node: so one by itself, wherever it is and however turned, fills none.
+static double mass_around(const struct hair_sim* sim, const struct hair_rest* rest, const struct draft* draft,
+                          uint32_t i)
+{
+    const struct hair_crowd* crowd = &sim->crowd;
+    struct spot              s     = spot_of(crowd, &rest[i].position);
+    double                   sum = 0, cell = (double)crowd->cell;
+    for (uint32_t n = 0; n < 27; ++n) {
+        uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
+        if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue; // -1 too
+        uint32_t bin = node_at(crowd, x, y, z), end = draft->bin[bin + 1];
+        uint32_t stride = (end - draft->bin[bin] + MOST_IN_BIN - 1) / MOST_IN_BIN;
+        for (uint32_t k = draft->bin[bin]; k < end; k += stride) {
+            const hair_vec4 *a = &rest[i].position, *b = &rest[draft->vertex[k]].position;
+            double wx = 1 - fabs((double)(a->x - b->x)) / cell, wy = 1 - fabs((double)(a->y - b->y)) / cell;
+            double wz = 1 - fabs((double)(a->z - b->z)) / cell;
+            if (wx > 0 && wy > 0 && wz > 0) sum += stride * draft->mass[draft->vertex[k]] * wx * wy * wz;
+        }
+    }
+    return fmax(sum, fmax(cell, draft->mass[i]));
+}
+
+static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struct draft* draft)
+{
+    const struct hair_crowd* crowd = &sim->crowd;
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
+        struct spot s    = spot_of(crowd, &rest[i].position);
+        draft->volume[i] = draft->mass[i] / mass_around(sim, rest, draft, i);
+        for (uint32_t c = 0; c < 8; ++c) {
+            double weight = draft->volume[i];
+            for (int k = 0; k < 3; ++k) weight *= (c >> k & 1) ? (double)s.part[k] : 1 - (double)s.part[k];
+            draft->filled[node_at(crowd, s.node[0] + (c & 1), s.node[1] + (c >> 1 & 1),
+                                  s.node[2] + (c >> 2))] += weight;
+        }
+    }
+}
+
+// In the grid's units. A node presses from where it is full, or as it is at rest.
+static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct draft* draft)
+{
+    const hair_host*   host  = &sim->gl->host;
+    struct hair_crowd* crowd = &sim->crowd;
+    uint32_t           nodes = node_count(crowd), vertices = sim->guide_vertices;
+    struct hair_share* share = hair_alloc(host, vertices, sizeof *share);
+    float*             limit = hair_alloc(host, nodes, sizeof *limit);
+    double             mass = 0, volume = 0;
+    hair_result        result = HAIR_OK;
+    if (!share || !limit) result = hair_fail_memory(host, "the crowd's grid");
+    for (uint32_t i = 0; i < vertices && !result; ++i) mass += draft->mass[i], volume += draft->volume[i];
+    for (uint32_t i = 0; i < vertices && !result; ++i) {
+        share[i].mass   = (uint32_t)(draft->mass[i] * (HAIR_CROWD_UNITS / mass) + 0.5);
+        share[i].volume = (uint32_t)(draft->volume[i] * (HAIR_CROWD_UNITS / volume) + 0.5);
+    }
+    for (uint32_t g = 0; g < sim->guides && !result; ++g)
+        for (uint32_t i = 0, first = guides[g].first; i < guides[g].count; ++i)
+            share[first + i].first = first, share[first + i].end = first + guides[g].count;
+    for (uint32_t n = 0; n < nodes && !result; ++n)
+        limit[n] = (float)(fmax(draft->filled[n], 1) * (HAIR_CROWD_UNITS / volume));
+    struct hair_gl* gl = sim->gl;
+    if (!result) result = hair_gl_storage(gl, "hair share", vertices * sizeof *share, share, &crowd->share);
+    if (!result) result = hair_gl_storage(gl, "hair limit", nodes * sizeof *limit, limit, &crowd->limit);
+    hair_free(host, share);
+    hair_free(host, limit);
+    return result;
+}
+
+static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guides,
+                             const struct hair_rest* rest)
+{
+    const hair_host* host     = &sim->gl->host;
+    uint32_t         vertices = sim->guide_vertices, nodes;
+    place_grid(sim, guides, rest);
+    nodes              = node_count(&sim->crowd);
+    struct draft draft = {0};
+    draft.mass         = hair_alloc(host, vertices, sizeof *draft.mass);
+    draft.volume       = hair_alloc(host, vertices, sizeof *draft.volume);
+    draft.filled       = hair_alloc(host, nodes, sizeof *draft.filled);
+    draft.bin          = hair_alloc(host, nodes + 2, sizeof *draft.bin);
+    draft.vertex       = hair_alloc(host, vertices, sizeof *draft.vertex);
+    int         whole  = draft.mass && draft.volume && draft.filled && draft.bin && draft.vertex;
+    hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
+    if (!result) {
+        weigh(sim, guides, rest, &draft);
+        sort(sim, rest, &draft);
+        fill(sim, rest, &draft);
+        result = upload(sim, guides, &draft);
+    }
+    hair_free(host, draft.mass);
+    hair_free(host, draft.volume);
+    hair_free(host, draft.filled);
+    hair_free(host, draft.bin);
+    hair_free(host, draft.vertex);
+    return result;
+}
+
+hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
+                            const struct hair_rest* rest)
+{
+    struct hair_gl*    gl    = sim->gl;
+    struct hair_crowd* crowd = &sim->crowd;
+    if (!hair_crowd_is_on(sim) || crowd->texture) return HAIR_OK;
+    hair_result result = make_rest(sim, guides, rest);
+    for (int pass = HAIR_GL_CROWD_CLEAR; pass <= HAIR_GL_CROWD_GATHER && !result; ++pass)
+        result = hair_gl_need(gl, (hair_gl_pass)pass);
+    size_t grid = (size_t)grid_fours(crowd) * 4 * sizeof(int32_t);
+    if (!result) result = hair_gl_uniform(gl, "hair crowd", sizeof(struct hair_crowd_params), &crowd->params);
+    if (!result) result = hair_gl_storage(gl, "hair crowd", grid, NULL, &crowd->grid);
+    if (!result)
+        result =
+            hair_gl_storage(gl, "hair push", sim->guide_vertices * sizeof(hair_vec4), NULL, &crowd->push);
+    if (!result) result = hair_gl_buffer_texture(gl, "hair push", GL_RGBA32F, crowd->push, &crowd->texture);
+    if (result) hair_crowd_free(sim);
+    return result;
+}
+
+void hair_crowd_free(struct hair_sim* sim)
+{
+    struct hair_crowd* crowd = &sim->crowd;
+    hair_gl_free_texture(sim->gl, &crowd->texture);
+    hair_gl_free_buffer(sim->gl, &crowd->params);
+    hair_gl_free_buffer(sim->gl, &crowd->grid);
+    hair_gl_free_buffer(sim->gl, &crowd->share);
+    hair_gl_free_buffer(sim->gl, &crowd->limit);
+    hair_gl_free_buffer(sim->gl, &crowd->push);
+}
+
+static uint32_t block_length(const struct hair_sim* sim)
+{
+    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
+    return substeps < 1 ? 1 : substeps;
+}
+
+static void write_params(const struct hair_sim* sim, struct hair_crowd_params* params)
+{
+    const struct hair_crowd* crowd = &sim->crowd;
+    double                   time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
+    float     sound = 0.5f * crowd->cell / (float)time; // No faster than half a cell a block: that is stable.
+    hair_quat q     = sim->last_after.rotation;
+    hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    // What is left of a relative velocity after a block is exp(-rate time), however long it is.
+    *params = (struct hair_crowd_params){
+        .rotation  = {q.x, q.y, q.z, q.w},
+        .moved     = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
+        .lower     = {crowd->lower.x, crowd->lower.y, crowd->lower.z, crowd->cell},
+        .nodes_x   = crowd->nodes[0],
+        .nodes_y   = crowd->nodes[1],
+        .nodes_z   = crowd->nodes[2],
+        .vertices  = sim->guide_vertices,
+        .cohesion  = (float)(-expm1(-rate * time) / time),
+        .volume    = fminf(sim->physics.volume, sound * sound),
+        .most_push = 0.25f * crowd->cell / (float)(time * time), // An eighth of a cell in a block.
+    };
+}
+
+static void find_push(struct hair_sim* sim)
+{
+    struct hair_gl*          gl    = sim->gl;
+    struct hair_crowd*       crowd = &sim->crowd;
+    struct hair_crowd_params params;
+    GLuint   storage[] = {sim->state, crowd->grid, sim->history, crowd->share, crowd->limit, crowd->push};
+    uint32_t groups    = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    write_params(sim, &params);
+    hair_gl_write_uniform(gl, crowd->params, sizeof params, &params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_CROWD_PARAMS, 1, &crowd->params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);
+    hair_gl_run(gl, HAIR_GL_CROWD_CLEAR, (grid_fours(crowd) + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, HAIR_GL_CROWD_SPLAT, groups);
+    hair_gl_run(gl, HAIR_GL_CROWD_GATHER, groups);
+}
+
+uint32_t hair_crowd_left(struct hair_sim* sim)
+{
+    uint32_t length = block_length(sim);
+    if (sim->crowd.beat >= length) sim->crowd.beat = 0; // Substeps have become longer.
+    if (sim->crowd.beat == 0) {
+        find_push(sim);
+        hair_sim_bind(sim);
+        hair_sim_bind_rods(sim);
+    }
+    return length - sim->crowd.beat;
+}
+
+void hair_crowd_bind(struct hair_sim* sim)
+{
+    sim->gl->BindTextureUnit(HAIR_UNIT_PUSH, sim->crowd.texture);
+}
+
+void hair_crowd_count(struct hair_sim* sim, uint32_t substeps)
+{
+    sim->crowd.beat = (sim->crowd.beat + substeps) % block_length(sim);
+}
