@@ -1,7 +1,7 @@
 // form.c - distances to a triangle mesh at the nodes of a grid.
 //
-// How far is found by a tree of triangles, starting from the nearest one of the node before. On which side is the same
-// at two neighbouring nodes whose distances together are more than from one to the other: no surface fits between. So
+// How far is found by a tree of triangles where one is near. From there the nearest triangle goes on from node to
+// node, as in Tsai 2002. On which side is the same at two neighbouring nodes whose distances together are more than from one to the other: no surface fits between. So
 // nodes fall into few sets of one sign each, for which one winding number is enough (Jacobson et al. 2013).
 #include "lib/collide/form.h"
 #include "lib/collide/triangles.h"
@@ -11,6 +11,8 @@
 #define LEAST_SIZE 1e-6f     // m: of a mesh
 #define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
 #define MOST_VOXELS 256      // along the longest side
+#define MOST_WORK 2000000000 // triangles and boxes looked at: a minute or less
+#define SWEEPS 8             // each way along the three axes
 
 static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
 {
@@ -99,17 +101,78 @@ static size_t node_of(const hair_form* form, const uint32_t at[3])
     return at[0] + form->size[0] * (at[1] + (size_t)form->size[1] * at[2]);
 }
 
-static void measure(hair_form* form, const struct hair_triangles* t)
+static hair_result too_much(const hair_form* form, const struct hair_triangles* t)
 {
-    uint32_t nearest = 0, at[3];
-    float    band    = HAIR_FORM_BAND * form->voxel + form->info.thickness / 2;
+    return hair_fail(
+        &form->host, HAIR_ERROR_ARGUMENT,
+        "hair_form_desc: its %u triangles cross each other so much that no distance can be found "
+        "in bounded time",
+        t->count);
+}
+
+// Where a triangle is near, exactly. Elsewhere `nearest` is UINT32_MAX.
+static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint32_t* nearest)
+{
+    uint32_t at[3], last = UINT32_MAX;
     for (at[2] = 0; at[2] < form->size[2]; ++at[2])
-        for (at[1] = 0; at[1] < form->size[1]; ++at[1])
+        for (at[1] = 0; at[1] < form->size[1]; ++at[1]) {
+            if (t->work > MOST_WORK) return too_much(form, t);
             for (uint32_t i = 0; i < form->size[0]; ++i) { // There and back, so that the next is a neighbour.
-                at[0] = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
-                form->distance[node_of(form, at)] =
-                    hair_triangles_distance(t, place_of(form, t, at), band, &nearest);
+                at[0]              = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
+                hair_vec3 place    = place_of(form, t, at);
+                float     distance = HAIR_FORM_BAND * form->voxel;
+                uint32_t  found    = UINT32_MAX;
+                if (last != UINT32_MAX) {
+                    float guess = hair_triangles_distance(t, last, place);
+                    if (guess < distance) distance = guess, found = last;
+                }
+                hair_triangles_find(t, place, &distance, &found);
+                size_t node   = node_of(form, at);
+                nearest[node] = last = found;
+                form->distance[node] = found == UINT32_MAX ? INFINITY : distance;
             }
+        }
+    return HAIR_OK;
+}
+
+// The node takes the triangle of the one `step` before it if that is nearer than its own.
+static void take(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, size_t node, size_t from,
+                 hair_vec3 place)
+{
+    if (nearest[from] == nearest[node] || form->distance[from] - form->voxel >= form->distance[node]) return;
+    float distance = hair_triangles_distance(t, nearest[from], place);
+    if (distance >= form->distance[node]) return;
+    form->distance[node] = distance;
+    nearest[node]        = nearest[from];
+}
+
+// From the nodes before it along each axis; bits of `backwards` turn the axes.
+static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, int backwards)
+{
+    const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
+    uint32_t     i[3], at[3];
+    for (i[2] = 0; i[2] < form->size[2]; ++i[2])
+        for (i[1] = 0; i[1] < form->size[1]; ++i[1])
+            for (i[0] = 0; i[0] < form->size[0]; ++i[0]) {
+                for (int k = 0; k < 3; ++k) at[k] = backwards >> k & 1 ? form->size[k] - 1 - i[k] : i[k];
+                size_t    node  = node_of(form, at);
+                hair_vec3 place = place_of(form, t, at);
+                for (int k = 0; k < 3; ++k)
+                    if (i[k])
+                        take(form, t, nearest, node, backwards >> k & 1 ? node + step[k] : node - step[k],
+                             place);
+            }
+}
+
+static hair_result measure(hair_form* form, struct hair_triangles* t)
+{
+    size_t      nodes   = (size_t)form->size[0] * form->size[1] * form->size[2];
+    uint32_t*   nearest = hair_alloc(&form->host, nodes, sizeof *nearest);
+    hair_result result =
+        nearest ? measure_near(form, t, nearest) : hair_fail_memory(&form->host, "a form's triangles");
+    for (int i = 0; i < SWEEPS && !result; ++i) sweep(form, t, nearest, i % 8);
+    hair_free(&form->host, nearest);
+    return result;
 }
 
 // Sides -----------------------------------------------------------------------------------------------------
@@ -148,7 +211,7 @@ static void spread(struct sides* sides)
     }
 }
 
-static hair_result find_sides(hair_form* form, const struct hair_triangles* t)
+static hair_result find_sides(hair_form* form, struct hair_triangles* t)
 {
     size_t       nodes = (size_t)form->size[0] * form->size[1] * form->size[2], node = 0;
     struct sides sides = {.form = form};
@@ -160,7 +223,8 @@ static hair_result find_sides(hair_form* form, const struct hair_triangles* t)
     for (at[2] = 0; at[2] < form->size[2] && !result; ++at[2])
         for (at[1] = 0; at[1] < form->size[1]; ++at[1])
             for (at[0] = 0; at[0] < form->size[0]; ++at[0], ++node) {
-                if (sides.side[node] != UNKNOWN) continue;
+                if (sides.side[node] != UNKNOWN || result) continue;
+                if (t->work > MOST_WORK) result = too_much(form, t);
                 int is_inside = fabsf(hair_triangles_winding(t, place_of(form, t, at))) > 0.5f;
                 tell(&sides, node, is_inside ? INSIDE : OUTSIDE);
                 spread(&sides);
@@ -208,8 +272,8 @@ static hair_result fill(const hair_form_desc* desc, struct hair_triangles* t, ha
     form->info.unused = desc->triangle_count - t->count;
     form->info.closed = (uint32_t)hair_triangles_are_closed(t);
     result            = lay_grid(desc, t, form);
+    if (!result) result = measure(form, t);
     if (result) return result;
-    measure(form, t);
     if (form->info.closed) return find_sides(form, t);
     thicken(form);
     hair_log(&form->host, HAIR_LOG_WARNING, "a form's mesh of %u triangles is not closed: a shell of %g m",

@@ -17,12 +17,12 @@ struct hair_form {
     float          origin[3]; // of the first node, m
     float          voxel;     // from node to node, m
     // m, below 0 inside; node (i, j, k) is at i + size[0] (j + size[1] k). The surface stays HAIR_FORM_PADDING voxels
-    // away from the grid's faces. Exact up to HAIR_FORM_BAND voxels from the surface.
+    // away from the grid's faces. Exact up to HAIR_FORM_BAND voxels from the mesh, beyond it as good as exact.
     float* distance;
 };
 
 #define HAIR_FORM_PADDING 3
-#define HAIR_FORM_BAND 4
+#define HAIR_FORM_BAND 2
 
 // `desc` is whole and its numbers have been checked, but not what its arrays hold. On failure *out is untouched.
 hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, hair_form** out);

@@ -6,13 +6,10 @@
 
 #define DIGIT 10 // bits of a Morton code along an axis, and of one round of the radix sort
 #define ROUNDS 3
-#define TOO_FAR 0.02f // as hair_triangles_distance promises
 
 static hair_vec3 corner(const struct hair_triangles* t, uint32_t place, int k)
 {
-    return hair_sub(
-        hair_load3(t->positions + 3 * (size_t)t->indices[3 * (size_t)t->order[place] + (size_t)k]),
-        t->center);
+    return hair_sub(hair_load3(t->positions + 3 * (size_t)t->indices[place][k]), t->center);
 }
 
 static hair_vec3 least(hair_vec3 a, hair_vec3 b)
@@ -75,16 +72,23 @@ static void sort(uint64_t* keys, uint64_t* other, uint32_t count)
 
 static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
 {
-    uint64_t* keys = hair_alloc(host, 2 * (size_t)t->count, sizeof *keys);
-    if (!keys) return hair_fail_memory(host, "the order of a form's triangles");
+    uint64_t* keys       = hair_alloc(host, 2 * (size_t)t->count, sizeof *keys);
+    uint32_t(*sorted)[3] = hair_alloc(host, t->count, sizeof *sorted);
+    hair_vec3 size       = hair_sub(t->bounds.upper, t->bounds.lower);
+    float     scale      = (float)(1 << DIGIT) / fmaxf(fmaxf(size.x, size.y), fmaxf(size.z, 1e-30f));
+    if (!keys || !sorted) {
+        hair_free(host, keys);
+        hair_free(host, sorted);
+        return hair_fail_memory(host, "the order of a form's triangles");
+    }
     uint64_t* other = keys + t->count;
-    hair_vec3 size  = hair_sub(t->bounds.upper, t->bounds.lower);
-    float     scale = (float)(1 << DIGIT) / fmaxf(fmaxf(size.x, size.y), fmaxf(size.z, 1e-30f));
-    for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | t->order[i];
+    for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | i;
     sort(keys, other, t->count);
-    for (uint32_t i = 0; i < t->count; ++i)
-        t->order[i] = (uint32_t)other[i]; // After an odd number of rounds.
+    for (uint32_t i = 0; i < t->count; ++i) // In the other half, after an odd number of rounds.
+        memcpy(sorted[i], t->indices[(uint32_t)other[i]], sizeof *sorted);
     hair_free(host, keys);
+    hair_free(host, t->indices);
+    t->indices = sorted;
     return HAIR_OK;
 }
 
@@ -160,12 +164,12 @@ static void find_bounds(struct hair_triangles* t)
 hair_result hair_triangles_build(const hair_host* host, const float* positions, const uint32_t* indices,
                                  uint32_t count, struct hair_triangles* out)
 {
-    struct hair_triangles t = {.positions = positions, .indices = indices};
+    struct hair_triangles t = {.positions = positions};
     hair_result           result;
-    t.order = hair_alloc(host, count, sizeof *t.order);
-    if (!t.order) return hair_fail_memory(host, "a form's triangles");
+    t.indices = hair_alloc(host, count, sizeof *t.indices);
+    if (!t.indices) return hair_fail_memory(host, "a form's triangles");
     for (uint32_t i = 0; i < count; ++i) {
-        t.order[t.count] = i;
+        memcpy(t.indices[t.count], indices + 3 * (size_t)i, sizeof *t.indices);
         hair_vec3 a = corner(&t, t.count, 0), b = corner(&t, t.count, 1), c = corner(&t, t.count, 2);
         t.count += !same(a, b) && !same(b, c) && !same(c, a);
     }
@@ -188,7 +192,7 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
 
 void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles)
 {
-    hair_free(host, triangles->order);
+    hair_free(host, triangles->indices);
     hair_free(host, triangles->box);
     hair_free(host, triangles->dipole);
     *triangles = (struct hair_triangles){0};
@@ -228,24 +232,23 @@ static float squared_to_box(const struct hair_box* box, hair_vec3 p)
     return hair_dot(out, out);
 }
 
-// What is this far, squared, or farther is not looked at.
-static float limit_of(float squared, float band)
+float hair_triangles_distance(const struct hair_triangles* t, uint32_t place, hair_vec3 point)
 {
-    float distance = sqrtf(squared), limit = distance - TOO_FAR * fmaxf(distance - band, 0);
-    return limit * limit;
+    return sqrtf(squared_to_triangle(t, place, point));
 }
 
-float hair_triangles_distance(const struct hair_triangles* t, hair_vec3 point, float band, uint32_t* nearest)
+void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* distance, uint32_t* nearest)
 {
     struct {
         uint32_t node;
         float    squared;
-    } stack[64]      = {{0, 0}};
-    uint32_t depth   = 1;
-    float    squared = squared_to_triangle(t, *nearest, point), limit = limit_of(squared, band);
+    } stack[64]    = {{0, 0}};
+    uint32_t depth = 1, found = UINT32_MAX;
+    float    squared = *distance * *distance;
     while (depth > 0) {
         uint32_t node = stack[--depth].node;
-        if (stack[depth].squared >= limit) continue;
+        if (stack[depth].squared >= squared) continue;
+        ++t->work;
         if (node < t->leaves - 1) {
             uint32_t a = 2 * node + 1, b = a + 1;
             float    to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
@@ -259,13 +262,13 @@ float hair_triangles_distance(const struct hair_triangles* t, hair_vec3 point, f
         uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
         for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i) {
             float own = squared_to_triangle(t, i, point);
-            if (own >= squared) continue;
-            squared  = own;
-            limit    = limit_of(squared, band);
-            *nearest = i;
+            ++t->work;
+            if (own < squared) squared = own, found = i;
         }
     }
-    return sqrtf(squared);
+    if (found == UINT32_MAX) return;
+    *distance = sqrtf(squared);
+    *nearest  = found;
 }
 
 // Winding ---------------------------------------------------------------------------------------------------
@@ -284,7 +287,7 @@ static float solid_angle(const struct hair_triangles* t, uint32_t place, hair_ve
     return above == 0 && below == 0 ? 0 : 2 * atan2f(above, below);
 }
 
-float hair_triangles_winding(const struct hair_triangles* t, hair_vec3 point)
+float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
 {
     uint32_t stack[64] = {0}, depth = 1;
     float    sum = 0;
@@ -292,7 +295,8 @@ float hair_triangles_winding(const struct hair_triangles* t, hair_vec3 point)
         uint32_t                  node   = stack[--depth];
         const struct hair_dipole* dipole = &t->dipole[node];
         hair_vec3                 to     = hair_sub(dipole->center, point);
-        float                     far    = hair_length(to);
+        ++t->work;
+        float far = hair_length(to);
         if (far > FROM_AFAR * dipole->radius) {
             sum += hair_dot(dipole->area, to) / (far * far * far);
         } else if (node < t->leaves - 1) {
@@ -301,7 +305,7 @@ float hair_triangles_winding(const struct hair_triangles* t, hair_vec3 point)
         } else {
             uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
             for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i)
-                sum += solid_angle(t, i, point);
+                sum += solid_angle(t, i, point), ++t->work;
         }
     }
     return sum / PI_4;
