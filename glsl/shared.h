@@ -65,6 +65,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_DRAW 1 // hair_draw_params
 #define HAIR_BIND_FIELD 2 // hair_field_params
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
+#define HAIR_BIND_SHOWN 0 // hair_shown_params, of the passes that draw solids and the field
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -91,6 +92,7 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
+#define HAIR_SHOWN_SOLIDS 128   // drawn at once
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32    // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
@@ -258,6 +260,25 @@ struct hair_field_solid {
     hair_uint unused0, unused1;
 };
 HAIR_SIZE(hair_field_solid, 64)
+
+// A solid to be drawn, and the box around it in its own axes.
+struct hair_shown_solid {
+    HAIR_STRUCT(hair_field_solid) solid;
+    hair_vec4 lower; // xyz: m
+    hair_vec4 upper;
+};
+HAIR_SIZE(hair_shown_solid, 96)
+
+// Solids drawn for debugging, cut open where a slice of the field is.
+struct hair_shown_params {
+    hair_vec4 rotation; // of the head: unit quaternion
+    hair_vec4 plane;    // of the slice, in the head's frame: xyz: unit normal, 0 if there is none; w: its distance, m
+    hair_vec4 corner;   // xyz: of the slice, m
+    hair_vec4 side[2];  // xyz: from there along it, m
+    hair_vec4 depth;    // depth in the framebuffer is x + y times that in clip space
+    HAIR_STRUCT(hair_shown_solid) shown[HAIR_SHOWN_SOLIDS];
+};
+HAIR_SIZE(hair_shown_params, 96 + HAIR_SHOWN_SOLIDS * 96)
 
 // HAIR_BRICK^3 voxels, and the solids that reach into them.
 struct hair_field_brick {

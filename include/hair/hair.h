@@ -392,7 +392,8 @@ HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t si
 typedef enum hair_pass {
     HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
     HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.
-    HAIR_PASS_GUIDES     ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
+    HAIR_PASS_GUIDES,    ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
+    HAIR_PASS_SOLIDS ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
 } hair_pass;
 
 typedef enum hair_path {
@@ -404,6 +405,10 @@ typedef enum hair_primitive {
     HAIR_LINES        ///< One pixel wide: the cheap setting.
 } hair_primitive;
 
+/// A slice through the field, at right angles to one of the head's axes. The solids before it are cut away.
+/// Blue is outside, red inside, white the surface; a line for every voxel from it.
+typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
+
 typedef struct hair_view {
     hair_made      made;
     hair_pass      pass;           ///< Default HAIR_PASS_COLOR.
@@ -411,11 +416,13 @@ typedef struct hair_view {
     hair_primitive primitive;      ///< Default HAIR_RIBBONS.
     float          view[16];       ///< World to view. Default identity.
     float          projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
-    float    light_to[3];    ///< Towards the light, any length. World. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
-    float    light[3];       ///< Its irradiance. [0, 1e6]. Default 3.
-    float    ambient[3];     ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
-    uint32_t shadow_texture; ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow.
-    float    shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+    float      light_to[3]; ///< Towards the light, any length. World. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
+    float      light[3];    ///< Its irradiance. [0, 1e6]. Default 3.
+    float      ambient[3];  ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
+    uint32_t   shadow_texture;    ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow.
+    float      shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+    hair_slice slice;             ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
+    float      slice_at;          ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
 } hair_view;
 HAIR_DESC(hair_view)
 

@@ -40,6 +40,17 @@ static hair_result check_shadow(const hair_instance* hair, const hair_view* view
                      hair->label, view->shadow_texture);
 }
 
+// Only a slice needs the field.
+static hair_result draw_solids(hair_instance* hair, const hair_view* view)
+{
+    const struct hair_solids* solids = &hair->sim.solids;
+    hair_result               result = view->slice ? hair_update_field(hair) : HAIR_OK;
+    if (!result)
+        result =
+            hair_draw_solids(&hair->draw, &hair->field, solids->now, solids->count, &hair->sim.at_step, view);
+    return result;
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -52,9 +63,12 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = check_framebuffer(hair);
     if (result) return result;
     hair_gl_enter(&context->gl);
-    hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
+    if (own.pass == HAIR_PASS_SOLIDS)
+        result = draw_solids(hair, &own);
+    else
+        hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
     hair_gl_leave(&context->gl);
-    return HAIR_OK;
+    return result;
 }
 
 // `from`: xyz from the head's origin in the first three floats of every `stride`.

@@ -2,6 +2,7 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
+#include "lib/field/field.h"
 #include "lib/interpolate/interpolate.h"
 
 struct hair_draw {
@@ -19,6 +20,11 @@ void        hair_draw_destroy(struct hair_draw* draw);
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
 void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, const struct hair_pose* head,
                    const hair_view* view);
+
+// Draw solids, and where `view` asks for it a slice of the field, which then is up to date.
+hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
+                             const hair_solid* solids, uint32_t count, const struct hair_pose* head,
+                             const hair_view* view);
 
 // Vertices of all followers, look.segments + 1 each: xyz from the head's origin, radius. The caller frees *out, and has
 // checked that there are no more than UINT32_MAX.

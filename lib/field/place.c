@@ -79,6 +79,14 @@ static void find_extent(const struct hair_field_solid* solid, hair_vec3* half, f
     *around = solid->size.x + solid->position.w;
 }
 
+void hair_field_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper)
+{
+    float around;
+    find_extent(solid, upper, &around);
+    *upper = hair_add(*upper, hair_v3(around, around, around));
+    *lower = hair_scale(*upper, -1);
+}
+
 static void find_bricks(const struct hair_field_box* box, struct hair_placed* placed)
 {
     const struct hair_field_solid* solid = &placed->solid;

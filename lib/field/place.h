@@ -39,6 +39,9 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed* from,
                          const struct hair_placed* to);
 
+// The box around a solid in its own axes.
+void hair_field_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper);
+
 // From the middle of a brick to the solid's surface, m, below 0 inside.
 float hair_field_distance_to(const struct hair_field_box* box, const struct hair_placed* placed, uint32_t x,
                              uint32_t y, uint32_t z);

@@ -42,6 +42,8 @@ PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese 
 PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
 PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
 PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+PASS(SOLIDS, "draw/solids", "draw/solids.vert draw/solids.frag")
+PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
 #undef ROD_PASS

@@ -134,11 +134,12 @@ static hair_result teleport(struct fixture* f)
 static hair_result draw(struct fixture* f)
 {
     hair_result result = HAIR_OK;
-    for (int i = 0; i < 12 && !result; ++i) {
+    for (int i = 0; i < 16 && !result; ++i) {
         hair_view view      = hair_view_default();
-        view.pass           = (hair_pass)(i % 3);
-        view.primitive      = (hair_primitive)(i / 3 % 2);
-        view.shadow_texture = i / 6 ? f->shadow : 0;
+        view.pass           = (hair_pass)(i % 4);
+        view.primitive      = (hair_primitive)(i / 4 % 2);
+        view.slice          = (hair_slice)(i / 4 % 2);
+        view.shadow_texture = i / 8 ? f->shadow : 0;
         result              = hair_draw(f->hair, &view);
     }
     return result;

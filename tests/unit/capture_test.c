@@ -79,6 +79,8 @@ static void wrong_use_exits_with_2(void** state)
         {"-o - --stats -", "standard output"},
         {"--dance", "--help"},
         {"--groom", "--help"},
+        {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides and solids"},
+        {"--show hair, --hash", "--show is hair,"},
     };
     assert_int_equal(hair_test_shell("printf 'HAIR' >$D/x.hair; head -c 124 /dev/zero >>$D/x.hair"), 0);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
@@ -224,6 +226,27 @@ static void a_frame_is_the_same_alone_as_among_others(void** state)
     expect(0, "cmp $D/f.png $D/f_003.png && test $(ls $D/f_*.png | wc -l) = 4" CLEAN, "");
     expect(0, "! cmp -s $D/f_000.png $D/f_003.png", "");
     expect(0, "$T " SMALL " --frames 3:4 -o $D/f_%d.png && cmp $D/f.png $D/f_3.png", "");
+}
+
+static void what_is_shown_is_what_was_asked_for(void** state)
+{
+    (void)state;
+    static const char* const what[] = {"hair",        "solids",      "head",
+                                       "hair,guides", "hair,solids", "solids --set slice=z"};
+    expect(0,
+           "sed 's/{/{\"solids\": [{\"shape\": \"sphere\", \"position\": [0, 1.6, 0.1]}], /' $D/small.json "
+           ">$D/ball.json",
+           "");
+    for (size_t i = 0; i < sizeof what / sizeof *what; ++i) {
+        char command[256];
+        snprintf(command, sizeof command,
+                 "$T $D/ball.json --samples 1 --frames 0:1 --hash --show %s | grep pixels >>$D/shown",
+                 what[i]);
+        expect(0, command, "");
+    }
+    expect(0, "sort -u $D/shown | wc -l", "6");
+    expect(0, "$T $D/ball.json --samples 1 --frames 0:1 --hash | grep -c -f $D/shown", "1"); // As "hair".
+    expect(0, "rm $D/shown $D/ball.json", "");
 }
 
 static void pictures_and_videos_are_in_their_formats(void** state)
@@ -436,6 +459,7 @@ int main(void)
         cmocka_unit_test(hashes_are_the_same_twice_and_with_any_number_of_threads),
         cmocka_unit_test(hashes_tell_one_capture_from_another),
         cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
+        cmocka_unit_test(what_is_shown_is_what_was_asked_for),
         cmocka_unit_test(pictures_and_videos_are_in_their_formats),
         cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),
         cmocka_unit_test(an_encoder_that_fails_leaves_no_video),

@@ -14,6 +14,7 @@ enum name {
     STYLE,
     MOTION,
     HEAD,
+    SHOW,
     FRAMES,
     FPS,
     SIZE,
@@ -42,6 +43,7 @@ static const struct row rows[] = {
     {"style", STYLE, "NAME", "show a built-in haircut, below"},
     {"motion", MOTION, "NAME", "move the head so, below"},
     {"head", HEAD, NULL, "draw the built-in head under the haircut of a file"},
+    {"show", SHOW, "WHAT", "draw some of hair, head, guides, solids, by commas; hair,head"},
     {"frames", FRAMES, "A:B", "draw frames A up to, not including, B; those before are simulated only"},
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
@@ -84,6 +86,7 @@ struct said {
     const char*   groom;
     const char*   style;
     const char*   motion;
+    const char*   show;
     const char*   frames;
     const char*   fps;
     const char*   size;
@@ -163,6 +166,25 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
     return ok;
 }
 
+static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
+{
+    static const char* const names[] = {"hair", "head", "guides",
+                                        "solids"}; // In the order of enum hair_show.
+    scene->show                      = 0;
+    for (const char* at = text;;) {
+        size_t length = strcspn(at, ",");
+        int    i      = 0;
+        while (i < 4 && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
+        if (i == 4) {
+            hair_complain(tool, "--show is %s, not some of hair, head, guides and solids", text);
+            return false;
+        }
+        scene->show |= 1u << i;
+        if (!at[length]) return true;
+        at += length + 1;
+    }
+}
+
 // "--set key=value", or "--tip-first", which is the setting tip_first.
 static bool apply_change(const char* tool, const struct change* change, struct hair_scene* scene)
 {
@@ -203,6 +225,7 @@ static bool take(const char* tool, const struct row* row, const char* value, str
     case STYLE: said->style = value; break;
     case MOTION: said->motion = value; break;
     case HEAD: said->head = true; break;
+    case SHOW: said->show = value; break;
     case FRAMES: said->frames = value; break;
     case FPS: said->fps = value; break;
     case SIZE: said->size = value; break;
@@ -277,6 +300,7 @@ static bool change_scene(const char* tool, const struct said* said, struct hair_
     if (said->groom) hair_scene_set_groom(said->groom, scene);
     if (said->style && !hair_scene_set_style(tool, said->style, scene)) return false;
     if (said->motion && !hair_scene_set_motion(tool, said->motion, scene)) return false;
+    if (said->show && !parse_show(tool, said->show, scene)) return false;
     if (said->fps && !parse_fps(tool, said->fps, scene)) return false;
     if (said->size && !parse_size(tool, said->size, scene)) return false;
     for (int i = 0; i < said->changes; ++i)

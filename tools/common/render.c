@@ -173,7 +173,7 @@ static void set_mat4(GLuint program, GLint at, const float value[16])
 static void draw_mesh(const struct hair_render* render, GLuint program, const struct frame* frame,
                       const struct hair_matrices* matrices)
 {
-    if (!render->indices) return;
+    if (!render->indices || !(frame->scene->show & HAIR_SHOW_HEAD)) return;
     set_mat4(program, HAIR_AT_HEAD, frame->transform);
     set_mat4(program, HAIR_AT_VIEW, matrices->view);
     set_mat4(program, HAIR_AT_PROJECTION, matrices->projection);
@@ -210,7 +210,8 @@ static hair_result draw_shadow(const struct hair_render* render, const struct fr
     glPolygonOffset(2, 4);
     draw_mesh(render, render->program[DEPTH], frame, &frame->light);
     glDisable(GL_POLYGON_OFFSET_FILL);
-    return draw_hair(frame, &frame->light, HAIR_PASS_DEPTH, 0);
+    return frame->scene->show & HAIR_SHOW_HAIR ? draw_hair(frame, &frame->light, HAIR_PASS_DEPTH, 0)
+                                               : HAIR_OK;
 }
 
 static void draw_background(const struct hair_render* render, const struct frame* frame,
@@ -292,7 +293,16 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
     glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_DRAWN], GL_DEPTH, 0, &far);
     draw_background(render, frame, tile);
     draw_skin(render, frame, tile);
-    hair_result result = draw_hair(frame, &tile->camera, HAIR_PASS_COLOR, render->targets.shadow);
+    static const struct {
+        uint32_t  show;
+        hair_pass pass;
+    } passes[]         = {{HAIR_SHOW_SOLIDS, HAIR_PASS_SOLIDS},
+                          {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
+                          {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};
+    hair_result result = HAIR_OK;
+    for (int i = 0; i < 3 && !result; ++i)
+        if (frame->scene->show & passes[i].show)
+            result = draw_hair(frame, &tile->camera, passes[i].pass, render->targets.shadow);
     if (result) return result;
     develop(render, frame, tile);
     read_pixels(render, tile);

@@ -53,7 +53,8 @@ void hair_scene_default(struct hair_scene* scene)
                                             .fps        = 30,
                                             .frames     = 120,
                                             .width      = 1280,
-                                            .height     = 720};
+                                            .height     = 720,
+                                            .show       = HAIR_SHOW_HAIR | HAIR_SHOW_HEAD};
     *scene                               = fresh;
     scene->settings                      = hair_settings_default();
 }

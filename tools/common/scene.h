@@ -11,6 +11,9 @@
 
 enum hair_subject { HAIR_SUBJECT_STYLE, HAIR_SUBJECT_FILE, HAIR_SUBJECT_FUR };
 
+// What is drawn, together.
+enum hair_show { HAIR_SHOW_HAIR = 1, HAIR_SHOW_HEAD = 2, HAIR_SHOW_GUIDES = 4, HAIR_SHOW_SOLIDS = 8 };
+
 #define HAIR_SCENE_PATH 4096
 #define HAIR_SCENE_SOLIDS 32 // The built-in head adds its own.
 
@@ -35,6 +38,7 @@ struct hair_scene {
     uint32_t             frames;  // of the whole scene
     uint32_t             picture; // the frame to take when one is asked for
     uint32_t             width, height;
+    uint32_t             show; // of enum hair_show
     struct hair_settings settings;
 };
 

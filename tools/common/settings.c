@@ -84,6 +84,9 @@ static const struct row rows[] = {
 
     {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
+    {"slice", "of the field, with --show solids", COUNT, {AT(view.slice)}, {"none", "x", "y", "z"}},
+    {"slice_at", "where, as a share of the field's box", FLOAT, {AT(view.slice_at)}, {0}},
+    {"field_voxel", "side of a voxel of the field, m", FLOAT, {AT(desc.field_voxel)}, {0}},
     {"root_color.r", "diffuse reflectance at the root", FLOAT, {AT(look.root_color[0])}, {0}},
     {"root_color.g", "", FLOAT, {AT(look.root_color[1])}, {0}},
     {"root_color.b", "", FLOAT, {AT(look.root_color[2])}, {0}},

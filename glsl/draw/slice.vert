@@ -1,0 +1,12 @@
+// slice.vert - a slice of the field's box: four vertices of a strip.
+#version 450 core
+#include "shown.glsl"
+
+layout(location = 0) out vec3 slice_position; // from the head's origin, along the world's axes
+
+void main()
+{
+    vec3 p = params.corner.xyz + float(gl_VertexID & 1) * params.side[0].xyz + float(gl_VertexID >> 1) * params.side[1].xyz;
+    slice_position = rotate(params.rotation, p);
+    gl_Position    = to_clip(p);
+}

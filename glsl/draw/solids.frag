@@ -1,0 +1,67 @@
+// solids.frag - a solid, found along the ray by the distance to it that the field is made of (Hart 1996), and shaded.
+// Behind the slice only.
+#version 450 core
+#include "shown.glsl"
+#include "field/shape.glsl"
+
+#define STEPS 96
+
+layout(location = 0) in vec3 box_position;
+layout(location = 1) flat in vec3 face;
+layout(location = 2) flat in int number;
+layout(location = 0) out vec4 color;
+
+hair_field_solid own; // as if its axes were the head's
+
+vec3 normal_at(vec3 p, float h)
+{
+    const vec2 k = vec2(1.0, -1.0);
+    return normalize(k.xyy * solid_distance(own, p + h * k.xyy) + k.yyx * solid_distance(own, p + h * k.yyx) +
+                     k.yxy * solid_distance(own, p + h * k.yxy) + k.xxx * solid_distance(own, p + h * k.xxx));
+}
+
+void main()
+{
+    hair_shown_solid shown = params.shown[number];
+    vec4             turn  = quat_conjugate(shown.solid.rotation), back = quat_conjugate(params.rotation);
+    own          = shown.solid;
+    own.rotation = vec4(0.0, 0.0, 0.0, 1.0);
+    own.position.xyz = vec3(0.0);
+
+    // From the eye, or from before the box, through this point of its far side; in the solid's axes.
+    vec3  eye    = rotate(turn, rotate(back, draw.eye.xyz) - draw.eye.w * shown.solid.position.xyz);
+    vec3  extent = shown.upper.xyz - shown.lower.xyz;
+    vec3  start  = draw.eye.w > 0.0 ? eye : box_position + 2.0 * length(extent) * eye;
+    vec3  way    = normalize(box_position - start);
+    if (dot(way, face) <= 0.0) discard;
+    float last = distance(box_position, start), t = 0.0;
+    vec3  a = (shown.lower.xyz - start) / way, b = (shown.upper.xyz - start) / way, enter = min(a, b);
+    t = max(t, max(enter.x, max(enter.y, enter.z)));
+
+    vec3  normal = rotate(turn, params.plane.xyz);
+    float height = dot(normal, start) + dot(params.plane.xyz, shown.solid.position.xyz) - params.plane.w;
+    float slope  = dot(normal, way);
+    if (params.plane.xyz != vec3(0.0)) {
+        // What is on the eye's side of the plane is cut away.
+        if (height * slope >= 0.0) discard;
+        t = max(t, -height / slope);
+    }
+    float fine = 2e-5 * length(extent);
+    bool  cut  = solid_distance(own, start + t * way) < 0.0, found = cut;
+    for (int i = 0; i < STEPS && t < last && !found; ++i) {
+        float away = solid_distance(own, start + t * way);
+        found      = away < fine;
+        t += found ? 0.0 : away;
+    }
+    if (!found || t > last) discard;
+
+    if (cut) t += 0.01 * length(extent); // Behind the slice that is drawn there.
+    vec3 p      = start + t * way;
+    vec3 facing = cut ? -way : normal_at(p, 10.0 * fine);
+    vec3 light  = rotate(turn, rotate(back, draw.light_to.xyz));
+    vec3 hue    = 0.5 + 0.35 * cos(6.2831853 * (0.38196601 * float(own.number) + vec3(0.0, 0.33, 0.67)));
+    color       = vec4(hue * (draw.ambient.rgb + 0.3 * draw.light.rgb * max(dot(facing, light), 0.0)), 1.0);
+    if (cut) color.rgb *= 0.4;
+    vec4 clip    = to_clip(shown.solid.position.xyz + rotate(shown.solid.rotation, p));
+    gl_FragDepth = clamp(params.depth.x + params.depth.y * clip.z / clip.w, 0.0, 1.0);
+}

@@ -1,0 +1,104 @@
+// solids.c - what hair collides with, drawn for debugging: solids, and a slice of the field through them.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+// Depth in the framebuffer by depth in clip space.
+static hair_vec4 find_depth(struct hair_gl* gl)
+{
+    GLint   mode     = GL_NEGATIVE_ONE_TO_ONE;
+    GLfloat range[2] = {0, 1};
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    gl->GetFloatv(GL_DEPTH_RANGE, range);
+    if (mode == GL_ZERO_TO_ONE) return (hair_vec4){range[0], range[1] - range[0], 0, 0};
+    return (hair_vec4){0.5f * (range[0] + range[1]), 0.5f * (range[1] - range[0]), 0, 0};
+}
+
+static void write_slice(const struct hair_field_box* box, const hair_view* view,
+                        struct hair_shown_params* params)
+{
+    const float brick = HAIR_BRICK * box->voxel, lower[] = {box->lower.x, box->lower.y, box->lower.z};
+    if (!view->slice) return;
+    int   axis = (int)view->slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    float length[3] = {brick * (float)box->bricks[0], brick * (float)box->bricks[1],
+                       brick * (float)box->bricks[2]};
+    float at[3] = {lower[0], lower[1], lower[2]}, normal[3] = {0}, sides[2][3] = {{0}};
+    at[axis] += view->slice_at * length[axis];
+    normal[axis]    = 1;
+    sides[0][a]     = length[a];
+    sides[1][b]     = length[b];
+    params->plane   = (hair_vec4){normal[0], normal[1], normal[2], at[axis]};
+    params->corner  = (hair_vec4){at[0], at[1], at[2], 0};
+    params->side[0] = (hair_vec4){sides[0][0], sides[0][1], sides[0][2], 0};
+    params->side[1] = (hair_vec4){sides[1][0], sides[1][1], sides[1][2], 0};
+}
+
+static struct hair_shown_solid show(const struct hair_field_solid* solid)
+{
+    hair_vec3 lower, upper;
+    hair_field_extent(solid, &lower, &upper);
+    hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
+    lower          = hair_sub(lower, more);
+    upper          = hair_add(upper, more);
+    return (struct hair_shown_solid){*solid, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
+}
+
+static void draw_slice(struct hair_draw* draw, const struct hair_solid_field* field, const hair_view* view,
+                       GLuint buffer, const struct hair_shown_params* params)
+{
+    if (!view->slice || !hair_field_is_near(field)) return;
+    struct hair_gl* gl = draw->gl;
+    hair_gl_write_uniform(gl, buffer, sizeof *params, params);
+    hair_field_bind(field);
+    hair_gl_begin(gl, HAIR_GL_SLICE);
+    gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    hair_gl_end(gl, HAIR_GL_SLICE);
+}
+
+static void draw_shapes(struct hair_draw* draw, const struct hair_solid_field* field,
+                        const hair_solid* solids, uint32_t count, const struct hair_pose* head, GLuint buffer,
+                        struct hair_shown_params* params)
+{
+    struct hair_gl* gl = draw->gl;
+    hair_gl_begin(gl, HAIR_GL_SOLIDS);
+    for (uint32_t first = 0; first < count; first += HAIR_SHOWN_SOLIDS) {
+        uint32_t some = count - first < HAIR_SHOWN_SOLIDS ? count - first : HAIR_SHOWN_SOLIDS;
+        for (uint32_t i = 0; i < some; ++i) {
+            struct hair_placed placed = hair_field_place(&field->box, &solids[first + i], first + i, head);
+            params->shown[i]          = show(&placed.solid);
+        }
+        hair_gl_write_uniform(gl, buffer, sizeof *params, params);
+        gl->DrawArraysInstanced(GL_TRIANGLES, 0, 36, (GLsizei)some);
+    }
+    hair_gl_end(gl, HAIR_GL_SOLIDS);
+}
+
+hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
+                             const hair_solid* solids, uint32_t count, const struct hair_pose* head,
+                             const hair_view* view)
+{
+    struct hair_gl*           gl     = draw->gl;
+    GLuint                    buffer = 0; // Made each time: who draws no solids has none.
+    struct hair_shown_params* params = hair_alloc(&gl->host, 1, sizeof *params);
+    if (!params) return hair_fail_memory(&gl->host, "the solids to draw");
+    hair_result result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
+    if (!result) {
+        struct hair_draw_params own;
+        hair_draw_write_params(draw, head, view, &own);
+        hair_gl_write_uniform(gl, draw->params, sizeof own, &own);
+        params->rotation =
+            (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
+        params->depth = find_depth(gl);
+        write_slice(&field->box, view, params);
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, &buffer);
+        gl->BindVertexArray(gl->vertex_array);
+        gl->Disable(GL_CULL_FACE);
+        draw_slice(draw, field, view, buffer, params);
+        draw_shapes(draw, field, solids, count, head, buffer, params);
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1,
+                            NULL); // Before it is deleted: see state.c.
+    }
+    hair_gl_free_buffer(gl, &buffer);
+    hair_free(&gl->host, params);
+    return result;
+}

@@ -1,0 +1,187 @@
+// field_draw_test.c - solids and a slice of the field as hair_draw shows them.
+#include "tests/support/fields.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIDE 96
+#define SOLIDS 3
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+    hair_desc         desc;
+    hair_solid        solids[SOLIDS];
+    hair_view         view;
+    float             pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
+};
+
+static struct fixture f;
+
+// A head turned half round at (0.2, 0, -1), solids at its sides, seen from the world's origin along -z.
+static void start(void** state)
+{
+    const hair_solid solids[SOLIDS] = {
+        {HAIR_SHAPE_SPHERE, {0.25f, 0.12f, -1}, {0, 0, 0, 1}, {0.05f, 0}},
+        {HAIR_SHAPE_CAPSULE, {0.15f, 0.08f, -1.05f}, {0.6f, 0, 0, 0.8f}, {0.03f, 0.06f}},
+        {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f, 0}},
+    };
+    f = (struct fixture){.test = *state, .desc = hair_desc_default(), .view = hair_view_default()};
+    memcpy(f.solids, solids, sizeof solids);
+    f.desc.field_voxel  = 0.004f;
+    f.desc.transform[0] = f.desc.transform[10] = -1;
+    f.desc.transform[12]                       = 0.2f;
+    f.desc.transform[14]                       = -1;
+    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &f.desc, &f.hair));
+    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+    hair_test_ok(f.test, hair_step(f.hair, 0.01f));
+    f.view.pass          = HAIR_PASS_SOLIDS;
+    f.view.projection[0] = f.view.projection[5] = 3;
+    f.view.projection[8]                        = 0.6f; // Their middle is the picture\'s.
+    f.view.projection[9]                        = 0.3f;
+    f.view.projection[10]                       = -1.2f / 0.8f;
+    f.view.projection[11]                       = -1;
+    f.view.projection[14]                       = -2 * 0.4f * 2 / 1.6f;
+    f.view.projection[15]                       = 0;
+}
+
+static void finish(void)
+{
+    hair_destroy(f.hair);
+    hair_groom_destroy(f.groom);
+}
+
+static void draw(void)
+{
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    glEnable(GL_DEPTH_TEST);
+    hair_test_ok(f.test, hair_draw(f.hair, &f.view));
+    glDisable(GL_DEPTH_TEST);
+    hair_test_frame_read(&frame, f.pixels);
+    hair_test_frame_read_depth(&frame, f.depths);
+    hair_test_frame_free(&frame);
+}
+
+// The point of the world at a distance of 1 along -z that the middle of a pixel sees.
+static void find_ray(int i, double way[3])
+{
+    double x = (i % SIDE + 0.5) / SIDE * 2 - 1, y = (i / SIDE + 0.5) / SIDE * 2 - 1;
+    way[0] = (x + (double)f.view.projection[8]) / (double)f.view.projection[0];
+    way[1] = (y + (double)f.view.projection[9]) / (double)f.view.projection[5];
+    way[2] = -1;
+}
+
+// How near to a solid the ray comes, below 0 if it meets one at z = *meets.
+static double march(const double way[3], double from, double* meets)
+{
+    double least = INFINITY;
+    for (double t = from; t < 1.5; t += 0.0005) {
+        const double p[3] = {way[0] * t, way[1] * t, way[2] * t};
+        uint32_t     number;
+        double       distance = hair_test_nearest(f.solids, SOLIDS, p, &number);
+        if (distance < least) least = distance;
+        if (distance < 0) {
+            *meets = -t;
+            return distance;
+        }
+    }
+    return least;
+}
+
+static double depth_at(double z)
+{
+    double clip = (double)f.view.projection[10] * z + (double)f.view.projection[14];
+    return 0.5 + 0.5 * clip / -z;
+}
+
+static void a_solid_is_drawn_where_it_is_with_its_depth(void** state)
+{
+    start(state);
+    draw();
+    int covered = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        double way[3], z = 0;
+        find_ray(i, way);
+        double near = march(way, 0.5, &z);
+        int    hit  = f.depths[i] < 1;
+        if (fabs(near) > 0.002 && (near < 0) != hit) fail_msg("pixel %d: %g m off, drawn %d", i, near, hit);
+        if (!hit || near > 0) continue;
+        ++covered;
+        if (near < -0.0002) hair_test_near("depth", (size_t)i, (double)f.depths[i], depth_at(z), 0.002);
+        for (int c = 0; c < 3; ++c) assert_true(f.pixels[4 * i + c] > 0 && isfinite(f.pixels[4 * i + c]));
+    }
+    assert_true(covered > 300);
+    finish();
+}
+
+// At the head's z of 0, which is the world's of -1: what is nearer to the eye is cut away.
+static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** state)
+{
+    start(state);
+    hair_field_info info = hair_field_info_default();
+    hair_test_ok(f.test, hair_get_field(f.hair, &info));
+    const double height = (double)f.hair->field.box.lower.z, length = (double)info.voxel * info.size[2];
+    f.view.slice    = HAIR_SLICE_Z;
+    f.view.slice_at = (float)(-height / length);
+    draw();
+    int inside = 0, outside = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        double   way[3];
+        uint32_t number;
+        find_ray(i, way);
+        double       distance = hair_test_nearest(f.solids, SOLIDS, way, &number);
+        const float* color    = &f.pixels[4 * i];
+        if (fabs(distance) < (double)info.voxel || distance > 3 * (double)info.voxel) continue;
+        hair_test_near("depth of the slice", (size_t)i, (double)f.depths[i], depth_at(-1), 1e-4);
+        assert_true(distance < 0 ? color[0] > color[2] : color[2] > color[0]);
+        inside += distance < 0;
+        outside += distance > 0;
+    }
+    print_message("    %d pixels inside, %d outside\n", inside, outside);
+    assert_true(inside > 100 && outside > 50);
+    // Of the ball before the slice nothing is left.
+    for (int i = 0; i < SIDE * SIDE; ++i)
+        if (f.depths[i] < 1) assert_true((double)f.depths[i] > depth_at(-1) - 1e-4);
+    finish();
+}
+
+static void without_solids_nothing_is_drawn_and_there_is_no_field(void** state)
+{
+    start(state);
+    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof *f.solids));
+    f.view.slice = HAIR_SLICE_X;
+    draw();
+    for (int i = 0; i < SIDE * SIDE; ++i) assert_true(f.depths[i] == 1 && f.pixels[4 * i] == 0);
+    assert_int_equal(f.hair->field.distance, 0);
+    finish();
+}
+
+static void without_a_slice_there_is_no_field(void** state)
+{
+    start(state);
+    draw();
+    assert_int_equal(f.hair->field.distance, 0);
+    f.view.slice = HAIR_SLICE_Y;
+    draw();
+    assert_true(f.hair->field.distance != 0);
+    finish();
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_solid_is_drawn_where_it_is_with_its_depth),
+        HAIR_TEST(a_slice_is_white_at_surfaces_red_inside_and_blue_outside),
+        HAIR_TEST(without_solids_nothing_is_drawn_and_there_is_no_field),
+        HAIR_TEST(without_a_slice_there_is_no_field),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
