@@ -46,8 +46,8 @@ static hair_result draw_solids(hair_instance* hair, const hair_view* view)
     const struct hair_solids* solids = &hair->sim.solids;
     hair_result               result = view->slice ? hair_update_field(hair) : HAIR_OK;
     if (!result)
-        result =
-            hair_draw_solids(&hair->draw, &hair->field, solids->now, solids->count, &hair->sim.at_step, view);
+        result = hair_draw_solids(&hair->draw, &hair->field, solids->now.solid, solids->now.count,
+                                  &hair->sim.at_step, view);
     return result;
 }
 

@@ -35,7 +35,7 @@ static void write_slice(const struct hair_field_box* box, const hair_view* view,
 static struct hair_shown_solid show(const struct hair_field_solid* solid)
 {
     hair_vec3 lower, upper;
-    hair_field_extent(solid, &lower, &upper);
+    hair_field_shown_extent(solid, &lower, &upper);
     hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
     lower          = hair_sub(lower, more);
     upper          = hair_add(upper, more);

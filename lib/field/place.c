@@ -1,5 +1,6 @@
 // place.c - the field's box, and solids in it.
 #include "lib/field/place.h"
+#include "lib/collide/distance.h"
 
 #include <string.h>
 
@@ -72,36 +73,55 @@ static hair_quat quat_of(hair_vec4 q)
     return (hair_quat){q.x, q.y, q.z, q.w};
 }
 
-// A box in the solid's own axes, and how far its surface is around that at most.
-static void find_extent(const struct hair_field_solid* solid, hair_vec3* half, float* around)
+// The box around a solid in its own axes, without what comes to that on all sides, `around`. A sphere is its centre and
+// its radius around it, so that no turn makes it larger.
+static void find_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper,
+                        float* around)
 {
-    *half   = hair_v3(0, solid->shape == HAIR_SHAPE_CAPSULE ? solid->size.y : 0, 0);
-    *around = solid->size.x + solid->position.w;
+    hair_vec4 size = solid->size;
+    *around        = solid->position.w;
+    *upper         = hair_v3(size.x, size.y, size.z);
+    switch ((hair_shape)solid->shape) {
+    case HAIR_SHAPE_SPHERE:
+    case HAIR_SHAPE_CAPSULE:
+        *upper = hair_v3(0, solid->shape == HAIR_SHAPE_CAPSULE ? size.y : 0, 0);
+        *around += size.x;
+        break;
+    case HAIR_SHAPE_CYLINDER:
+    case HAIR_SHAPE_CONE: *upper = hair_v3(size.x, size.y, size.x); break;
+    case HAIR_SHAPE_PLANE: *upper = hair_v3(EVERYWHERE, EVERYWHERE, EVERYWHERE); break;
+    default: break;
+    }
+    *lower = hair_scale(*upper, -1);
 }
 
-void hair_field_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper)
+void hair_field_shown_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper)
 {
     float around;
-    find_extent(solid, upper, &around);
+    find_extent(solid, lower, upper, &around);
+    if (solid->shape == HAIR_SHAPE_PLANE) *upper = hair_v3(1, 0, 1), *lower = hair_v3(-1, -0.05f, -1);
     *upper = hair_add(*upper, hair_v3(around, around, around));
-    *lower = hair_scale(*upper, -1);
+    *lower = hair_sub(*lower, hair_v3(around, around, around));
 }
 
 static void find_bricks(const struct hair_field_box* box, struct hair_placed* placed)
 {
     const struct hair_field_solid* solid = &placed->solid;
     hair_quat                      turn  = quat_of(solid->rotation);
-    hair_vec3                      half;
+    hair_vec3                      lower, upper;
     float                          around;
-    find_extent(solid, &half, &around);
+    find_extent(solid, &lower, &upper, &around);
+    hair_vec3 half   = hair_scale(hair_sub(upper, lower), 0.5f);
+    hair_vec3 middle = hair_rotate(turn, hair_lerp(lower, upper, 0.5f));
     hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
               z          = hair_rotate(turn, hair_v3(0, 0, half.z));
     const float extent[] = {fabsf(x.x) + fabsf(y.x) + fabsf(z.x), fabsf(x.y) + fabsf(y.y) + fabsf(z.y),
                             fabsf(x.z) + fabsf(y.z) + fabsf(z.z)};
-    const float at[]     = {solid->position.x - box->lower.x, solid->position.y - box->lower.y,
-                            solid->position.z - box->lower.z};
+    const float at[]     = {solid->position.x + middle.x - box->lower.x,
+                            solid->position.y + middle.y - box->lower.y,
+                            solid->position.z + middle.z - box->lower.z};
     float       brick    = HAIR_BRICK * box->voxel;
-    int         outside  = 0;
+    int         outside  = solid->shape == HAIR_SHAPE_FORM;
     for (int i = 0; i < 3; ++i) {
         float first      = (at[i] - extent[i] - around - box->far) / brick;
         float end        = (at[i] + extent[i] + around + box->far) / brick;
@@ -110,7 +130,6 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
         placed->end[i]   = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
         outside |= placed->first[i] >= placed->end[i];
     }
-    outside |= solid->shape > HAIR_SHAPE_CAPSULE;
     if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
 }
 
@@ -127,7 +146,7 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
 
     struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, solid->rounding},
                                            .rotation = {turn.x, turn.y, turn.z, turn.w},
-                                           .size     = {solid->size[0], solid->size[1], 0, 0},
+                                           .size     = {solid->size[0], solid->size[1], solid->size[2], 0},
                                            .shape    = (hair_uint)solid->shape,
                                            .number   = number}};
     find_bricks(box, &placed);
@@ -145,10 +164,12 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     hair_vec3 half = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 centre = hair_v3(a->position.x, a->position.y, a->position.z);
-    hair_vec3 extent;
+    hair_vec3 lower, upper;
     float     around, arm = hair_distance(centre, hair_add(box->lower, half)) + hair_length(half);
-    find_extent(a, &extent, &around);
-    arm = fminf(arm, hair_length(extent) + around);
+    find_extent(a, &lower, &upper, &around);
+    float longest =
+        hair_length(hair_v3(fmaxf(upper.x, -lower.x), fmaxf(upper.y, -lower.y), fmaxf(upper.z, -lower.z)));
+    arm = fminf(arm, longest + around);
 
     float     sign = a->rotation.x * b->rotation.x + a->rotation.y * b->rotation.y +
                              a->rotation.z * b->rotation.z + a->rotation.w * b->rotation.w <
@@ -171,8 +192,9 @@ float hair_field_distance_to(const struct hair_field_box* box, const struct hair
     float                          brick = HAIR_BRICK * box->voxel;
     hair_vec3                      middle =
         hair_add(box->lower, hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), brick));
-    hair_vec3 p = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
-    p           = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
-    if (solid->shape == HAIR_SHAPE_CAPSULE) p.y -= fminf(fmaxf(p.y, -solid->size.y), solid->size.y);
-    return hair_length(p) - solid->size.x - solid->position.w;
+    hair_vec3 p         = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
+    p                   = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
+    const double own[]  = {(double)p.x, (double)p.y, (double)p.z};
+    const float  size[] = {solid->size.x, solid->size.y, solid->size.z};
+    return (float)hair_distance_to_shape((hair_shape)solid->shape, size, own, NULL) - solid->position.w;
 }

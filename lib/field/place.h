@@ -39,8 +39,8 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed* from,
                          const struct hair_placed* to);
 
-// The box around a solid in its own axes.
-void hair_field_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper);
+// The box around a solid in its own axes; of a plane, as much as is worth drawing.
+void hair_field_shown_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper);
 
 // From the middle of a brick to the solid's surface, m, below 0 inside.
 float hair_field_distance_to(const struct hair_field_box* box, const struct hair_placed* placed, uint32_t x,

@@ -27,9 +27,14 @@ static struct fixture f;
 static void start(void** state)
 {
     const hair_solid solids[SOLIDS] = {
-        {HAIR_SHAPE_SPHERE, {0.25f, 0.12f, -1}, {0, 0, 0, 1}, {0.05f, 0}},
-        {HAIR_SHAPE_CAPSULE, {0.15f, 0.08f, -1.05f}, {0.6f, 0, 0, 0.8f}, {0.03f, 0.06f}},
-        {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f, 0}},
+        {HAIR_SHAPE_SPHERE, {0.25f, 0.12f, -1}, {0, 0, 0, 1}, {0.05f}, .scale = 1, .friction = 1},
+        {HAIR_SHAPE_CAPSULE,
+         {0.15f, 0.08f, -1.05f},
+         {0.6f, 0, 0, 0.8f},
+         {0.03f, 0.06f},
+         .scale    = 1,
+         .friction = 1},
+        {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f}, .scale = 1, .friction = 1},
     };
     f = (struct fixture){.test = *state, .desc = hair_desc_default(), .view = hair_view_default()};
     memcpy(f.solids, solids, sizeof solids);

@@ -1,6 +1,8 @@
 // fields.c - the field read back, and closed forms of what it should hold.
 #include "tests/support/fields.h"
 
+#include "lib/collide/distance.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -37,24 +39,12 @@ static void turn(const double q[4], const double v[3], double out[3])
     }
 }
 
-double hair_test_distance(const hair_solid* solid, const double point[3])
-{
-    double norm = 0, q[4], from[3], p[3];
-    for (int i = 0; i < 4; ++i) norm += (double)solid->rotation[i] * (double)solid->rotation[i];
-    for (int i = 0; i < 4; ++i) q[i] = (i < 3 ? -1 : 1) * (double)solid->rotation[i] / sqrt(norm);
-    for (int i = 0; i < 3; ++i) from[i] = point[i] - (double)solid->position[i];
-    turn(q, from, p);
-    double half = (double)solid->size[1];
-    if (solid->shape == HAIR_SHAPE_CAPSULE) p[1] -= fmin(fmax(p[1], -half), half);
-    return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - (double)solid->size[0];
-}
-
 double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number)
 {
     double nearest = INFINITY;
     *number        = HAIR_NO_SOLID;
     for (uint32_t i = 0; i < count; ++i) {
-        double distance = hair_test_distance(&solids[i], point);
+        double distance = hair_distance_to_solid(&solids[i], point, NULL);
         if (!(distance < nearest)) continue;
         nearest = distance;
         *number = i;
@@ -85,7 +75,7 @@ hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct ha
                                uint32_t* random)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = hair_random(random) < 0.5f ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
+    solid.shape      = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
     hair_vec3 side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 at   = hair_add(hair_add(box->lower, side),
@@ -97,6 +87,7 @@ hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct ha
     const float place[] = {turned.x, turned.y, turned.z}, way[] = {q.x, q.y, q.z, q.w};
     for (int i = 0; i < 3; ++i) solid.position[i] = (float)(head->position[i] + (double)place[i]);
     for (int i = 0; i < 4; ++i) solid.rotation[i] = way[i];
-    for (int i = 0; i < 2; ++i) solid.size[i] = between(random, 2, 8) * box->voxel;
+    for (int i = 0; i < 3; ++i) solid.size[i] = between(random, 2, 8) * box->voxel;
+    if (hair_random(random) < 0.3f) solid.rounding = between(random, 0, 3) * box->voxel;
     return solid;
 }

@@ -21,8 +21,6 @@ static inline size_t hair_test_field_count(const struct hair_test_field* read)
     return (size_t)read->size[0] * read->size[1] * read->size[2];
 }
 
-// From a point of the world to the surface. m.
-double hair_test_distance(const hair_solid* solid, const double point[3]);
 // To the nearest of them; `number` becomes its place. INFINITY of none.
 double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number);
 
@@ -30,7 +28,7 @@ double hair_test_nearest(const hair_solid* solids, uint32_t count, const double 
 void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* head, size_t i,
                      double point[3]);
 
-// A solid of any shape, near the middle of the box, for it has been said to be within `reach` of it.
+// A solid of any shape but a plane or a form, near the middle of the box, for it has been said to be within `reach` of it.
 hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
                                uint32_t* random);
 
