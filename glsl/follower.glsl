@@ -1,5 +1,5 @@
-// follower.glsl - where a follower is: the one function that every path of drawing evaluates (shared.h says how a
-// follower is made of guides). Reads the smoothed guides and the followers as textures.
+// follower.glsl - where a follower is (shared.h says how it is made of guides). Reads the smoothed guides and the
+// followers as textures. What draws evaluates followers by evaluate.glsl.
 #include "rotation.glsl"
 #include "random.glsl"
 #include "draw_params.glsl"
@@ -74,27 +74,37 @@ vec2 deviation(uint seed, float t)
     return draw.frizz * t * sqrt(t) * (0.3 + 2.2 * r.w * r.w) * waves;
 }
 
-hair_point evaluate(hair_follower follower, float t)
+// What is done at t to a follower that meets a solid.
+struct repair {
+    vec3  away, away_slope;   // how far it is moved, m, and slope by t
+    float freed, freed_slope; // share to which it is freed of all guides but its own
+};
+const repair UNTOUCHED = repair(vec3(0.0), vec3(0.0), 0.0, 0.0);
+
+// Beyond t = 1 straight on.
+hair_point interpolate(hair_follower follower, float t, repair r)
 {
     float       u     = t * follower.length_ratio;
+    float       v     = min(t, 1.0);
     guide_point g0    = fetch_guide(follower.guide0, u);
     vec4        frame = fetch_frame(follower.guide0, u);
-    float       s     = 1.0 - t;
+    float       s     = 1.0 - v;
 
-    vec3 offset = s * s * s * follower.offset[0].xyz + 3.0 * s * s * t * follower.offset[1].xyz +
-                  3.0 * s * t * t * follower.offset[2].xyz + t * t * t * follower.offset[3].xyz;
+    vec3 offset = s * s * s * follower.offset[0].xyz + 3.0 * s * s * v * follower.offset[1].xyz +
+                  3.0 * s * v * v * follower.offset[2].xyz + v * v * v * follower.offset[3].xyz;
     vec3 slope = 3.0 * (s * s * (follower.offset[1].xyz - follower.offset[0].xyz) +
-                        2.0 * s * t * (follower.offset[2].xyz - follower.offset[1].xyz) +
-                        t * t * (follower.offset[3].xyz - follower.offset[2].xyz));
+                        2.0 * s * v * (follower.offset[2].xyz - follower.offset[1].xyz) +
+                        v * v * (follower.offset[3].xyz - follower.offset[2].xyz));
     float length_ = max(g0.to_root / max(t, 1e-3), 1e-6); // Of this strand: the guide has come so far at t.
-    vec2  wave    = deviation(follower.seed, t) * length_;
+    vec2  wave    = deviation(follower.seed, v) * length_;
     offset.xz += wave;
 
     vec3 position = g0.position + rotate(frame, offset);
-    vec3 tangent  = g0.tangent + rotate(frame, slope) / length_;
+    vec3 tangent  = g0.tangent + (rotate(frame, slope) + r.away_slope) / length_;
 
     // Multi-strand at the root, single-strand where it clumps.
-    float multi = follower.multi * (1.0 - draw.clump * smoothstep(0.1, 1.0, t));
+    float clumped = follower.multi * (1.0 - draw.clump * smoothstep(0.1, 1.0, v));
+    float multi   = clumped * (1.0 - r.freed);
     if (multi > 0.0) {
         guide_point g1 = fetch_guide(follower.guide1, u);
         guide_point g2 = fetch_guide(follower.guide2, u);
@@ -102,9 +112,10 @@ hair_point evaluate(hair_follower follower, float t)
         vec3        own     = vec3(follower.offset[1].w, follower.offset[2].w, follower.offset[3].w);
         vec3        blended = w0 * g0.position + w1 * g1.position + w2 * g2.position +
                        rotate(frame, own + vec3(wave.x, 0.0, wave.y));
-        position = mix(position, blended, multi);
         tangent  = mix(tangent, w0 * g0.tangent + w1 * g1.tangent + w2 * g2.tangent, multi);
+        tangent -= clumped * r.freed_slope / length_ * (blended - position);
+        position = mix(position, blended, multi);
     }
-    float taper = mix(1.0, draw.tip_radius, t * t);
-    return hair_point(position, direction_or(tangent, g0.tangent), draw.radius * follower.offset[0].w * taper);
+    float taper = mix(1.0, draw.tip_radius, v * v);
+    return hair_point(position + r.away, direction_or(tangent, g0.tangent), draw.radius * follower.offset[0].w * taper);
 }

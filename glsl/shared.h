@@ -55,6 +55,11 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_PUSH 7   // hair_vec4[]    per guide vertex: acceleration, m/s^2
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
+// Of the passes that look for followers inside solids:
+#define HAIR_BIND_HIT 3    // float[]     per follower: the first vertex inside, HAIR_NO_HIT if none is
+#define HAIR_BIND_REPAIR 4 // uvec2[]     per follower and control point of repair.glsl: four halves
+#define HAIR_BIND_LIST 5   // uint[]      two counts, in turn, and the followers that are to be repaired
+
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2
@@ -75,6 +80,8 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
+#define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
+#define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
 
@@ -96,6 +103,14 @@ typedef uint32_t hair_uint;
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32    // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
+
+#define HAIR_NO_HIT 1e9
+#define HAIR_SWITCH_ZONE 0.2     // of the length, above the first vertex inside
+#define HAIR_REPAIR_INTERVALS 8  // that the curves of repair.glsl cut a follower into
+#define HAIR_REPAIR_CONTROLS 10  // that are kept of each
+#define HAIR_REPAIR_THREADS 32   // of a work group
+#define HAIR_REPAIR_SAMPLES 64   // segments of a follower that are looked at
+#define HAIR_COLLISION_IS_SWITCH 1 // hair_collision
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -309,7 +324,12 @@ struct hair_draw_params {
     hair_uint segments;
     hair_uint smooth_vertices;
     hair_uint colored; // 0: only depth is asked for, nothing is shaded
+    // Of what is done about followers inside solids.
+    hair_uint followers; // in all
+    hair_uint collision; // hair_collision
+    hair_uint turn;      // which of the two counts of the list this time's is
+    float     margin;    // m, from a solid, of what is pushed out of it
 };
-HAIR_SIZE(hair_draw_params, 3 * 64 + 7 * 16 + 32)
+HAIR_SIZE(hair_draw_params, 3 * 64 + 7 * 16 + 48)
 
 #endif

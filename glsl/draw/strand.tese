@@ -1,7 +1,7 @@
 // strand.tese - one vertex of a follower: which isoline, which segment, where, and its colour. Shading runs here and
 // not for every sample of a pixel: along a strand light changes slowly, across it not at all.
 #version 450 core
-#include "follower.glsl"
+#include "evaluate.glsl"
 #include "shadow.glsl"
 #include "shade.glsl"
 layout(isolines, equal_spacing) in;
@@ -32,7 +32,7 @@ void main()
     float t       = float(segment) / float(draw.segments);
 
     hair_follower follower = fetch_follower(lines.x + line);
-    hair_point    point    = evaluate(follower, t);
+    hair_point    point    = evaluate(follower, lines.x + line, t);
     if (line + 1u == lines.y) point.radius *= fading;
 
     strand_position = vec4(point.position, point.radius);

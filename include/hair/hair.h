@@ -202,8 +202,8 @@ HAIR_API hair_result hair_form_describe(const hair_form* form, hair_form_info* o
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-7,
-                    ///< uniform buffers 0-2, buffer textures of units 0-4, 2D texture, sampler of unit 5,
-                    ///< 3D textures, samplers of units 8-9, image units 0-1.
+    ///< uniform buffers 0-2, buffer textures of units 0-4, 6 and 7, 2D texture, sampler of unit 5,
+    ///< 3D textures, samplers of units 8-9, image units 0-1.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
@@ -283,6 +283,14 @@ typedef enum hair_preset {
 HAIR_API hair_result hair_physics_preset(hair_physics* physics, hair_preset preset);
 HAIR_API const char* hair_preset_name(hair_preset preset); ///< "natural", "fine", … NULL beyond the last.
 
+/// What becomes of followers that come into solids, though no guide does. Where there are no solids in reach, nothing
+/// is done and nothing paid for it.
+typedef enum hair_collision {
+    HAIR_COLLISION_PUSH = 0, ///< Led round them, smoothly, as long as they were; the default.
+    HAIR_COLLISION_SWITCH,   ///< Tariq 2010: below the first vertex inside, each follows its own guide alone.
+    HAIR_COLLISION_NONE      ///< They go through.
+} hair_collision;
+
 /// How hair looks.
 typedef struct hair_look {
     hair_made made;
@@ -298,6 +306,7 @@ typedef struct hair_look {
     float     absorption;  ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
     float     density;     ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t  segments;    ///< Line segments of a drawn strand. [1, 256]. Default 32.
+    hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
 } hair_look;
 HAIR_DESC(hair_look)
 

@@ -103,8 +103,10 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_physics own;
     hair_result  result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
-    if (!result) hair->sim.physics = own;
-    return result;
+    if (result) return result;
+    hair->sim.physics     = own;
+    hair->draw.hits.fresh = 0; // The margin may be another.
+    return HAIR_OK;
 }
 
 hair_result hair_set_look(hair_instance* hair, const hair_look* look)
@@ -112,8 +114,10 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_look   own;
     hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
-    if (!result) hair->draw.look = own;
-    return result;
+    if (result) return result;
+    hair->draw.look       = own;
+    hair->draw.hits.fresh = 0;
+    return HAIR_OK;
 }
 
 hair_result hair_set_transform(hair_instance* hair, const float transform[16])
@@ -128,8 +132,9 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    const hair_host* host   = &hair->context->host;
-    hair_result      result = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
+    const hair_host* host = &hair->context->host;
+    hair->draw.hits.fresh = 0;
+    hair_result result    = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
     if (!result && count > hair->sim.solids.capsules && !hair->has_left_out) {
         hair->has_left_out = 1;
         hair_log(host, HAIR_LOG_WARNING,

@@ -51,6 +51,18 @@ static hair_result draw_solids(hair_instance* hair, const hair_view* view)
     return result;
 }
 
+// Followers that are inside solids are found and led out before they are looked at.
+static hair_result meet_solids(hair_instance* hair)
+{
+    struct hair_draw* draw = &hair->draw;
+    if (hair_draw_has_met_solids(draw, &hair->smooth)) return HAIR_OK;
+    int         wanted = draw->look.collision != HAIR_COLLISION_NONE && draw->followers;
+    hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
+    if (result) return result;
+    int near = wanted && hair_field_is_near(&hair->field);
+    return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin);
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -63,10 +75,12 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = check_framebuffer(hair);
     if (result) return result;
     hair_gl_enter(&context->gl);
-    if (own.pass == HAIR_PASS_SOLIDS)
+    if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);
-    else
-        hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
+    } else {
+        if (own.pass != HAIR_PASS_GUIDES) result = meet_solids(hair);
+        if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
+    }
     hair_gl_leave(&context->gl);
     return result;
 }
@@ -95,7 +109,8 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 {
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
-    hair_result result = hair_draw_expand(&hair->draw, &hair->smooth, &vertices);
+    hair_result result = meet_solids(hair);
+    if (!result) result = hair_draw_expand(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
     copy_to_world(&vertices->x, 4, count, &hair->sim.at_step, positions);

@@ -27,6 +27,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
 void hair_draw_destroy(struct hair_draw* draw)
 {
     if (!draw->gl) return;
+    hair_draw_free_hits(draw);
     hair_gl_free_texture(draw->gl, &draw->follower_texture);
     hair_gl_free_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
@@ -34,12 +35,13 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &draw->params);
 }
 
-static void bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture)
+void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture)
 {
     struct hair_gl* gl         = draw->gl;
-    GLuint          textures[] = {smooth->texture[0],     smooth->texture[1],  smooth->texture[2],
-                                  draw->follower_texture, draw->patch_texture, shadow_texture};
-    for (GLuint unit = 0; unit <= HAIR_UNIT_SHADOW; ++unit)
+    GLuint          textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
+                                  draw->follower_texture, draw->patch_texture,      shadow_texture,
+                                  draw->hits.hit_texture, draw->hits.repair_texture};
+    for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
     gl->BindSampler(HAIR_UNIT_SHADOW, gl->shadow_sampler);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
@@ -74,26 +76,30 @@ static hair_gl_pass pass_of(const hair_view* view)
     return view->primitive == HAIR_LINES ? HAIR_GL_LINES : HAIR_GL_RIBBONS;
 }
 
-void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, const struct hair_pose* head,
-                   const hair_view* view)
+hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
+                          const struct hair_pose* head, const hair_view* view)
 {
-    struct hair_gl* gl   = draw->gl;
-    hair_gl_pass    pass = pass_of(view);
-    if (pass != HAIR_GL_GUIDES && draw->look.density <= 0) return;
+    struct hair_gl* gl     = draw->gl;
+    hair_gl_pass    pass   = pass_of(view);
+    int             guides = pass == HAIR_GL_GUIDES;
+    if (!guides && draw->look.density <= 0) return HAIR_OK;
+    hair_result result = hair_draw_need(draw, &pass);
+    if (result) return result;
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
 
-    bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
+    hair_draw_bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
     hair_gl_begin(gl, pass);
-    if (pass == HAIR_GL_GUIDES)
+    if (guides)
         gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)draw->smooth_vertices, (GLsizei)draw->guides);
     else
         draw_patches(draw);
     hair_gl_end(gl, pass);
+    return HAIR_OK;
 }
 
 hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)
@@ -104,14 +110,16 @@ hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* s
     GLuint          expanded = 0;
     hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
-    hair_result result = hair_gl_storage(gl, "hair expanded", size, NULL, &expanded);
+    hair_gl_pass pass   = HAIR_GL_EXPAND;
+    hair_result  result = hair_draw_need(draw, &pass);
+    if (!result) result = hair_gl_storage(gl, "hair expanded", size, NULL, &expanded);
     if (!result) {
         struct hair_draw_params params;
         hair_draw_write_params(draw, NULL, NULL, &params);
         hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-        bind(draw, smooth, 0);
+        hair_draw_bind(draw, smooth, 0);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, &expanded);
-        hair_gl_run(gl, HAIR_GL_EXPAND, (uint32_t)((count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
+        hair_gl_run(gl, pass, (uint32_t)((count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
         gl->GetNamedBufferSubData(expanded, 0, (GLsizeiptr)size, vertices);
         // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, NULL);

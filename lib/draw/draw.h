@@ -2,24 +2,36 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
-#include "lib/field/field.h"
-#include "lib/interpolate/interpolate.h"
+#include "lib/draw/hits.h"
 
 struct hair_draw {
-    struct hair_gl* gl;
-    hair_look       look;
-    GLuint          follower, patch, params;         // buffers
-    GLuint          follower_texture, patch_texture; // the first two, for stages without storage buffers
-    uint32_t        followers, patches, smooth_vertices, guides;
+    struct hair_gl*  gl;
+    hair_look        look;
+    GLuint           follower, patch, params;         // buffers
+    GLuint           follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t         followers, patches, smooth_vertices, guides;
+    struct hair_hits hits;
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
                              const struct hair_sim* sim);
 void        hair_draw_destroy(struct hair_draw* draw);
 
+// hits.c: find the followers that are inside solids, and lead them out, before either of the below. `field`: NULL: no
+// solid is near. margin: what guides keep from solids, m.
+hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                  const struct hair_solid_field* field, float margin);
+int         hair_draw_has_met_solids(const struct hair_draw*   draw,
+                                     const struct hair_smooth* smooth); // since they moved
+void        hair_draw_free_hits(struct hair_draw* draw);
+// The program of `pass` that heeds what was found, if there was a solid.
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+// Buffers, textures and parameters of passes that make followers.
+void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture);
+
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
-void hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth, const struct hair_pose* head,
-                   const hair_view* view);
+hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
+                          const struct hair_pose* head, const hair_view* view);
 
 // Draw solids, and where `view` asks for it a slice of the field, which then is up to date.
 hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,

@@ -83,4 +83,6 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->segments        = look->segments;
     out->colored         = view && view->pass == HAIR_PASS_COLOR;
     out->smooth_vertices = draw->smooth_vertices;
+    out->followers       = draw->followers;
+    out->collision       = look->collision;
 }

@@ -61,13 +61,13 @@ void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {
-    GLint64 size = 0;
+    GLint64 size = 0, texel = format == GL_R32F ? 4 : format == GL_RGBA16F ? 8 : 16;
     GLint   most = 0;
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (size / 16 > most) // Texels of 16 bytes: the four-component formats that the library uses.
+    if (size / texel > most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %lld texels, more than the driver's %d",
-                         label, (long long)(size / 16), most);
+                         label, (long long)(size / texel), most);
     GLuint texture = 0;
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);

@@ -60,8 +60,8 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass but those of GUIDE_PASS and of the crowd that nothing has needed; those that fail keep the program
-// they had, and the first failure is returned.
+// Compile every pass but those of GUIDE_PASS, of the crowd and of hits that nothing has needed; those that fail keep the
+// program they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 
 // The program that such a row runs, compiled when first needed: a head of hair needs one of its four sizes.

@@ -44,6 +44,14 @@ PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/
 PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
 PASS(SOLIDS, "draw/solids", "draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
+// The same where followers have met solids: made when they first do.
+PASS(EXPAND_HITS, "interpolate/expand_hits", "HAIR_HITS=1 interpolate/expand.comp")
+PASS(RIBBONS_HITS, "draw/ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
+PASS(LINES_HITS, "draw/lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
+PASS(DEPTH_RIBBONS_HITS, "draw/depth_ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
+PASS(DEPTH_LINES_HITS, "draw/depth_lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+PASS(HIT, "interpolate/hit", "HAIR_FINDS_HITS=1 interpolate/hit.comp")
+PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
 #undef ROD_PASS

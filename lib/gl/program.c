@@ -133,7 +133,7 @@ static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
 static int is_optional(hair_gl_pass pass)
 {
     const char* stages = passes[pass].stages;
-    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=");
+    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") || strstr(stages, "HITS=");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)

@@ -11,6 +11,7 @@ struct hair_smooth {
     GLuint          texture[3]; // the same, for stages that are promised no storage buffers
     hair_gl_pass    pass;       // the size of smooth.comp that the longest guide needs
     uint32_t        vertices;   // in all
+    uint32_t        runs;       // so far
 };
 
 hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim);

@@ -31,4 +31,5 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
     hair_gl_run(smooth->gl, smooth->pass, sim->guides);
+    ++smooth->runs;
 }

@@ -81,22 +81,63 @@ double smoothstep(double from, double to, double t)
 
 } // namespace
 
-void hair_reference_follower(const hair_follower* f, const hair_draw_params* draw,
-                             const hair_reference_sample* samples, double t, hair_reference_point* out)
+// A cubic from 0 to 1 over the zone that ends at the hit, flat at both ends.
+void hair_reference_switch(double t, double hit, hair_reference_repair* out)
 {
-    const uint32_t count     = draw->smooth_vertices;
-    const uint32_t guide[3]  = {f->guide0, f->guide1, f->guide2};
+    const double before = std::max(hit - t, 0.0) / HAIR_SWITCH_ZONE;
+    *out                = {};
+    out->freed          = before < 1 ? 1 - before * before * (3 - 2 * before) : 0;
+    out->freed_slope    = before < 1 ? 6 * before * (1 - before) / HAIR_SWITCH_ZONE : 0;
+}
+
+// De Boor's recurrence on the four control points that reach t; the slope is that of a quadratic of their differences.
+void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], double t,
+                           hair_reference_repair* out)
+{
+    const double at = std::min(std::max(t, 0.0), 1.0) * HAIR_REPAIR_INTERVALS;
+    const int    k  = std::min(int(at), HAIR_REPAIR_INTERVALS - 1);
+    const double x  = at - k;
+    for (int axis = 0; axis < 4; ++axis) {
+        double d[4];
+        for (int i = 0; i < 4; ++i) {
+            const int j = k - 1 + i;
+            if (j > 0)
+                d[i] = controls[j][axis];
+            else // At the root nothing is moved; the spline is an odd function there.
+                d[i] = axis == 3 ? controls[0][3] : j < 0 ? -controls[1][axis] : 0;
+        }
+        double e[3];
+        for (int i = 0; i < 3; ++i) e[i] = d[i + 1] - d[i];
+        for (int i = 0; i < 2; ++i) e[i] += (x + 1 - i) / 2 * (e[i + 1] - e[i]);
+        const double slope = t > 1 ? 0 : HAIR_REPAIR_INTERVALS * (e[0] + x * (e[1] - e[0]));
+        for (int level = 3; level > 0; --level)
+            for (int i = 0; i < level; ++i) d[i] += (x + level - 1 - i) / level * (d[i + 1] - d[i]);
+        (axis < 3 ? out->away[axis] : out->freed)             = d[0];
+        (axis < 3 ? out->away_slope[axis] : out->freed_slope) = slope;
+    }
+}
+
+void hair_reference_follower(const hair_follower* f, const hair_draw_params* draw,
+                             const hair_reference_sample* samples, double t,
+                             const hair_reference_repair* repair, hair_reference_point* out)
+{
+    static const hair_reference_repair none     = {};
+    const hair_reference_repair&       r        = repair ? *repair : none;
+    const uint32_t                     count    = draw->smooth_vertices;
+    const uint32_t                     guide[3] = {f->guide0, f->guide1, f->guide2};
     const double   weight[3] = {1 - double(f->weight1) - f->weight2, f->weight1, f->weight2};
     const double   u         = t * f->length_ratio;
+    const double   v         = std::min(t, 1.0); // What is the strand's own ends with it.
     const place    own       = find(samples + size_t(guide[0]) * count, count, u);
     const double   length    = std::max(own.to_root / std::max(t, 1e-3), 1e-6);
-    const bezier   offset    = evaluate(f->offset, t);
-    const Vector3d waves     = length * deviation(f->seed, draw->frizz, t);
+    const bezier   offset    = evaluate(f->offset, v);
+    const Vector3d waves     = length * deviation(f->seed, draw->frizz, v);
 
     Vector3d position = own.position + own.frame * (offset.point + waves);
     Vector3d tangent  = own.tangent + own.frame * offset.slope / length;
 
-    const double multi = f->multi * (1 - draw->clump * smoothstep(0.1, 1, t));
+    const double clumped = f->multi * (1 - draw->clump * smoothstep(0.1, 1, v));
+    const double multi   = clumped * (1 - r.freed);
     if (multi > 0) {
         Vector3d middle = own.frame * (Vector3d(f->offset[1].w, f->offset[2].w, f->offset[3].w) + waves);
         Vector3d along(0, 0, 0);
@@ -105,11 +146,12 @@ void hair_reference_follower(const hair_follower* f, const hair_draw_params* dra
             middle += weight[i] * p.position;
             along += weight[i] * p.tangent;
         }
+        tangent =
+            (1 - multi) * tangent + multi * along - clumped * r.freed_slope / length * (middle - position);
         position = (1 - multi) * position + multi * middle;
-        tangent  = (1 - multi) * tangent + multi * along;
     }
-    const double taper = 1 + t * t * (double(draw->tip_radius) - 1);
-    store(position, out->position);
-    store(direction_of(tangent), out->tangent);
+    const double taper = 1 + v * v * (double(draw->tip_radius) - 1);
+    store(position + Vector3d(r.away), out->position);
+    store(direction_of(tangent + Vector3d(r.away_slope) / length), out->tangent);
     out->radius = double(draw->radius) * f->offset[0].w * taper;
 }

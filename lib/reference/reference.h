@@ -82,10 +82,24 @@ struct hair_reference_point {
     double radius;
 };
 
-/// A follower at t from 0 (root) to 1 (tip). `samples`: of all guides, draw->smooth_vertices each.
+/// What is done at t to a follower that meets a solid: slopes are by t.
+struct hair_reference_repair {
+    double away[3], away_slope[3]; ///< How far it is moved. m.
+    double freed, freed_slope;     ///< Share to which it is freed of all guides but its own.
+};
+
+/// Of Tariq 2010: `hit` is where the first vertex inside is, as a share of the length.
+void hair_reference_switch(double t, double hit, struct hair_reference_repair* out);
+/// Of the uniform cubic B-splines with these control points, as glsl/repair.glsl has them: away in the first three,
+/// freed in the last.
+void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], double t,
+                           struct hair_reference_repair* out);
+
+/// A follower at t from 0 (root) to 1 (tip), beyond 1 straight on. `samples`: of all guides, draw->smooth_vertices
+/// each. `repair`: NULL: none.
 void hair_reference_follower(const struct hair_follower* follower, const struct hair_draw_params* draw,
                              const struct hair_reference_sample* samples, double t,
-                             struct hair_reference_point* out);
+                             const struct hair_reference_repair* repair, struct hair_reference_point* out);
 
 #ifdef __cplusplus
 }

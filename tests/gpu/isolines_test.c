@@ -60,13 +60,16 @@ struct drawn {
     uint64_t       generated, draws;
 };
 
-// hair_draw as lines, with what the tessellator made of it instead of pixels. The caller frees the vertices.
-static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t most_segments)
+// hair_draw as lines, with what the tessellator made of it instead of pixels. `hits`: there are solids in reach. The
+// caller frees the vertices.
+static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t most_segments, int hits)
 {
     struct hair_gl* gl    = &test->context->gl;
-    GLuint          whole = gl->program[HAIR_GL_LINES], program = 0;
-    hair_test_ok(test, hair_gl_link(gl, "capture", "draw/patch.vert draw/patch.tesc draw/strand.tese",
-                                    "strand_position", &program));
+    hair_gl_pass    pass  = hits ? HAIR_GL_LINES_HITS : HAIR_GL_LINES;
+    GLuint          whole = gl->program[pass], program = 0;
+    const char*     stages = "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese";
+    hair_test_ok(test, hair_gl_link(gl, "capture", hits ? stages : strchr(stages, ' ') + 1, "strand_position",
+                                    &program));
     memset(&capture, 0, sizeof capture);
     capture.draw = gl->DrawArraysInstanced;
     glCreateTransformFeedbacks(1, &capture.feedback);
@@ -77,13 +80,13 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t mos
 
     struct hair_test_frame frame; // Without one every draw fails.
     hair_test_frame_make(&frame, 4, 4, GL_RGBA8, 0);
-    gl->program[HAIR_GL_LINES] = program;
-    gl->DrawArraysInstanced    = draw_captured;
-    hair_view view             = hair_view_default();
-    view.primitive             = HAIR_LINES;
-    hair_result result         = hair_draw(hair, &view);
-    gl->program[HAIR_GL_LINES] = whole;
-    gl->DrawArraysInstanced    = capture.draw;
+    gl->program[pass]       = program;
+    gl->DrawArraysInstanced = draw_captured;
+    hair_view view          = hair_view_default();
+    view.primitive          = HAIR_LINES;
+    hair_result result      = hair_draw(hair, &view);
+    gl->program[pass]       = whole;
+    gl->DrawArraysInstanced = capture.draw;
     hair_test_frame_free(&frame);
     hair_test_ok(test, result);
 
@@ -162,8 +165,10 @@ static void check_every_segment(const struct drawn* drawn, const float* expected
     free(seen);
 }
 
-// A groom of so many followers and isolines to a patch is drawn whole.
-static void check(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments)
+// A groom of so many followers and isolines to a patch is drawn whole, and where it is read, also where it meets a
+// solid.
+static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments,
+                          hair_collision collision)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers                 = followers;
@@ -173,14 +178,19 @@ static void check(struct hair_test* test, uint32_t followers, uint32_t isolines,
     hair_desc      desc              = hair_desc_default();
     hair_instance* hair              = NULL;
     desc.look                        = &look;
+    look.collision                   = collision;
+    hair_solid solid                 = hair_solid_default();
+    solid.position[0]                = 0.15f;
+    solid.size[0]                    = 0.06f;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
 
     uint32_t count    = followers * (segments + 1);
     float*   expected = malloc(3 * sizeof *expected * count);
     hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
     assert_int_equal(count, followers * (segments + 1));
 
-    struct drawn drawn = draw(test, hair, (size_t)followers * segments);
+    struct drawn drawn = draw(test, hair, (size_t)followers * segments, collision != HAIR_COLLISION_NONE);
     print_message("    %5u followers, %2u a patch, %3u segments: %3llu draws\n", followers, isolines,
                   segments, (unsigned long long)drawn.draws);
     assert_int_equal(drawn.generated, (uint64_t)followers * segments);
@@ -191,6 +201,20 @@ static void check(struct hair_test* test, uint32_t followers, uint32_t isolines,
     free(expected);
     hair_destroy(hair);
     hair_groom_destroy(groom);
+}
+
+static void check(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments)
+{
+    check_meeting(test, followers, isolines, segments, HAIR_COLLISION_NONE);
+}
+
+static void followers_that_meet_a_solid_are_drawn_where_they_are_read(void** state)
+{
+    static const uint32_t counts[] = {1, 2, 33, 65, 256};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
+        check_meeting(*state, 500, 64, counts[i], HAIR_COLLISION_PUSH);
+        check_meeting(*state, 500, 64, counts[i], HAIR_COLLISION_SWITCH);
+    }
 }
 
 static void every_count_of_segments_is_drawn_whole(void** state)
@@ -244,7 +268,7 @@ static size_t count_drawn(struct hair_test* test, float density, uint32_t segmen
     look.density                     = density;
     desc.look                        = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    struct drawn drawn = draw(test, hair, (size_t)1000 * segments);
+    struct drawn drawn = draw(test, hair, (size_t)1000 * segments, 0);
     assert_int_equal(drawn.generated, drawn.segments);
     free(drawn.vertices);
     hair_destroy(hair);
@@ -279,7 +303,7 @@ static void a_patch_of_no_density_draws_nothing(void** state)
     hair_instance* hair              = NULL;
     groom->patches[1].density        = 1;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    struct drawn drawn = draw(test, hair, 64 * 32);
+    struct drawn drawn = draw(test, hair, 64 * 32, 0);
     assert_int_equal(drawn.segments, groom->patches[1].count * 32);
     free(drawn.vertices);
     hair_destroy(hair);
@@ -292,6 +316,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(every_count_of_segments_is_drawn_whole),
         HAIR_TEST(every_count_of_isolines_is_drawn_whole),
+        HAIR_TEST(followers_that_meet_a_solid_are_drawn_where_they_are_read),
         HAIR_TEST(the_65536th_vertex_is_no_boundary),
         HAIR_TEST(a_driver_that_loses_strands_is_found_out),
         HAIR_TEST(a_density_of_0_draws_nothing),

@@ -147,6 +147,10 @@ static const struct member members[] = {
     UINT(hair_draw_params, segments),
     UINT(hair_draw_params, smooth_vertices),
     UINT(hair_draw_params, colored),
+    UINT(hair_draw_params, followers),
+    UINT(hair_draw_params, collision),
+    UINT(hair_draw_params, turn),
+    FLOAT(hair_draw_params, margin),
 };
 
 static const struct {

@@ -109,7 +109,7 @@ static void compare_followers(const struct fixture* fixture)
         for (uint32_t j = 0; j <= 16; ++j) {
             const struct hair_follower* follower = &fixture->groom->followers[i];
             struct hair_reference_point point;
-            hair_reference_follower(follower, &draw, fixture->samples, j / 16.0, &point);
+            hair_reference_follower(follower, &draw, fixture->samples, j / 16.0, NULL, &point);
             assert_vec3(hair_test_single(fixture->groom, follower, (float)j / 16), point.position, 2e-6);
         }
 }

@@ -339,12 +339,12 @@ static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
     hair_reference_smooth(whole(&f), f.state, samples);
     struct hair_follower follower = {.length_ratio = 1,
                                      .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
-    hair_reference_follower(&follower, &draw, samples, 0.5, &point);
+    hair_reference_follower(&follower, &draw, samples, 0.5, NULL, &point);
     // In the middle 3/8 of each inner control point; half a turn about x keeps x and turns z.
     near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
     hair_test_near("radius", 0, point.radius, 0.5 * 2 * (1 - 0.25 * 0.5), 1e-15);
     follower.length_ratio = 1.5f; // Beyond the tip straight on.
-    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    hair_reference_follower(&follower, &draw, samples, 1, NULL, &point);
     near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
 }
 
@@ -365,12 +365,12 @@ static void a_follower_between_guides_is_their_mean(void** state)
     struct hair_follower    follower = {
            .guide1 = 1, .guide2 = 2, .weight1 = 0.5f, .weight2 = 0.25f, .length_ratio = 1, .multi = 1};
     follower.offset[0].w = 1;
-    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    hair_reference_follower(&follower, &draw, samples, 1, NULL, &point);
     near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
     draw.clump = 1;
-    hair_reference_follower(&follower, &draw, samples, 1, &point);
+    hair_reference_follower(&follower, &draw, samples, 1, NULL, &point);
     near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
-    hair_reference_follower(&follower, &draw, samples, 0, &point);
+    hair_reference_follower(&follower, &draw, samples, 0, NULL, &point);
     near3("root", point.position, 0.5, 0, 0.25, 1e-9);
 }
 

@@ -1,0 +1,31 @@
+// evaluate.glsl - where a follower is drawn: the one function that every path of drawing evaluates. With HAIR_HITS it
+// heeds which followers meet solids, and what is done about it.
+#include "follower.glsl"
+#include "repair.glsl"
+
+layout(binding = HAIR_UNIT_HIT) uniform samplerBuffer hit_texture;
+layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
+
+vec4 repair_control(int first, int i) { return texelFetch(repair_texture, first + i); }
+
+// Tariq 2010: single-strand from the first vertex inside on, blended over a zone above it.
+hair_point switch_at(hair_follower follower, float t, float hit)
+{
+    float x = clamp((t - hit) / HAIR_SWITCH_ZONE + 1.0, 0.0, 1.0);
+    float freed = x * x * (3.0 - 2.0 * x), slope = 6.0 * x * (1.0 - x) / HAIR_SWITCH_ZONE;
+    return interpolate(follower, t, repair(vec3(0.0), vec3(0.0), freed, slope));
+}
+
+#ifdef HAIR_HITS
+hair_point evaluate(hair_follower follower, uint number, float t)
+{
+    float hit = texelFetch(hit_texture, int(number)).x;
+    if (hit > float(draw.segments)) return interpolate(follower, t, UNTOUCHED);
+    if (draw.collision == HAIR_COLLISION_IS_SWITCH) return switch_at(follower, t, hit / float(draw.segments));
+    int   first = int(number) * HAIR_REPAIR_CONTROLS;
+    float at    = t * (1.0 + repair_control(first, 0).x);
+    return interpolate(follower, at, repair_at(first, at));
+}
+#else
+hair_point evaluate(hair_follower follower, uint number, float t) { return interpolate(follower, t, UNTOUCHED); }
+#endif

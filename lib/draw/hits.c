@@ -1,0 +1,92 @@
+// hits.c - which followers come into solids, and what is done about it.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+#define OUTSIDE 5e-4f // m: so far out of a solid, beyond the margin of guides, followers are put
+
+static hair_result make(struct hair_draw* draw)
+{
+    struct hair_gl*   gl     = draw->gl;
+    struct hair_hits* hits   = &draw->hits;
+    hair_result       result = HAIR_OK;
+    size_t            count  = draw->followers;
+    int               pushes = draw->look.collision == HAIR_COLLISION_PUSH;
+    if (!hits->hit) result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &hits->hit);
+    if (!result && !hits->hit_texture)
+        result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, hits->hit, &hits->hit_texture);
+    if (!result && !hits->list)
+        result = hair_gl_storage(gl, "hair hit list", (count + 2) * sizeof(uint32_t), NULL, &hits->list);
+    if (!result && pushes && !hits->repair)
+        result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL, &hits->repair);
+    if (!result && pushes && !hits->repair_texture)
+        result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, hits->repair, &hits->repair_texture);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_HIT);
+    if (!result && pushes) result = hair_gl_need(gl, HAIR_GL_REPAIR);
+    return result;
+}
+
+void hair_draw_free_hits(struct hair_draw* draw)
+{
+    struct hair_hits* hits = &draw->hits;
+    hair_gl_free_texture(draw->gl, &hits->hit_texture);
+    hair_gl_free_texture(draw->gl, &hits->repair_texture);
+    hair_gl_free_buffer(draw->gl, &hits->hit);
+    hair_gl_free_buffer(draw->gl, &hits->repair);
+    hair_gl_free_buffer(draw->gl, &hits->list);
+}
+
+static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
+                const struct hair_solid_field* field, float margin)
+{
+    struct hair_gl*         gl   = draw->gl;
+    struct hair_hits*       hits = &draw->hits;
+    struct hair_draw_params params;
+    hair_draw_write_params(draw, NULL, NULL, &params);
+    hits->turn    = 1 - hits->turn;
+    params.turn   = hits->turn;
+    params.margin = margin + OUTSIDE;
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    hair_draw_bind(draw, smooth, 0);
+    hair_field_bind(field);
+    GLuint buffers[] = {hits->hit, hits->repair, hits->list};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
+    hair_gl_run(gl, HAIR_GL_HIT, (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
+        hair_gl_run(gl, HAIR_GL_REPAIR, (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
+}
+
+int hair_draw_has_met_solids(const struct hair_draw* draw, const struct hair_smooth* smooth)
+{
+    return draw->hits.fresh && draw->hits.smoothed == smooth->runs;
+}
+
+hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                  const struct hair_solid_field* field, float margin)
+{
+    struct hair_hits* hits = &draw->hits;
+    hits->active           = field != NULL;
+    if (field) {
+        hair_result result = make(draw);
+        if (result) return result;
+        run(draw, smooth, field, margin);
+    }
+    hits->fresh    = 1;
+    hits->smoothed = smooth->runs;
+    return HAIR_OK;
+}
+
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
+{
+    static const hair_gl_pass with_hits[] = {
+        [HAIR_GL_EXPAND]        = HAIR_GL_EXPAND_HITS,
+        [HAIR_GL_RIBBONS]       = HAIR_GL_RIBBONS_HITS,
+        [HAIR_GL_LINES]         = HAIR_GL_LINES_HITS,
+        [HAIR_GL_DEPTH_LINES]   = HAIR_GL_DEPTH_LINES_HITS,
+        [HAIR_GL_DEPTH_RIBBONS] = HAIR_GL_DEPTH_RIBBONS_HITS,
+    };
+    if (!draw->hits.active || *pass == HAIR_GL_GUIDES) return HAIR_OK;
+    *pass = with_hits[*pass];
+    return hair_gl_need(draw->gl, *pass);
+}

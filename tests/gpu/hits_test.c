@@ -1,0 +1,402 @@
+// hits_test.c - followers that meet solids are found, and led round them, as the double-precision reference has it;
+// where nothing can be met, nothing is done.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/reference/reference.h"
+#include "tests/support/handmade.h"
+
+#define STATES 1024
+#define SOLIDS 3
+
+struct fixture {
+    struct hair_test*             test;
+    hair_groom*                   groom;
+    hair_instance*                hair;
+    hair_look                     look;
+    struct hair_reference_sample* samples;
+    hair_solid                    solids[SOLIDS];
+};
+
+static void smooth(struct fixture* f)
+{
+    static struct hair_state vertices[STATES];
+    uint32_t                 random = 99, each = 2 * f->groom->most_vertices - 1;
+    struct hair_gl*          gl     = &f->test->context->gl;
+    struct hair_step_params  params = {.smooth_vertices = each,
+                                       .rotation_before = {0, 0, 0, 1},
+                                       .rotation_after  = {0, 0, 0, 1},
+                                       .rotation_now    = {0, 0, 0, 1}};
+    hair_test_scatter(f->groom, 0.001f, 0, &random, vertices);
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *vertices,
+                         vertices);
+    hair_gl_enter(gl);
+    hair_smooth_run(&f->hair->smooth, &f->hair->sim);
+    hair_gl_leave(gl);
+    f->samples = calloc(each * f->groom->info.guide_count, sizeof *f->samples);
+    for (uint32_t g = 0; g < f->groom->info.guide_count; ++g) {
+        static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
+        const struct hair_guide*            guide = &f->groom->guides[g];
+        for (uint32_t i = 0; i < guide->count; ++i) {
+            hair_vec4 p  = vertices[guide->first + i].position;
+            in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
+        }
+        hair_reference_smooth((struct hair_reference_guide){guide, f->groom->rest + guide->first, &params},
+                              in_double, f->samples + g * each);
+    }
+}
+
+static hair_solid solid_of(hair_shape shape, const float position[3], const float rotation[4], float radius)
+{
+    hair_solid solid = hair_solid_default();
+    solid.shape      = shape;
+    solid.size[0]    = radius;
+    solid.size[1]    = 0.1f;
+    memcpy(solid.position, position, sizeof solid.position);
+    memcpy(solid.rotation, rotation, sizeof solid.rotation);
+    return solid;
+}
+
+// Guides in disorder, smoothed on the GPU and by the reference, with solids among them. `alone`: followers have one
+// guide; else those of many lie anywhere on the ball, and no follower of theirs is like a hair.
+static struct fixture start(void** state, int alone)
+{
+    struct fixture            f      = {.test = *state, .look = hair_look_default()};
+    hair_desc                 desc   = hair_desc_default();
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    wanted.fewest = 5, wanted.most = 30, wanted.guides = 26, wanted.followers = 400;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
+    for (uint32_t n = 0; n < wanted.followers && alone; ++n)
+        f.groom->followers[n].guide1 = f.groom->followers[n].guide2 = f.groom->followers[n].guide0;
+    desc.field_voxel = 0.001f; // As fine as it gets.
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    smooth(&f);
+    f.solids[0] = solid_of(HAIR_SHAPE_SPHERE, (float[3]){0.15f, 0, 0}, (float[4]){0, 0, 0, 1}, 0.05f);
+    f.solids[1] =
+        solid_of(HAIR_SHAPE_CAPSULE, (float[3]){-0.05f, 0.12f, 0.05f}, (float[4]){0.6f, 0, 0, 0.8f}, 0.03f);
+    f.solids[2] = solid_of(HAIR_SHAPE_SPHERE, (float[3]){0, -0.1f, 0.14f}, (float[4]){0, 0, 0, 1}, 0.06f);
+    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    free(f->samples);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static struct hair_draw_params params_of(const struct fixture* f)
+{
+    return (struct hair_draw_params){.radius          = f->look.radius,
+                                     .tip_radius      = f->look.tip_radius,
+                                     .clump           = f->look.clump,
+                                     .frizz           = f->look.frizz,
+                                     .segments        = f->look.segments,
+                                     .smooth_vertices = 2 * f->groom->most_vertices - 1};
+}
+
+static double distance_to(const hair_solid* solid, const double p[3])
+{
+    const float* q = solid->rotation;
+    double       x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
+    // The second column of the rotation: where its own y points.
+    double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3], along = 0;
+    double half = solid->shape == HAIR_SHAPE_CAPSULE ? (double)solid->size[1] : 0;
+    for (int k = 0; k < 3; ++k) {
+        arm[k] = p[k] - (double)solid->position[k];
+        along += arm[k] * axis[k];
+    }
+    along = fmin(fmax(along, -half), half);
+    for (int k = 0; k < 3; ++k) arm[k] -= along * axis[k];
+    return sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]) - (double)solid->size[0];
+}
+
+static double distance_to_all(const struct fixture* f, const double p[3])
+{
+    double least = INFINITY;
+    for (int i = 0; i < SOLIDS; ++i) least = fmin(least, distance_to(&f->solids[i], p));
+    return least;
+}
+
+// As in expand_test.c, and as much again for what repairs add.
+#define SAMPLE (6 * 4.5 / 16777216)
+#define TOLERANCE (2 * (3 * SAMPLE + 0.015 * 8 * SAMPLE / 0.005))
+
+// What the field may be off where the surface is. m.
+#define FIELD 3e-4
+
+static float* read_followers(struct fixture* f, hair_collision collision)
+{
+    uint32_t count    = f->groom->info.follower_count * (f->look.segments + 1), there;
+    float*   vertices = malloc(3 * sizeof *vertices * count);
+    f->look.collision = collision;
+    hair_test_ok(f->test, hair_set_look(f->hair, &f->look));
+    hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
+    assert_int_equal(there, count);
+    return vertices;
+}
+
+static void read_buffer(struct fixture* f, GLuint buffer, size_t each, void* out)
+{
+    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(f->groom->info.follower_count * each), out);
+}
+
+// The first vertex inside, and how far from the surface any up to it comes nearest: there rounding decides.
+static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
+{
+    struct hair_draw_params draw = params_of(f);
+    *nearest                     = INFINITY;
+    for (uint32_t k = 1; k <= draw.segments; ++k) {
+        struct hair_reference_point point;
+        hair_reference_follower(&f->groom->followers[number], &draw, f->samples, (double)k / draw.segments,
+                                NULL, &point);
+        double d = distance_to_all(f, point.position);
+        *nearest = fmin(*nearest, fabs(d));
+        if (d < 0) return k;
+    }
+    return UINT32_MAX;
+}
+
+static void the_first_vertex_inside_is_found(void** state)
+{
+    static const uint32_t segments[] = {1, 2, 31, 64, 256};
+    struct fixture        f          = start(state, 0);
+    static float          hits[400];
+    for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
+        uint32_t found = 0, doubtful = 0;
+        f.look.segments = segments[i];
+        free(read_followers(&f, HAIR_COLLISION_PUSH));
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
+        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+            double   nearest;
+            uint32_t expected = find_hit(&f, n, &nearest);
+            if (nearest < FIELD) {
+                ++doubtful;
+                continue;
+            }
+            if (expected == UINT32_MAX)
+                assert_true((double)hits[n] == HAIR_NO_HIT);
+            else
+                hair_test_near("hit", n, (double)hits[n], expected, 0);
+            found += expected != UINT32_MAX;
+        }
+        print_message("    %u segments: %u hits, %u in doubt\n", segments[i], found, doubtful);
+        assert_in_range(found, 10, 370);
+        assert_in_range(doubtful, 0, 60);
+    }
+    finish(&f);
+}
+
+static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
+                    const struct hair_reference_repair* repair, const float* vertices)
+{
+    struct hair_draw_params     draw = params_of(f);
+    struct hair_reference_point expected;
+    size_t                      at = (size_t)number * (draw.segments + 1) + k;
+    hair_reference_follower(&f->groom->followers[number], &draw, f->samples, t, repair, &expected);
+    for (int i = 0; i < 3; ++i)
+        hair_test_near("coordinate", at, (double)vertices[3 * at + (size_t)i], expected.position[i],
+                       TOLERANCE);
+}
+
+static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
+{
+    struct fixture f        = start(state, 0);
+    float*         vertices = read_followers(&f, HAIR_COLLISION_SWITCH);
+    static float   hits[400];
+    uint32_t       switched = 0;
+    read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
+    for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+        int hit = (double)hits[n] < HAIR_NO_HIT;
+        assert_true(!hit || f.groom->followers[n].multi > 0); // There is nothing to switch in the others.
+        switched += hit;
+        for (uint32_t k = 0; k <= f.look.segments; ++k) {
+            struct hair_reference_repair repair;
+            double                       t = (double)k / f.look.segments;
+            hair_reference_switch(t, (double)hits[n] / f.look.segments, &repair);
+            compare(&f, n, k, t, hit ? &repair : NULL, vertices);
+        }
+    }
+    assert_in_range(switched, 30, 370);
+    free(vertices);
+    finish(&f);
+}
+
+static double from_half(uint16_t half)
+{
+    double mantissa = half & 1023, sign = half >> 15 ? -1 : 1;
+    int    exponent = half >> 10 & 31;
+    return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
+}
+
+static void what_leads_followers_round_solids_is_a_spline(void** state)
+{
+    static const uint32_t segments[] = {7, 32, 100};
+    static float          hits[400];
+    static uint16_t       halves[400][HAIR_REPAIR_CONTROLS][4];
+    struct fixture        f = start(state, 0);
+    for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
+        f.look.segments = segments[i];
+        float* vertices = read_followers(&f, HAIR_COLLISION_PUSH);
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
+        read_buffer(&f, f.hair->draw.hits.repair, sizeof *halves, halves);
+        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+            int    hit = (double)hits[n] < HAIR_NO_HIT;
+            double controls[HAIR_REPAIR_CONTROLS][4];
+            for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c)
+                for (int axis = 0; axis < 4; ++axis) controls[c][axis] = from_half(halves[n][c][axis]);
+            for (uint32_t k = 0; k <= f.look.segments; ++k) {
+                struct hair_reference_repair repair;
+                double                       t = (double)k / f.look.segments;
+                if (hit) t *= 1 + controls[0][0];
+                hair_reference_spline(controls, t, &repair);
+                compare(&f, n, k, t, hit ? &repair : NULL, vertices);
+            }
+        }
+        free(vertices);
+    }
+    finish(&f);
+}
+
+struct strand {
+    double deepest, length;
+};
+
+static struct strand measure(const struct fixture* f, const float* vertices, uint32_t number)
+{
+    struct strand strand = {0};
+    const float*  p      = vertices + (size_t)number * (f->look.segments + 1) * 3;
+    for (uint32_t k = 1; k <= f->look.segments; ++k) {
+        double at[3] = {(double)p[3 * k], (double)p[3 * k + 1], (double)p[3 * k + 2]}, square = 0;
+        for (uint32_t i = 0; i < 3; ++i) square += pow(at[i] - (double)p[3 * (k - 1) + i], 2);
+        strand.length += sqrt(square);
+        strand.deepest = fmax(strand.deepest, -distance_to_all(f, at));
+    }
+    return strand;
+}
+
+// Strands whose roots are inside, or all but, have nowhere to go at once: they are not looked at.
+static void followers_pushed_out_of_solids_are_outside_and_as_long_as_before(void** state)
+{
+    struct fixture f      = start(state, 1);
+    float*         before = read_followers(&f, HAIR_COLLISION_NONE);
+    float*         after  = read_followers(&f, HAIR_COLLISION_PUSH);
+    uint32_t       inside = 0, left = 0;
+    double         deepest = 0, longest = 0;
+    for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+        const float*  p       = before + (size_t)n * (f.look.segments + 1) * 3;
+        double        root[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        struct strand a = measure(&f, before, n), b = measure(&f, after, n);
+        if (distance_to_all(&f, root) < 0.01) continue;
+        if (a.deepest == 0)
+            assert_memory_equal(p, after + (p - before), 3 * (f.look.segments + 1) * sizeof *p);
+        inside += a.deepest > 1e-3;
+        left += b.deepest > 1e-4;
+        deepest = fmax(deepest, a.deepest);
+        longest = fmax(longest, fabs(b.length / a.length - 1));
+    }
+    print_message("    %u inside, up to %.3f m; %u are left; lengths off by up to %.4f\n", inside, deepest,
+                  left, longest);
+    assert_true(inside > 10);
+    assert_int_equal(left, 0);
+    assert_true(longest < 0.01);
+    free(before);
+    free(after);
+    finish(&f);
+}
+
+// A solid that comes by and by moves followers by and by: what it does has no jumps. But one that has come over a strand
+// until its middle is past it pushes it out on the other side, and guides that are simulated are not there.
+static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
+{
+    struct fixture f      = start(state, 1);
+    float*         before = NULL;
+    double         worst  = 0;
+    size_t         each   = f.look.segments + 1;
+    float*         freely = read_followers(&f, HAIR_COLLISION_NONE);
+    for (int frame = 0; frame < 60; ++frame) {
+        f.solids[0].position[0] = 0.25f - 0.002f * (float)frame;
+        hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+        float* now = read_followers(&f, HAIR_COLLISION_PUSH);
+        for (size_t i = 0; before && i < each * f.groom->info.follower_count; ++i) {
+            double square = 0;
+            if (measure(&f, freely, (uint32_t)(i / each)).deepest > 0.01) continue;
+            for (size_t k = 3 * i; k < 3 * i + 3; ++k) square += pow((double)now[k] - (double)before[k], 2);
+            worst = fmax(worst, sqrt(square));
+        }
+        free(before);
+        before = now;
+    }
+    print_message("    steps of 2 mm move followers by up to %.1f mm\n", 1000 * worst);
+    assert_true(worst < 0.01);
+    free(freely);
+    free(before);
+    finish(&f);
+}
+
+static uint32_t runs_of(struct hair_test* test, const char* words)
+{
+    hair_timing timings[256];
+    uint32_t    count = hair_timings(test->context, timings, 256), runs = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        if (strstr(timings[i].pass, words)) runs += timings[i].runs;
+    return runs;
+}
+
+static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** state)
+{
+    struct fixture f    = start(state, 0);
+    uint32_t       hits = runs_of(f.test, "hit"), repairs = runs_of(f.test, "repair");
+    float*         without = read_followers(&f, HAIR_COLLISION_NONE);
+    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, 0));
+    float* none = read_followers(&f, HAIR_COLLISION_PUSH);
+    for (int i = 0; i < SOLIDS; ++i) f.solids[i].position[1] += 3;
+    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+    float* far  = read_followers(&f, HAIR_COLLISION_PUSH);
+    size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.segments + 1);
+    assert_memory_equal(none, without, size);
+    assert_memory_equal(far, without, size);
+    assert_int_equal(runs_of(f.test, "hit"), hits);
+    assert_int_equal(runs_of(f.test, "repair"), repairs);
+    assert_int_equal(f.hair->draw.hits.hit + f.hair->draw.hits.repair + f.hair->draw.hits.list, 0);
+    free(far);
+    free(none);
+    free(without);
+    finish(&f);
+}
+
+// Once for all views and readings of one step.
+static void nothing_is_looked_for_twice(void** state)
+{
+    struct fixture f = start(state, 0);
+    free(read_followers(&f, HAIR_COLLISION_PUSH));
+    uint32_t count, hits = runs_of(f.test, "interpolate/hit");
+    float    some[3];
+    for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    assert_int_equal(runs_of(f.test, "interpolate/hit"), hits);
+    hair_test_ok(f.test, hair_step(f.hair, 0.01f));
+    for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    assert_int_equal(runs_of(f.test, "interpolate/hit"), hits + 1);
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(the_first_vertex_inside_is_found),
+        HAIR_TEST(below_its_hit_a_follower_keeps_to_its_own_guide),
+        HAIR_TEST(what_leads_followers_round_solids_is_a_spline),
+        HAIR_TEST(followers_pushed_out_of_solids_are_outside_and_as_long_as_before),
+        HAIR_TEST(a_solid_that_moves_a_little_moves_followers_a_little),
+        HAIR_TEST(where_no_solid_is_in_reach_there_is_no_pass_and_no_memory),
+        HAIR_TEST(nothing_is_looked_for_twice),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
