@@ -48,6 +48,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
 #define HAIR_BIND_MEMBER 1 // uint[]             places in the next, of the solids that reach into each brick
 #define HAIR_BIND_SOLID 2  // hair_field_solid[]
+#define HAIR_BIND_NODE 3   // float[]            distances at the nodes of forms, m
 // The passes of the crowd, which is what a hair feels of the hair around it, read the state and the history; and:
 #define HAIR_BIND_CROWD 3  // int[]          of the grid: four per node, mass and momentum; then one, volume
 #define HAIR_BIND_SHARE 5  // hair_share[]   per guide vertex, never written
@@ -99,7 +100,7 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
-#define HAIR_SHOWN_SOLIDS 128   // drawn at once
+#define HAIR_SHOWN_SOLIDS 96    // drawn at once
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32    // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
@@ -269,12 +270,15 @@ HAIR_SIZE(hair_field_params, 48)
 struct hair_field_solid {
     hair_vec4 position; // xyz: m; w: rounding, m
     hair_vec4 rotation; // unit quaternion: its own axes to the head's
-    hair_vec4 size;     // xyz: as its shape says, m
-    hair_uint shape;    // hair_shape
-    hair_uint number;   // among the instance's solids
+    hair_vec4 size;     // xyz: as its shape says, m; w: of a form, how many times as large it is
+    hair_vec4 grid;     // of a form: xyz: its first node, w: from node to node, m
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint first;  // of its nodes
+    hair_uint shape;  // hair_shape
+    hair_uint number; // among the instance's solids
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_field_solid, 64)
+HAIR_SIZE(hair_field_solid, 96)
 
 // A solid to be drawn, and the box around it in its own axes.
 struct hair_shown_solid {
@@ -282,7 +286,7 @@ struct hair_shown_solid {
     hair_vec4 lower; // xyz: m
     hair_vec4 upper;
 };
-HAIR_SIZE(hair_shown_solid, 96)
+HAIR_SIZE(hair_shown_solid, 128)
 
 // Solids drawn for debugging, cut open where a slice of the field is.
 struct hair_shown_params {
@@ -293,7 +297,7 @@ struct hair_shown_params {
     hair_vec4 depth;    // depth in the framebuffer is x + y times that in clip space
     HAIR_STRUCT(hair_shown_solid) shown[HAIR_SHOWN_SOLIDS];
 };
-HAIR_SIZE(hair_shown_params, 96 + HAIR_SHOWN_SOLIDS * 96)
+HAIR_SIZE(hair_shown_params, 96 + HAIR_SHOWN_SOLIDS * 128)
 
 // HAIR_BRICK^3 voxels, and the solids that reach into them.
 struct hair_field_brick {

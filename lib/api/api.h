@@ -7,8 +7,9 @@
 #include "lib/field/field.h"
 
 struct hair_context {
-    hair_host      host;
-    struct hair_gl gl;
+    hair_host         host;
+    struct hair_gl    gl;
+    struct hair_forms forms; // that instances' fields share
 };
 
 struct hair_instance {

@@ -11,8 +11,9 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
-    context->host = host;
-    result        = hair_gl_create(&context->gl, &host, &own);
+    context->host     = host;
+    context->forms.gl = &context->gl;
+    result            = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
         return result;

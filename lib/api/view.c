@@ -40,14 +40,16 @@ static hair_result check_shadow(const hair_instance* hair, const hair_view* view
                      hair->label, view->shadow_texture);
 }
 
-// Only a slice needs the field.
+// Only a slice needs the field, and forms, which shaders read from where the field has put them.
 static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_solids* solids = &hair->sim.solids;
-    hair_result               result = view->slice ? hair_update_field(hair) : HAIR_OK;
+    const struct hair_solid_list* list   = &hair->sim.solids.now;
+    int                           needed = view->slice != HAIR_SLICE_NONE;
+    for (uint32_t i = 0; i < list->count; ++i) needed |= list->solid[i].form != NULL;
+    hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
     if (!result)
-        result = hair_draw_solids(&hair->draw, &hair->field, solids->now.solid, solids->now.count,
-                                  &hair->sim.at_step, view);
+        result =
+            hair_draw_solids(&hair->draw, &hair->field, list->solid, list->count, &hair->sim.at_step, view);
     return result;
 }
 

@@ -32,14 +32,15 @@ static void write_slice(const struct hair_field_box* box, const hair_view* view,
     params->side[1] = (hair_vec4){sides[1][0], sides[1][1], sides[1][2], 0};
 }
 
-static struct hair_shown_solid show(const struct hair_field_solid* solid)
+static struct hair_shown_solid show(const struct hair_solid_field* field, const hair_solid* solid, uint32_t i,
+                                    const struct hair_pose* head)
 {
-    hair_vec3 lower, upper;
-    hair_field_shown_extent(solid, &lower, &upper);
-    hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
-    lower          = hair_sub(lower, more);
-    upper          = hair_add(upper, more);
-    return (struct hair_shown_solid){*solid, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
+    hair_vec3               lower, upper;
+    struct hair_field_solid own  = hair_field_shown(field, solid, i, head, &lower, &upper);
+    hair_vec3               more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
+    lower                        = hair_sub(lower, more);
+    upper                        = hair_add(upper, more);
+    return (struct hair_shown_solid){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
 }
 
 static void draw_slice(struct hair_draw* draw, const struct hair_solid_field* field, const hair_view* view,
@@ -62,10 +63,8 @@ static void draw_shapes(struct hair_draw* draw, const struct hair_solid_field* f
     hair_gl_begin(gl, HAIR_GL_SOLIDS);
     for (uint32_t first = 0; first < count; first += HAIR_SHOWN_SOLIDS) {
         uint32_t some = count - first < HAIR_SHOWN_SOLIDS ? count - first : HAIR_SHOWN_SOLIDS;
-        for (uint32_t i = 0; i < some; ++i) {
-            struct hair_placed placed = hair_field_place(&field->box, &solids[first + i], first + i, head);
-            params->shown[i]          = show(&placed.solid);
-        }
+        for (uint32_t i = 0; i < some; ++i)
+            params->shown[i] = show(field, &solids[first + i], first + i, head);
         hair_gl_write_uniform(gl, buffer, sizeof *params, params);
         gl->DrawArraysInstanced(GL_TRIANGLES, 0, 36, (GLsizei)some);
     }
@@ -94,6 +93,7 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
         gl->BindVertexArray(gl->vertex_array);
         gl->Disable(GL_CULL_FACE);
         draw_slice(draw, field, view, buffer, params);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
         draw_shapes(draw, field, solids, count, head, buffer, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1,
                             NULL); // Before it is deleted: see state.c.

@@ -1,7 +1,6 @@
 // bricks.c - which bricks of the field are written again, and which solids reach into each of them.
 //
-// A solid is left out of a brick where it is farther than the band, and where another is nearer to every voxel: distances
-// from a brick's middle change by no more than its radius on the way to a voxel.
+// A solid is left out of a brick where it is farther than the band, and where another is nearer to every voxel.
 #include "lib/field/bricks.h"
 
 #include <string.h>
@@ -44,12 +43,11 @@ void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* p
     const struct hair_field_box* box   = &field->box;
     struct range                 all   = all_of(box);
     struct range                 range = overlap(placed, &all);
-    float                        most  = box->far + hair_field_brick_radius(box);
     EACH_BRICK(range, x, y, z)
     {
         uint32_t brick = brick_at(box, x, y, z);
-        if (!field->dirty[brick] && hair_field_distance_to(box, placed, x, y, z) < most)
-            field->dirty[brick] = 1;
+        if (!field->dirty[brick])
+            field->dirty[brick] = hair_field_span_of(box, placed, x, y, z).least < box->far;
     }
 }
 
@@ -90,7 +88,7 @@ void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job
 
 struct pair {
     uint32_t brick, solid;
-    float    distance; // from the brick's middle
+    float    least; // distance of any voxel
 };
 
 // Marked bricks from job->next on, until they have as many pairs as fit. Returns where to go on.
@@ -113,10 +111,9 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
 {
     const struct hair_field_box* box   = &field->box;
     uint32_t                     layer = box->bricks[0] * box->bricks[1], count = 0;
-    float                        radius = hair_field_brick_radius(box);
-    struct range                 slab   = all_of(box);
-    slab.first[2]                       = job->next / layer;
-    slab.end[2]                         = (end - 1) / layer + 1;
+    struct range                 slab = all_of(box);
+    slab.first[2]                     = job->next / layer;
+    slab.end[2]                       = (end - 1) / layer + 1;
     for (uint32_t b = job->next; b < end; ++b) field->best[b] = box->far;
     for (uint32_t i = 0; i < field->count; ++i) {
         struct range range = overlap(&field->placed[i], &slab);
@@ -124,39 +121,50 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
         {
             uint32_t brick = brick_at(box, x, y, z);
             if (brick < job->next || brick >= end || !field->dirty[brick]) continue;
-            float distance = hair_field_distance_to(box, &field->placed[i], x, y, z);
-            if (distance - radius > field->best[brick]) continue;
-            field->best[brick] = fminf(field->best[brick], distance + radius);
-            pairs[count++]     = (struct pair){brick, i, distance};
+            struct hair_field_span span = hair_field_span_of(box, &field->placed[i], x, y, z);
+            if (!(span.least <= field->best[brick])) continue;
+            field->best[brick] = fminf(field->best[brick], span.most);
+            pairs[count++]     = (struct pair){brick, i, span.least};
         }
     }
     return count;
 }
 
-// Pairs become members, in the order of solids in every brick.
+#define HAS_FORM 2 // of what is dirty
+
+// Pairs become members, in the order of solids in every brick; bricks that forms reach into come last.
 static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* job, uint32_t end,
                        const struct pair* pairs, uint32_t count)
 {
-    const struct hair_field_box* box    = &field->box;
-    float                        radius = hair_field_brick_radius(box);
-    uint32_t                     first = 0, last = HAIR_NO_SOLID;
+    const struct hair_field_box* box   = &field->box;
+    uint32_t                     first = 0, plain = 0, last = HAIR_NO_SOLID;
     for (uint32_t b = job->next; b < end; ++b) field->members[b] = 0;
-    for (uint32_t i = 0; i < count; ++i)
-        field->members[pairs[i].brick] += pairs[i].distance - radius <= field->best[pairs[i].brick];
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t b = pairs[i].brick;
+        if (!(pairs[i].least <= field->best[b])) continue;
+        field->members[b]++;
+        if (field->placed[pairs[i].solid].form) field->dirty[b] = HAS_FORM;
+    }
+    job->with_forms = 0;
     for (uint32_t b = job->next; b < end; ++b) {
         if (!field->dirty[b]) continue;
         uint32_t x = b % box->bricks[0], y = b / box->bricks[0] % box->bricks[1],
-                 z                = b / box->bricks[0] / box->bricks[1];
-        job->brick[job->bricks++] = (struct hair_field_brick){
-            .at = x + (y << 10) + (z << 20), .first = first, .count = field->members[b]};
-        uint32_t members  = field->members[b];
+                 z = b / box->bricks[0] / box->bricks[1], members = field->members[b];
+        uint32_t at = field->dirty[b] == HAS_FORM ? job->bricks - ++job->with_forms : plain++;
+        job->brick[at] =
+            (struct hair_field_brick){.at = x + (y << 10) + (z << 20), .first = first, .count = members};
         field->members[b] = first; // Where its next goes.
         first += members;
         field->dirty[b] = 0;
     }
     for (uint32_t i = 0; i < count; ++i) {
-        if (!(pairs[i].distance - radius <= field->best[pairs[i].brick])) continue;
-        if (pairs[i].solid != last) job->solid[job->solids++] = field->placed[pairs[i].solid].solid;
+        const struct hair_placed* placed = &field->placed[pairs[i].solid];
+        if (!(pairs[i].least <= field->best[pairs[i].brick])) continue;
+        if (pairs[i].solid != last) {
+            job->solid[job->solids] = placed->solid;
+            if (placed->form) job->solid[job->solids].first = field->forms->pooled[placed->place].first;
+            ++job->solids;
+        }
         last                                          = pairs[i].solid;
         job->member[field->members[pairs[i].brick]++] = job->solids - 1;
     }
@@ -177,10 +185,12 @@ hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_jo
     job->brick         = hair_alloc(host, bricks, sizeof *job->brick);
     job->member        = hair_alloc(host, count, sizeof *job->member);
     job->solid         = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->solid);
-    if (pairs && job->brick && job->member && job->solid) sort_pairs(field, job, end, pairs, count);
+    int failed         = !pairs || !job->brick || !job->member || !job->solid;
+    job->bricks        = bricks;
+    if (!failed) sort_pairs(field, job, end, pairs, count);
     hair_free(host, pairs);
     job->next = end;
-    return job->bricks ? HAIR_OK : hair_fail_memory(host, "what is to be written of the field");
+    return failed ? hair_fail_memory(host, "what is to be written of the field") : HAIR_OK;
 }
 
 void hair_field_end(struct hair_solid_field* field, struct hair_field_job* job)

@@ -10,6 +10,7 @@ struct hair_field_job {
     uint32_t*                member;
     struct hair_field_solid* solid;
     uint32_t                 bricks, members, solids;
+    uint32_t                 with_forms; // of bricks: the last ones
     uint32_t                 next, end; // bricks of the field: the first that has not been looked at, and all
 };
 

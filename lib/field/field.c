@@ -5,18 +5,21 @@
 
 #define ALIGNMENT 256 // of ranges of storage buffers: the most that a driver may ask for
 
-void hair_field_create(struct hair_solid_field* field, struct hair_gl* gl, const struct hair_groom* groom,
-                       float voxel)
+void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
+                       const struct hair_groom* groom, float voxel)
 {
     memset(field, 0, sizeof *field);
-    field->gl  = gl;
-    field->box = hair_field_box_of(groom, voxel);
+    field->gl    = forms->gl;
+    field->forms = forms;
+    field->box   = hair_field_box_of(groom, voxel);
 }
 
 // As hair_field_create left it.
 static void clear(struct hair_solid_field* field)
 {
     struct hair_gl* gl = field->gl;
+    for (uint32_t i = 0; i < field->count; ++i)
+        if (field->placed[i].form) hair_forms_drop(field->forms, field->placed[i].place);
     hair_gl_free_texture(gl, &field->distance);
     hair_gl_free_texture(gl, &field->number);
     hair_gl_free_buffer(gl, &field->params);
@@ -25,7 +28,7 @@ static void clear(struct hair_solid_field* field)
     hair_free(&gl->host, field->dirty);
     hair_free(&gl->host, field->members);
     hair_free(&gl->host, field->best);
-    *field = (struct hair_solid_field){.gl = gl, .box = field->box};
+    *field = (struct hair_solid_field){.gl = gl, .forms = field->forms, .box = field->box};
 }
 
 void hair_field_destroy(struct hair_solid_field* field)
@@ -69,12 +72,31 @@ static hair_result make_room(struct hair_solid_field* field, uint32_t count)
     return HAIR_OK;
 }
 
-// Where solids are, instead of where they were; what they leave and enter is marked, if there is a field yet.
-static void place_all(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
-                      const struct hair_pose* head)
+// What is `now` takes the place of what was. The form that both have is not taken again.
+static hair_result replace(struct hair_solid_field* field, struct hair_placed* placed,
+                           struct hair_placed* now)
 {
-    uint32_t most = count > field->count ? count : field->count, near = 0;
-    for (uint32_t i = 0; i < most; ++i) {
+    hair_result result = HAIR_OK;
+    now->place         = placed->place;
+    if (now->form == placed->form) {
+        *placed = *now;
+        return HAIR_OK;
+    }
+    if (now->form) result = hair_forms_take(field->forms, now->form, &now->place);
+    if (result) return result;
+    if (placed->form) hair_forms_drop(field->forms, placed->place);
+    *placed = *now;
+    return HAIR_OK;
+}
+
+// Where solids are, instead of where they were; what they leave and enter is marked, if there is a field yet.
+static hair_result place_all(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
+                             const struct hair_pose* head)
+{
+    hair_result result = HAIR_OK;
+    uint32_t    most = count > field->count ? count : field->count, near = 0;
+    memset(field->placed + field->count, 0, (most - field->count) * sizeof *field->placed);
+    for (uint32_t i = 0; i < most && !result; ++i) {
         struct hair_placed* placed = &field->placed[i];
         int                 was = i < field->count, is = i < count;
         struct hair_placed  now = {0};
@@ -82,12 +104,13 @@ static void place_all(struct hair_solid_field* field, const hair_solid* solids, 
         if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
             if (was && field->dirty) hair_field_mark(field, placed);
             if (is && field->dirty) hair_field_mark(field, &now);
-            *placed = now;
+            result = replace(field, placed, &now);
         }
         near += is && hair_field_is_inside(placed);
     }
-    field->count = count;
+    field->count = result ? most : count;
     field->near  = near;
+    return result;
 }
 
 // Writing ---------------------------------------------------------------------------------------------------
@@ -110,26 +133,39 @@ static size_t aligned(size_t size)
     return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
-// Bricks, members and solids, one after the other in one buffer.
+// Bricks, those with forms, members and solids, one after the other in one buffer.
+#define PARTS 4
+
+static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bricks, int part,
+                const GLintptr* at, const GLsizeiptr* length)
+{
+    const GLuint     buffers[] = {field->work, field->work, field->work};
+    const GLintptr   begin[]   = {at[part], at[2], at[3]};
+    const GLsizeiptr size[]    = {length[part], length[2], length[3]};
+    if (!bricks) return;
+    field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 3, buffers, begin, size);
+    hair_gl_run(field->gl, pass, bricks);
+}
+
 static hair_result dispatch(struct hair_solid_field* field, const struct hair_field_job* job)
 {
-    struct hair_gl* gl        = field->gl;
-    const size_t    sizes[]   = {job->bricks * sizeof *job->brick, job->members * sizeof *job->member,
-                                 job->solids * sizeof *job->solid};
-    const void*     parts[]   = {job->brick, job->member, job->solid};
-    const GLuint    buffers[] = {field->work, field->work, field->work};
-    GLintptr        at[3];
-    GLsizeiptr      length[3];
+    struct hair_gl* gl           = field->gl;
+    uint32_t        plain        = job->bricks - job->with_forms;
+    const size_t    sizes[PARTS] = {plain * sizeof *job->brick, job->with_forms * sizeof *job->brick,
+                                    job->members * sizeof *job->member, job->solids * sizeof *job->solid};
+    const void*     parts[PARTS] = {job->brick, job->brick + plain, job->member, job->solid};
+    GLintptr        at[PARTS];
+    GLsizeiptr      length[PARTS];
     size_t          all = 0;
     GLint64         got = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < PARTS; ++i) {
         at[i]     = (GLintptr)all;
         length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
         all += aligned((size_t)length[i]);
     }
     unsigned char* bytes = hair_alloc(&gl->host, all, 1);
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < PARTS; ++i)
         if (sizes[i]) memcpy(bytes + at[i], parts[i], sizes[i]);
     hair_gl_write_uniform(gl, field->work, all, bytes);
     hair_free(&gl->host, bytes);
@@ -137,8 +173,10 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     if (got != (GLint64)all)
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for hair field work",
                          all);
-    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 3, buffers, at, length);
-    hair_gl_run(gl, HAIR_GL_VOXELISE, job->bricks);
+    run(field, HAIR_GL_VOXELISE, plain, 0, at, length);
+    if (job->with_forms)
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
+    run(field, HAIR_GL_VOXELISE_FORMS, job->with_forms, 1, at, length);
     return HAIR_OK;
 }
 
@@ -178,7 +216,7 @@ hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* 
         return HAIR_OK;
     }
     hair_result result = make_room(field, count);
-    if (!result) place_all(field, solids, count, head);
+    if (!result) result = place_all(field, solids, count, head);
     if (!result && field->near && !field->distance) {
         result = make(field);
         if (!result) write_params(field, head->rotation);
@@ -189,6 +227,20 @@ hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* 
     }
     if (result) clear(field);
     return result;
+}
+
+struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, const hair_solid* solid,
+                                         uint32_t i, const struct hair_pose* head, hair_vec3* lower,
+                                         hair_vec3* upper)
+{
+    struct hair_placed        placed = hair_field_place(&field->box, solid, i, head);
+    const struct hair_placed* known  = i < field->count ? &field->placed[i] : NULL;
+    hair_field_shown_extent(&placed, lower, upper);
+    if (known && placed.form && known->form == placed.form)
+        placed.solid.first = field->forms->pooled[known->place].first;
+    else if (solid->shape == HAIR_SHAPE_FORM)
+        *lower = *upper = hair_v3(0, 0, 0); // There is nothing to read it from.
+    return placed.solid;
 }
 
 int hair_field_is_near(const struct hair_solid_field* field)

@@ -5,11 +5,13 @@
 #ifndef HAIR_FIELD_FIELD_H
 #define HAIR_FIELD_FIELD_H
 
+#include "lib/field/forms.h"
 #include "lib/field/place.h"
 #include "lib/gl/gl.h"
 
 struct hair_solid_field {
     struct hair_gl*       gl;
+    struct hair_forms*    forms; // of the context
     struct hair_field_box box;
     GLuint                distance; // 3D texture, R16F, m; 0: there is none
     GLuint                number;   // 3D texture, R32UI; HAIR_NO_SOLID where none is near
@@ -25,13 +27,18 @@ struct hair_solid_field {
 };
 
 // Where the field of this groom is. Neither memory nor OpenGL.
-void hair_field_create(struct hair_solid_field* field, struct hair_gl* gl, const struct hair_groom* groom,
-                       float voxel);
+void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
+                       const struct hair_groom* groom, float voxel);
 void hair_field_destroy(struct hair_solid_field* field);
 
 // Write what has moved since the last time. On failure there is no field. Where no solid is near, there may be none.
 hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
                               const struct hair_pose* head);
+
+// The i-th of the solids, as shaders know it. With forms of which some other than the last update knows, it has none.
+struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, const hair_solid* solid,
+                                         uint32_t i, const struct hair_pose* head, hair_vec3* lower,
+                                         hair_vec3* upper);
 
 // Whether a strand can meet a solid: only then hair_field_bind has something to bind, and glsl/field.glsl to read.
 int  hair_field_is_near(const struct hair_solid_field* field);

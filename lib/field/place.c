@@ -75,12 +75,12 @@ static hair_quat quat_of(hair_vec4 q)
 
 // The box around a solid in its own axes, without what comes to that on all sides, `around`. A sphere is its centre and
 // its radius around it, so that no turn makes it larger.
-static void find_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper,
-                        float* around)
+static void find_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper, float* around)
 {
-    hair_vec4 size = solid->size;
-    *around        = solid->position.w;
-    *upper         = hair_v3(size.x, size.y, size.z);
+    const struct hair_field_solid* solid = &placed->solid;
+    hair_vec4                      size  = solid->size;
+    *around                              = solid->position.w;
+    *upper                               = hair_v3(size.x, size.y, size.z);
     switch ((hair_shape)solid->shape) {
     case HAIR_SHAPE_SPHERE:
     case HAIR_SHAPE_CAPSULE:
@@ -93,13 +93,16 @@ static void find_extent(const struct hair_field_solid* solid, hair_vec3* lower, 
     default: break;
     }
     *lower = hair_scale(*upper, -1);
+    if (!placed->form) return;
+    *lower = hair_scale(hair_load3(placed->form->info.lower), size.w);
+    *upper = hair_scale(hair_load3(placed->form->info.upper), size.w);
 }
 
-void hair_field_shown_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper)
+void hair_field_shown_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper)
 {
     float around;
-    find_extent(solid, lower, upper, &around);
-    if (solid->shape == HAIR_SHAPE_PLANE) *upper = hair_v3(1, 0, 1), *lower = hair_v3(-1, -0.05f, -1);
+    find_extent(placed, lower, upper, &around);
+    if (placed->solid.shape == HAIR_SHAPE_PLANE) *upper = hair_v3(1, 0, 1), *lower = hair_v3(-1, -0.05f, -1);
     *upper = hair_add(*upper, hair_v3(around, around, around));
     *lower = hair_sub(*lower, hair_v3(around, around, around));
 }
@@ -110,7 +113,7 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
     hair_quat                      turn  = quat_of(solid->rotation);
     hair_vec3                      lower, upper;
     float                          around;
-    find_extent(solid, &lower, &upper, &around);
+    find_extent(placed, &lower, &upper, &around);
     hair_vec3 half   = hair_scale(hair_sub(upper, lower), 0.5f);
     hair_vec3 middle = hair_rotate(turn, hair_lerp(lower, upper, 0.5f));
     hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
@@ -121,7 +124,7 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
                             solid->position.y + middle.y - box->lower.y,
                             solid->position.z + middle.z - box->lower.z};
     float       brick    = HAIR_BRICK * box->voxel;
-    int         outside  = solid->shape == HAIR_SHAPE_FORM;
+    int         outside  = solid->shape == HAIR_SHAPE_FORM && !placed->form;
     for (int i = 0; i < 3; ++i) {
         float first      = (at[i] - extent[i] - around - box->far) / brick;
         float end        = (at[i] + extent[i] + around + box->far) / brick;
@@ -149,6 +152,15 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
                                            .size     = {solid->size[0], solid->size[1], solid->size[2], 0},
                                            .shape    = (hair_uint)solid->shape,
                                            .number   = number}};
+    if (solid->shape == HAIR_SHAPE_FORM && solid->form) {
+        const hair_form* form = solid->form;
+        placed.form           = form;
+        placed.solid.size     = (hair_vec4){0, 0, 0, solid->scale};
+        placed.solid.grid     = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
+        placed.solid.nodes_x  = form->size[0];
+        placed.solid.nodes_y  = form->size[1];
+        placed.solid.nodes_z  = form->size[2];
+    }
     find_bricks(box, &placed);
     return placed;
 }
@@ -157,8 +169,8 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
                          const struct hair_placed* to)
 {
     const struct hair_field_solid *a = &from->solid, *b = &to->solid;
-    if (a->shape != b->shape || a->number != b->number || a->position.w != b->position.w ||
-        memcmp(&a->size, &b->size, sizeof a->size))
+    if (from->form != to->form || a->shape != b->shape || a->number != b->number ||
+        a->position.w != b->position.w || memcmp(&a->size, &b->size, sizeof a->size))
         return 1;
     // A point moves by its centre's way and by the turn times its distance from it, of which only that in the box counts.
     hair_vec3 half = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
@@ -166,7 +178,7 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     hair_vec3 centre = hair_v3(a->position.x, a->position.y, a->position.z);
     hair_vec3 lower, upper;
     float     around, arm = hair_distance(centre, hair_add(box->lower, half)) + hair_length(half);
-    find_extent(a, &lower, &upper, &around);
+    find_extent(from, &lower, &upper, &around);
     float longest =
         hair_length(hair_v3(fmaxf(upper.x, -lower.x), fmaxf(upper.y, -lower.y), fmaxf(upper.z, -lower.z)));
     arm = fminf(arm, longest + around);
@@ -185,16 +197,27 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     return !(hair_length(way) + 2 * sqrtf(turn) * arm <= STILL * box->voxel);
 }
 
-float hair_field_distance_to(const struct hair_field_box* box, const struct hair_placed* placed, uint32_t x,
-                             uint32_t y, uint32_t z)
+// Distances change no faster than place does, but for those between the nodes of a form by a little.
+struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
+                                          uint32_t x, uint32_t y, uint32_t z)
 {
-    const struct hair_field_solid* solid = &placed->solid;
-    float                          brick = HAIR_BRICK * box->voxel;
+    const struct hair_field_solid* solid  = &placed->solid;
+    float                          brick  = HAIR_BRICK * box->voxel;
+    float                          radius = 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;
     hair_vec3                      middle =
         hair_add(box->lower, hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), brick));
-    hair_vec3 p         = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
-    p                   = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
-    const double own[]  = {(double)p.x, (double)p.y, (double)p.z};
-    const float  size[] = {solid->size.x, solid->size.y, solid->size.z};
-    return (float)hair_distance_to_shape((hair_shape)solid->shape, size, own, NULL) - solid->position.w;
+    hair_vec3 p        = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
+    p                  = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
+    double      own[]  = {(double)p.x, (double)p.y, (double)p.z}, distance;
+    const float size[] = {solid->size.x, solid->size.y, solid->size.z};
+    if (placed->form) {
+        double scale = (double)solid->size.w;
+        for (int k = 0; k < 3; ++k) own[k] /= scale;
+        distance = scale * hair_distance_to_form(placed->form, own, NULL);
+        radius   = 1.25f * radius + 2 * solid->size.w * solid->grid.w;
+    } else {
+        distance = hair_distance_to_shape((hair_shape)solid->shape, size, own, NULL);
+    }
+    float from = (float)distance - solid->position.w;
+    return (struct hair_field_span){from - radius, from + radius};
 }

@@ -3,6 +3,7 @@
 #define HAIR_FIELD_PLACE_H
 
 #include "lib/base/pose.h"
+#include "lib/collide/form.h"
 #include "lib/groom/groom.h"
 
 #define HAIR_FIELD_BAND 4      // voxels around a solid that know how far it is
@@ -29,6 +30,8 @@ static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
 // none where they are alike.
 struct hair_placed {
     struct hair_field_solid solid;
+    const hair_form*        form;  // NULL: it is none, or one without its mesh
+    uint32_t                place; // of the form among hair_forms
     uint16_t                first[3], end[3];
 };
 
@@ -40,17 +43,14 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
                          const struct hair_placed* to);
 
 // The box around a solid in its own axes; of a plane, as much as is worth drawing.
-void hair_field_shown_extent(const struct hair_field_solid* solid, hair_vec3* lower, hair_vec3* upper);
+void hair_field_shown_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper);
 
-// From the middle of a brick to the solid's surface, m, below 0 inside.
-float hair_field_distance_to(const struct hair_field_box* box, const struct hair_placed* placed, uint32_t x,
-                             uint32_t y, uint32_t z);
-
-// How far a voxel's centre is from its brick's, at most; with a little for rounding. m.
-static inline float hair_field_brick_radius(const struct hair_field_box* box)
-{
-    return 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;
-}
+// From the centres of a brick's voxels to the solid's surface: no less and no more than this. m, below 0 inside.
+struct hair_field_span {
+    float least, most;
+};
+struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
+                                          uint32_t x, uint32_t y, uint32_t z);
 
 static inline int hair_field_is_inside(const struct hair_placed* placed)
 {

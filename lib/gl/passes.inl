@@ -25,6 +25,7 @@
     ROD_PASS_BY(name##_CROWD, label "_crowd", "HAIR_CROWD=1 " defines)
 
 PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
+PASS(VOXELISE_FORMS, "field/voxelise_forms", "HAIR_FORMS=1 field/voxelise.comp")
 PASS(RESET, "sim/reset", "sim/reset.comp")
 PASS(TURN, "sim/turn", "sim/turn.comp")
 PASS(RESET_ROD, "sim/reset_rod", "HAIR_ROD=1 sim/reset.comp")
@@ -42,7 +43,7 @@ PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese 
 PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
 PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
 PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
-PASS(SOLIDS, "draw/solids", "draw/solids.vert draw/solids.frag")
+PASS(SOLIDS, "draw/solids", "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
 // The same where followers have met solids: made when they first do.
 PASS(EXPAND_HITS, "interpolate/expand_hits", "HAIR_HITS=1 interpolate/expand.comp")

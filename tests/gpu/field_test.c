@@ -29,7 +29,7 @@ static void begin(struct hair_test* test, struct hair_pose head, struct fixture*
 {
     *out       = (struct fixture){.test = test, .head = head, .random = 7};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_field_create(&out->field, &test->context->gl, out->groom, VOXEL);
+    hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
     for (int i = 0; i < MANY; ++i)
         out->solids[i] = hair_test_any_solid(&out->field.box, &head, 0.1f, &out->random);
 }
@@ -234,7 +234,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
 static void assert_as_made_at_once(struct fixture* f, uint32_t count)
 {
     struct hair_solid_field fresh;
-    hair_field_create(&fresh, &f->test->context->gl, f->groom, VOXEL);
+    hair_field_create(&fresh, &f->test->context->forms, f->groom, VOXEL);
     hair_test_ok(f->test, hair_field_update(&fresh, f->solids, count, &f->head));
     struct hair_test_field a = hair_test_field_read(&f->field), b = hair_test_field_read(&fresh);
     size_t                 voxels = hair_test_field_count(&a);
