@@ -59,10 +59,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) tell_stiffened(hair);
     if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
     if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
-    if (!result) {
-        hair_sim_reset(&hair->sim);
-        hair_smooth_run(&hair->smooth, &hair->sim);
-    }
+    if (!result) hair_sim_reset(&hair->sim);
     hair_gl_leave(&context->gl);
     return result;
 }
@@ -165,7 +162,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     hair_gl_enter(&context->gl);
     result = hair_sim_step(&hair->sim, time);
-    if (!result) hair_smooth_run(&hair->smooth, &hair->sim);
+    if (!result) hair->smooth.done = 0;
     hair_gl_leave(&context->gl);
     return result;
 }
@@ -177,7 +174,7 @@ hair_result hair_reset(hair_instance* hair)
     if (result) return result;
     hair_gl_enter(&hair->context->gl);
     hair_sim_reset(&hair->sim);
-    hair_smooth_run(&hair->smooth, &hair->sim);
+    hair->smooth.done = 0;
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
 }
@@ -191,7 +188,7 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     if (result) return result;
     hair_gl_enter(&hair->context->gl);
     hair_sim_teleport(&hair->sim, &pose);
-    hair_smooth_run(&hair->smooth, &hair->sim);
+    hair->smooth.done = 0;
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
 }

@@ -29,7 +29,7 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     if (result) return result;
     hair_gl_enter(&context->gl);
     result = hair_sim_load(&hair->sim, bytes, size);
-    if (!result) hair_smooth_run(&hair->smooth, &hair->sim);
+    if (!result) hair->smooth.done = 0;
     hair_gl_leave(&context->gl);
     return result;
 }

@@ -80,6 +80,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);
     } else {
+        hair_smooth_need(&hair->smooth, &hair->sim);
         if (own.pass != HAIR_PASS_GUIDES) result = meet_solids(hair);
         if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
     }
@@ -111,6 +112,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 {
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
+    hair_smooth_need(&hair->smooth, &hair->sim);
     hair_result result = meet_solids(hair);
     if (!result) result = hair_draw_expand(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
@@ -118,6 +120,14 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     copy_to_world(&vertices->x, 4, count, &hair->sim.at_step, positions);
     hair_free(&hair->context->host, vertices);
     return HAIR_OK;
+}
+
+static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
+{
+    hair_gl_enter(&hair->context->gl);
+    hair_smooth_need(&hair->smooth, &hair->sim);
+    hair_gl_leave(&hair->context->gl);
+    return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.at_step, positions);
 }
 
 hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity,
@@ -149,8 +159,7 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     uint32_t number = *count < capacity ? *count : capacity;
     if (number == 0) return HAIR_OK;
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
-    if (what == HAIR_READ_SMOOTH)
-        return read_buffer(hair, hair->smooth.buffer[0], number, 4, &sim->at_step, positions);
+    if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);
     return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,
                        positions);
 }

@@ -32,4 +32,10 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
     hair_gl_run(smooth->gl, smooth->pass, sim->guides);
     ++smooth->runs;
+    smooth->done = 1;
+}
+
+void hair_smooth_need(struct hair_smooth* smooth, struct hair_sim* sim)
+{
+    if (!smooth->done) hair_smooth_run(smooth, sim);
 }

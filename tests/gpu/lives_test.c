@@ -109,10 +109,79 @@ static void timings_count_the_runs_of_every_pass(void** state)
     assert_int_equal(hair_timings(context, timings, HAIR_GL_PASS_COUNT), HAIR_GL_PASS_COUNT);
     assert_string_equal(timings[HAIR_GL_DIRECT_CURVED_32].pass, "sim/direct_curved_32");
     assert_int_equal(timings[HAIR_GL_DIRECT_CURVED_32].runs, 9);
-    assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 10); // once for the rest pose
+    assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 0); // Nobody has looked.
     assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
     for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
     hair_destroy(hair);
+    hair_context_destroy(context);
+    hair_groom_destroy(groom);
+}
+
+static uint32_t read_smooth(struct hair_test* test, hair_instance* hair, float* out)
+{
+    uint32_t count = 0;
+    hair_test_ok(test, hair_read(hair, HAIR_READ_SMOOTH, out, MOST, &count));
+    assert_true(count <= MOST);
+    return count;
+}
+
+static const float straight[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+static const float turned[16]   = {0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 1, 0, 0.1f, 0.2f, 0.3f, 1};
+
+// What moves guides, but for steps. The last puts them where they were.
+static void move(struct hair_test* test, hair_instance* hair, int how)
+{
+    static unsigned char bytes[1 << 20];
+    size_t               size = 0;
+    if (how == 0) hair_test_ok(test, hair_reset(hair));
+    if (how == 1) hair_test_ok(test, hair_teleport(hair, straight));
+    if (how < 2) return;
+    hair_test_ok(test, hair_save(hair, bytes, sizeof bytes, &size));
+    hair_test_ok(test, hair_step(hair, 0.5f));
+    hair_test_ok(test, hair_load(hair, bytes, size));
+}
+
+// One is looked at after every step, the other once: drawn, and what was drawn is read.
+static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(void** state)
+{
+    static float      often[3 * MOST], once[3 * MOST];
+    struct hair_test* test    = *state;
+    hair_context*     context = make_context(test);
+    hair_groom*       groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc         of      = hair_test_way(1);
+    hair_instance *   a = NULL, *b = NULL;
+    hair_test_ok(test, hair_create(context, groom, &of, &a));
+    hair_test_ok(test, hair_create(context, groom, &of, &b));
+    const uint32_t*        runs = &context->gl.timer[HAIR_GL_SMOOTH_32].begun;
+    const hair_view        view = hair_view_default();
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
+    for (int how = 0; how < 3; ++how) {
+        uint32_t before = *runs, count = 0;
+        for (int i = 0; i < 4; ++i) {
+            hair_test_ok(test, hair_step(a, 0.007f));
+            hair_test_ok(test, hair_step(b, 0.007f));
+            read_smooth(test, a, often);
+            assert_int_equal(*runs, before + (uint32_t)i + 1);
+        }
+        hair_test_ok(test, hair_set_transform(b, turned)); // For the step to come.
+        hair_test_ok(test, hair_draw(b, &view));
+        assert_int_equal(*runs, before + 5);
+        count = read_smooth(test, b, once);
+        assert_int_equal(*runs, before + 5);
+        assert_memory_equal(often, once, 3 * count * sizeof *once);
+        hair_test_ok(test, hair_set_transform(a, turned));
+        move(test, a, how);
+        move(test, b, how);
+        read_smooth(test, a, often);
+        assert_int_equal(*runs, before + 6);
+        assert_int_equal(memcmp(often, once, 3 * count * sizeof *once) == 0, how == 2);
+        read_smooth(test, b, once);
+        assert_memory_equal(often, once, 3 * count * sizeof *once);
+    }
+    hair_test_frame_free(&frame);
+    hair_destroy(a);
+    hair_destroy(b);
     hair_context_destroy(context);
     hair_groom_destroy(groom);
 }
@@ -177,6 +246,7 @@ int main(void)
         HAIR_TEST(two_hundred_lives_leave_nothing),
         HAIR_TEST(a_context_leaves_nothing_either),
         HAIR_TEST(timings_count_the_runs_of_every_pass),
+        HAIR_TEST(guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then),
         HAIR_TEST(the_one_solver_that_hair_needs_is_compiled),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
