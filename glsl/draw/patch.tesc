@@ -17,6 +17,9 @@ void main()
 {
     uvec4 record   = texelFetch(patch_texture, int(vertex_patch[0].x)); // hair_patch
     float wanted   = float(record.y) * clamp(uintBitsToFloat(record.z), 0.0, 1.0) * draw.density;
+#ifdef HAIR_EVERY_FOLLOWER
+    wanted = float(record.y);
+#endif
     uint  isolines = min(uint(ceil(wanted)), uint(HAIR_MAX_ISOLINES));
     uint  first    = vertex_patch[0].y * HAIR_MAX_ISOLINE_SEGMENTS;
     uint  segments = min(draw.segments - min(first, draw.segments), uint(HAIR_MAX_ISOLINE_SEGMENTS));

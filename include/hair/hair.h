@@ -317,6 +317,13 @@ typedef enum hair_mapping {
                            ///< thread do all for long guides among many solids. Then a work group does.
 } hair_mapping;
 
+/// How the first vertex of a follower that is inside a solid is found: the answer is the same.
+typedef enum hair_first_hit {
+    HAIR_FIRST_HIT_AUTO = 0, ///< The faster: by compute.
+    HAIR_FIRST_HIT_COMPUTE,  ///< A thread per follower.
+    HAIR_FIRST_HIT_PREPASS ///< Tariq 2010: vertices are drawn as points, a texel per follower keeps the least.
+} hair_first_hit;
+
 typedef struct hair_desc {
     hair_made   made;
     const char* label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
@@ -328,6 +335,7 @@ typedef struct hair_desc {
     const hair_look*    look;    ///< NULL: the defaults.
     float               transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
     float field_voxel; ///< Side of a voxel of the field, see hair_field_info. m. [0.0005, 1]. Default 0.005.
+    hair_first_hit first_hit; ///< Default HAIR_FIRST_HIT_AUTO.
 } hair_desc;
 HAIR_DESC(hair_desc)
 

@@ -40,6 +40,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->max_dt            = (double)desc->max_dt;
     hair->sim.asked_substep = (double)desc->substep;
     hair->sim.solver        = desc->solver;
+    hair->draw.hits.prepass = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);

@@ -56,7 +56,7 @@ static uint32_t batch_size(const struct hair_draw* draw)
     return patches < 1 ? 1 : patches;
 }
 
-static void draw_patches(struct hair_draw* draw)
+void hair_draw_patches(struct hair_draw* draw)
 {
     struct hair_gl* gl    = draw->gl;
     uint32_t        batch = batch_size(draw);
@@ -97,7 +97,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     if (guides)
         gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)draw->smooth_vertices, (GLsizei)draw->guides);
     else
-        draw_patches(draw);
+        hair_draw_patches(draw);
     hair_gl_end(gl, pass);
     return HAIR_OK;
 }

@@ -24,6 +24,10 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
 int         hair_draw_has_met_solids(const struct hair_draw*   draw,
                                      const struct hair_smooth* smooth); // since they moved
 void        hair_draw_free_hits(struct hair_draw* draw);
+// prepass.c: with everything bound that makes followers, leave the first vertex inside in hits.image.
+hair_result hair_draw_make_prepass(struct hair_draw* draw);
+void        hair_draw_run_prepass(struct hair_draw* draw);
+void        hair_draw_patches(struct hair_draw* draw); // all of them, with the program that is current
 // The program of `pass` that heeds what was found, if there was a solid.
 hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
 // Buffers, textures and parameters of passes that make followers.

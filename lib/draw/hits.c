@@ -22,7 +22,8 @@ static hair_result make(struct hair_draw* draw)
         result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL, &hits->repair);
     if (!result && pushes && !hits->repair_texture)
         result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, hits->repair, &hits->repair_texture);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_HIT);
+    if (!result) result = hair_gl_need(gl, hits->prepass ? HAIR_GL_PREPASS_HIT : HAIR_GL_HIT);
+    if (!result && hits->prepass) result = hair_draw_make_prepass(draw);
     if (!result && pushes) result = hair_gl_need(gl, HAIR_GL_REPAIR);
     return result;
 }
@@ -35,6 +36,9 @@ void hair_draw_free_hits(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &hits->hit);
     hair_gl_free_buffer(draw->gl, &hits->repair);
     hair_gl_free_buffer(draw->gl, &hits->list);
+    if (hits->frame) draw->gl->DeleteFramebuffers(1, &hits->frame);
+    hits->frame = 0;
+    hair_gl_free_texture(draw->gl, &hits->image);
 }
 
 static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
@@ -52,7 +56,9 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     hair_field_bind(field);
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
-    hair_gl_run(gl, HAIR_GL_HIT, (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    if (hits->prepass) hair_draw_run_prepass(draw);
+    hair_gl_run(gl, hits->prepass ? HAIR_GL_PREPASS_HIT : HAIR_GL_HIT,
+                (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
         hair_gl_run(gl, HAIR_GL_REPAIR, (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }

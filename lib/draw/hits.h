@@ -8,6 +8,8 @@
 struct hair_hits {
     GLuint   hit, repair, list;           // buffers, as in shared.h; 0 until they are needed
     GLuint   hit_texture, repair_texture; // the first two, for what draws
+    GLuint   image, frame;                // of a prepass: a texel per follower, to draw into
+    int      prepass;                     // hits are found by one
     int      active;                      // solids are near
     int      fresh;    // for what was asked last; what changes followers or solids clears it
     uint32_t smoothed; // runs of smooth.comp that it is for

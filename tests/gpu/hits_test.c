@@ -193,6 +193,41 @@ static void the_first_vertex_inside_is_found(void** state)
     finish(&f);
 }
 
+// Both evaluate the same function in other stages: where a vertex is on the surface, rounding decides.
+static void a_prepass_finds_the_same(void** state)
+{
+    static const uint32_t segments[] = {1, 31, 64, 100};
+    static float          hits[400], others[400];
+    struct fixture        f       = start(state, 0);
+    hair_instance*        compute = f.hair;
+    hair_desc             desc    = hair_desc_default();
+    hair_instance*        prepass = NULL;
+    desc.field_voxel              = 0.001f;
+    desc.first_hit                = HAIR_FIRST_HIT_PREPASS;
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &prepass));
+    f.hair = prepass;
+    free(f.samples);
+    smooth(&f);
+    hair_test_ok(f.test, hair_set_solids(prepass, f.solids, SOLIDS, sizeof *f.solids));
+    for (int i = 0; i < 8; ++i) {
+        uint32_t       differ    = 0;
+        hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
+        f.look.segments          = segments[i / 2];
+        f.hair                   = compute;
+        free(read_followers(&f, collision));
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
+        f.hair = prepass;
+        free(read_followers(&f, collision));
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *others, others);
+        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
+        print_message("    %u segments: %u of %u differ\n", f.look.segments, differ,
+                      f.groom->info.follower_count);
+        assert_in_range(differ, 0, 1);
+    }
+    hair_destroy(compute);
+    finish(&f);
+}
+
 static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
                     const struct hair_reference_repair* repair, const float* vertices)
 {
@@ -391,6 +426,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(the_first_vertex_inside_is_found),
+        HAIR_TEST(a_prepass_finds_the_same),
         HAIR_TEST(below_its_hit_a_follower_keeps_to_its_own_guide),
         HAIR_TEST(what_leads_followers_round_solids_is_a_spline),
         HAIR_TEST(followers_pushed_out_of_solids_are_outside_and_as_long_as_before),

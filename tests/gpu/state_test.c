@@ -98,6 +98,7 @@ static hair_result reload(struct fixture* f)
 static hair_result create(struct fixture* f)
 {
     hair_desc desc = hair_test_way(f->way);
+    desc.first_hit = f->way % 2 ? HAIR_FIRST_HIT_PREPASS : HAIR_FIRST_HIT_COMPUTE;
     return hair_create(f->context, f->groom, &desc, &f->hair);
 }
 static hair_result step(struct fixture* f)
