@@ -38,6 +38,7 @@ static struct range all_of(const struct hair_field_box* box)
     return (struct range){{0, 0, 0}, {box->bricks[0], box->bricks[1], box->bricks[2]}};
 }
 
+// What others hide wherever it is in a brick does not change it. Should they move, they mark it themselves.
 void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed)
 {
     const struct hair_field_box* box   = &field->box;
@@ -47,7 +48,7 @@ void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* p
     {
         uint32_t brick = brick_at(box, x, y, z);
         if (!field->dirty[brick])
-            field->dirty[brick] = hair_field_span_of(box, placed, x, y, z).least < box->far;
+            field->dirty[brick] = hair_field_span_of(box, placed, x, y, z).least <= field->best[brick];
     }
 }
 
@@ -114,7 +115,8 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
     struct range                 slab = all_of(box);
     slab.first[2]                     = job->next / layer;
     slab.end[2]                       = (end - 1) / layer + 1;
-    for (uint32_t b = job->next; b < end; ++b) field->best[b] = box->far;
+    for (uint32_t b = job->next; b < end; ++b)
+        if (field->dirty[b]) field->best[b] = box->far;
     for (uint32_t i = 0; i < field->count; ++i) {
         struct range range = overlap(&field->placed[i], &slab);
         EACH_BRICK(range, x, y, z)

@@ -23,7 +23,7 @@ struct hair_solid_field {
     uint32_t              near;    // of them that reach into the box
     unsigned char*        dirty;   // per brick: is to be written
     uint32_t*             members; // per brick
-    float*                best;    // per brick: the nearest solid is no farther from any of its voxels, m
+    float*                best; // per brick, as it was written: no voxel is farther from the nearest solid, m
 };
 
 // Where the field of this groom is. Neither memory nor OpenGL.

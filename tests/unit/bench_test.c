@@ -188,6 +188,7 @@ static void the_other_suites_run(void** state)
 {
     (void)state;
     expect(0, "$T physics --quick --case pendulum --method accurate --csv -", "pendulum,accurate,2,");
+    expect(0, "$T field --quick --case 'none of them' --csv -", "none of them,voxelise,,128,20,");
     expect(0, "$T stability --quick --case ordinary --method redblack --csv -", "ordinary,redblack,32,true");
 }
 

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_physics, &bench_stability};
+static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_field, &bench_physics,
+                                                   &bench_stability};
 
 #define MOST_SCENE 999999999
 

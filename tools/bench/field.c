@@ -1,0 +1,426 @@
+// field.c - the suite `field`: what voxelising solids costs, and how far it is from their exact distances.
+//
+// Through the public interface: solids are set, hair_get_field brings the field up to date, and its texture is read.
+#include "lib/collide/distance.h"
+#include "tools/bench/bench.h"
+#include "tools/common/stats.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIDE 0.6 // m: of the field's box
+#define BAND 3   // voxels on either side of a surface, where an interpolated value has all its neighbours
+#define MOST_RUNS 41
+#define MIXED 20
+#define MANY 10000
+
+static const char* const columns[] = {"case",      "method",    "shape",      "resolution",   "solids",
+                                      "ms",        "ms_min",    "ms_max",     "runs",         "max_error",
+                                      "rms_error", "max_limit", "max_centre", "centre_limit", "wrong_sign",
+                                      "ratio",     "limit",     "passes_run", "pass",         NULL};
+
+struct subject {
+    struct bench*   bench;
+    hair_groom*     groom;
+    hair_instance*  hair;
+    hair_field_info info;
+};
+
+// Living ----------------------------------------------------------------------------------------------------
+
+// A strand along each axis, either way: the box is a cube around them.
+static hair_result make_groom(struct bench* bench, hair_groom** out)
+{
+    enum { VERTICES = 4 };
+    float    positions[6 * VERTICES * 3] = {0};
+    uint32_t vertices[6];
+    for (int i = 0; i < 6; ++i) {
+        vertices[i] = VERTICES;
+        for (int k = 0; k < VERTICES; ++k) {
+            float at                                  = (float)(SIDE / 2) * (float)(k + 1) / VERTICES;
+            positions[3 * (VERTICES * i + k) + i / 2] = i % 2 ? at : -at;
+        }
+    }
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host            = &bench->host;
+    desc.positions       = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count    = 6;
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices  = VERTICES;
+    desc.follower_count  = 0;
+    return hair_groom_create(&desc, out);
+}
+
+static void die(struct subject* subject)
+{
+    hair_destroy(subject->hair);
+    hair_groom_destroy(subject->groom);
+}
+
+static bool live(struct bench* bench, uint32_t resolution, struct subject* out)
+{
+    *out               = (struct subject){.bench = bench, .info = hair_field_info_default()};
+    hair_desc desc     = hair_desc_default();
+    desc.field_voxel   = (float)(SIDE / resolution);
+    hair_result result = make_groom(bench, &out->groom);
+    if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
+    if (!result) return true;
+    die(out);
+    return false;
+}
+
+static bool update(struct subject* subject, const hair_solid* solids, uint32_t count)
+{
+    return !hair_set_solids(subject->hair, solids, count, sizeof *solids) &&
+           !hair_get_field(subject->hair, &subject->info);
+}
+
+// Of the passes that write the field: GPU time, and how often they ran.
+static double sum_passes(struct bench* bench, uint32_t* runs)
+{
+    hair_timing timings[256];
+    uint32_t    count = hair_timings(bench->context, timings, 256);
+    double      sum   = 0;
+    *runs             = 0;
+    for (uint32_t i = 0; i < count && i < 256; ++i)
+        if (!strncmp(timings[i].pass, "field/", 6)) {
+            sum += timings[i].total_ms;
+            *runs += timings[i].runs;
+        }
+    return sum;
+}
+
+// By the clock where the driver's timers do not see compute shaders, with the work of the CPU in it. NAN: refused.
+static double time_update(struct subject* subject, const hair_solid* solids, uint32_t count)
+{
+    struct bench* bench = subject->bench;
+    uint32_t      runs;
+    glFinish();
+    double gpu = sum_passes(bench, &runs), start = hair_now();
+    if (!update(subject, solids, count)) return NAN;
+    glFinish();
+    double wall = hair_now() - start;
+    return bench->software ? wall : sum_passes(bench, &runs) - gpu;
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double* ms, uint32_t count)
+{
+    qsort(ms, count, sizeof *ms, compare);
+    return ms[count / 2];
+}
+
+static void set_times(json_t* row, double* ms, uint32_t count)
+{
+    bench_set_number(row, "ms", median(ms, count));
+    bench_set_number(row, "ms_min", ms[0]);
+    bench_set_number(row, "ms_max", ms[count - 1]);
+    bench_set_count(row, "runs", count);
+}
+
+static json_t* new_row(struct subject* subject, const char* name, uint32_t solids)
+{
+    json_t* row = bench_rows_add(&subject->bench->rows);
+    bench_set_text(row, "case", name);
+    bench_set_text(row, "method", "voxelise");
+    bench_set_count(row, "resolution", subject->info.size[0]);
+    bench_set_count(row, "solids", solids);
+    return row;
+}
+
+// Solids ----------------------------------------------------------------------------------------------------
+
+static uint32_t random_of(uint32_t* seed)
+{
+    *seed = *seed * 747796405u + 2891336453u;
+    return (*seed >> 8) ^ (*seed >> 21);
+}
+
+static double between(uint32_t* seed, double least, double most)
+{
+    return least + (most - least) * (random_of(seed) % 65536) / 65535;
+}
+
+static hair_solid any_solid(hair_shape shape, double size, double reach, uint32_t* seed)
+{
+    hair_solid solid = hair_solid_default();
+    double     norm  = 0, q[4];
+    for (int i = 0; i < 4; ++i) {
+        q[i] = between(seed, -1, 1);
+        norm += q[i] * q[i];
+    }
+    solid.shape = shape;
+    for (int i = 0; i < 4; ++i) solid.rotation[i] = (float)(q[i] / sqrt(norm));
+    for (int i = 0; i < 3; ++i) solid.position[i] = (float)between(seed, -reach, reach);
+    for (int i = 0; i < 3; ++i) solid.size[i] = (float)(size * between(seed, 0.8, 1.2));
+    return solid;
+}
+
+#define ROWS 128u
+
+// A ball of so many triangles that it is round to 1e-4 of its radius.
+static hair_form* make_ball(struct bench* bench, double radius)
+{
+    size_t         vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
+    float*         positions = malloc(vertices * 3 * sizeof *positions);
+    uint32_t*      indices   = malloc(2 * vertices * 3 * sizeof *indices);
+    hair_form*     form      = NULL;
+    hair_form_desc desc      = hair_form_desc_default();
+    const double   pi        = 3.14159265358979323846;
+    for (uint32_t i = 0; positions && indices && i < vertices; ++i) {
+        uint32_t row = i / (2 * ROWS), column = i % (2 * ROWS);
+        double   around      = row % ROWS ? sin(pi * row / ROWS) : 0,
+               turn          = pi * column / ROWS; // At the poles one point.
+        positions[3 * i]     = (float)(radius * around * sin(turn));
+        positions[3 * i + 1] = (float)(radius * cos(pi * row / ROWS));
+        positions[3 * i + 2] = (float)(radius * around * cos(turn));
+        if (row == ROWS) continue;
+        uint32_t       right  = column + 1 < 2 * ROWS ? i + 1 : i + 1 - 2 * ROWS;
+        const uint32_t two[6] = {i, i + 2 * ROWS, right, right, i + 2 * ROWS, right + 2 * ROWS};
+        memcpy(indices + 3 * triangles, two, sizeof two);
+        triangles += 2;
+    }
+    desc.host           = &bench->host;
+    desc.positions      = positions;
+    desc.triangles      = indices;
+    desc.vertex_count   = (uint32_t)vertices;
+    desc.triangle_count = (uint32_t)triangles;
+    desc.resolution     = 128;
+    if (positions && indices && hair_form_create(&desc, &form)) form = NULL;
+    free(positions);
+    free(indices);
+    return form;
+}
+
+// Errors ----------------------------------------------------------------------------------------------------
+
+struct errors {
+    double   most, square, centre; // voxels
+    uint64_t points, wrong;        // wrong: of sign, farther than a voxel from the surface
+};
+
+// As OpenGL filters.
+static double interpolate(const struct subject* subject, const float* texels, const double at[3])
+{
+    const uint32_t* size = subject->info.size;
+    uint32_t        low[3];
+    double          t[3], sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        double x = fmin(fmax(at[k] - 0.5, 0), (double)size[k] - 1.001);
+        low[k]   = (uint32_t)x;
+        t[k]     = x - low[k];
+    }
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+        uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+        double   share = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
+        size_t   texel = ((size_t)(low[2] + z) * size[1] + low[1] + y) * size[0] + low[0] + x;
+        sum += share * (double)texels[texel];
+    }
+    return sum;
+}
+
+// `exact` is what the solid stands for.
+static void measure(const struct subject* subject, const float* texels, const hair_solid* exact,
+                    uint32_t points, struct errors* out)
+{
+    const hair_field_info* info  = &subject->info;
+    double                 voxel = (double)info->voxel;
+    uint32_t               seed  = 1;
+    *out                         = (struct errors){0};
+    for (uint32_t i = 0; i < points; ++i) {
+        double at[3], point[3];
+        int    centre = i % 2; // Every other point is the middle of a voxel.
+        for (int k = 0; k < 3; ++k) {
+            at[k] = between(&seed, 0.5, (double)info->size[k] - 0.5) +
+                    between(&seed, -2e-5, 2e-5) * info->size[k];
+            if (centre) at[k] = floor(at[k]) + 0.5;
+            at[k] = fmin(fmax(at[k], 0.5), (double)info->size[k] - 0.5);
+            // The head is at the origin: the transform is a scale and a shift.
+            point[k] =
+                (at[k] / info->size[k] - (double)info->transform[12 + k]) / (double)info->transform[5 * k];
+        }
+        double right = hair_distance_to_solid(exact, point, NULL);
+        if (fabs(right) > BAND * voxel) continue;
+        double found = interpolate(subject, texels, at), off = fabs(found - right) / voxel;
+        if (centre) out->centre = fmax(out->centre, off);
+        out->most = fmax(out->most, off);
+        out->square += off * off;
+        out->wrong += fabs(right) > voxel && (right < 0) != (found < 0);
+        ++out->points;
+    }
+}
+
+struct shape_row {
+    const char* name;
+    hair_shape  shape;
+    double      rounding; // of its size
+    double      limit;    // voxels
+};
+
+static void set_errors(json_t* row, const struct shape_row* shape, const struct errors* errors)
+{
+    // What was sampled from a grid is off at the middles of voxels too.
+    double centre = shape->shape == HAIR_SHAPE_FORM ? shape->limit : 0.05;
+    bench_set_text(row, "shape", shape->name);
+    bench_set_number(row, "max_error", errors->most);
+    bench_set_number(row, "rms_error", sqrt(errors->square / (double)errors->points));
+    bench_set_number(row, "max_limit", shape->limit);
+    bench_set_number(row, "max_centre", errors->centre);
+    bench_set_number(row, "centre_limit", centre);
+    bench_set_count(row, "wrong_sign", errors->wrong);
+    bench_set_flag(row, "pass", errors->most <= shape->limit && errors->centre <= centre && !errors->wrong);
+}
+
+static bool run_shape(struct subject* subject, const struct shape_row* shape, hair_form* ball)
+{
+    uint32_t   seed = 5, runs      = subject->bench->options.quick ? 9 : 21;
+    double     ms[MOST_RUNS], size = 0.08;
+    hair_solid solid = any_solid(shape->shape, size, 0.02, &seed), moved = solid, exact = solid;
+    solid.rounding = (float)(shape->rounding * size);
+    if (shape->shape == HAIR_SHAPE_FORM) {
+        solid.form    = ball;
+        exact.shape   = HAIR_SHAPE_SPHERE;
+        exact.size[0] = (float)size;
+    } else
+        exact = solid;
+    moved = solid;
+    moved.position[0] += 0.05f;
+    if (!update(subject, &moved, 1) || !update(subject, &solid, 1)) return false;
+    for (uint32_t i = 0; i < runs; ++i)
+        if (isnan(ms[i] = time_update(subject, i % 2 ? &solid : &moved, 1))) return false;
+    if (!update(subject, &solid, 1)) return false;
+    const uint32_t* n      = subject->info.size;
+    size_t          bytes  = (size_t)n[0] * n[1] * n[2] * sizeof(float);
+    float*          texels = malloc(bytes);
+    if (!texels || !subject->info.distance_texture) {
+        free(texels);
+        return false;
+    }
+    glGetTextureImage(subject->info.distance_texture, 0, GL_RED, GL_FLOAT, (GLsizei)bytes, texels);
+    struct errors errors;
+    measure(subject, texels, &exact, subject->bench->options.quick ? 400000 : 2000000, &errors);
+    free(texels);
+    json_t* row = new_row(subject, "shape", 1);
+    set_times(row, ms, runs);
+    set_errors(row, shape, &errors);
+    return true;
+}
+
+static void run_shapes(struct bench* bench)
+{
+    static const struct shape_row shapes[] = {
+        {"sphere", HAIR_SHAPE_SPHERE, 0, 0.5},     {"capsule", HAIR_SHAPE_CAPSULE, 0, 0.5},
+        {"box", HAIR_SHAPE_BOX, 0, 0.9},           {"rounded box", HAIR_SHAPE_BOX, 1, 0.5},
+        {"cylinder", HAIR_SHAPE_CYLINDER, 0, 0.9}, {"cone", HAIR_SHAPE_CONE, 0, 0.9},
+        {"plane", HAIR_SHAPE_PLANE, 0, 0.5},       {"form of a ball", HAIR_SHAPE_FORM, 0, 0.5}};
+    static const uint32_t resolutions[] = {32, 64, 128, 256};
+    hair_form*            ball          = NULL;
+    for (int r = 0; r < (bench->options.quick ? 2 : 4); ++r)
+        for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
+            struct subject subject;
+            if (!bench_begin(bench, "shape", "voxelise")) continue;
+            if (!ball) ball = make_ball(bench, 0.08);
+            bool lives = ball && live(bench, resolutions[r], &subject);
+            if (!lives || !run_shape(&subject, &shapes[i], ball)) bench_refuse(bench, "shape", "voxelise");
+            if (lives) die(&subject);
+        }
+    hair_form_destroy(ball);
+}
+
+// What moves ------------------------------------------------------------------------------------------------
+
+static void make_mixed(hair_solid* solids, uint32_t count, double size)
+{
+    uint32_t seed = 11;
+    for (uint32_t i = 0; i < count; ++i)
+        solids[i] = any_solid((hair_shape)(i % HAIR_SHAPE_PLANE), size, 0.26, &seed);
+}
+
+// Each in turn moves among the others, and alone; one after the other, so that both see the same machine.
+static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t count)
+{
+    hair_solid solids[MIXED];
+    uint32_t   runs    = mixed->bench->options.quick ? 5 : 15;
+    double     sums[2] = {0}, least[2] = {0}, ms[2][MOST_RUNS];
+    make_mixed(solids, count, 0.04);
+    if (!update(mixed, solids, count)) return false;
+    for (uint32_t k = 0; k < count; ++k) {
+        if (!update(alone, &solids[k], 1)) return false;
+        for (uint32_t i = 0; i < runs; ++i) {
+            solids[k].position[1] += i % 2 ? 0.02f : -0.02f;
+            ms[0][i] = time_update(mixed, solids, count);
+            ms[1][i] = time_update(alone, &solids[k], 1);
+            if (isnan(ms[0][i]) || isnan(ms[1][i])) return false;
+        }
+        for (int i = 0; i < 2; ++i) {
+            sums[i] += median(ms[i], runs) / count;
+            least[i] += ms[i][0] / count; // What else runs on the machine makes no time shorter.
+        }
+    }
+    for (int i = 0; i < 2; ++i) {
+        json_t* row = new_row(i ? alone : mixed, i ? "one alone" : "one of them", i ? 1 : count);
+        bench_set_number(row, "ms", sums[i]);
+        bench_set_number(row, "ms_min", least[i]);
+        bench_set_count(row, "runs", runs * count);
+        if (i) continue;
+        bench_set_number(row, "ratio", least[0] / least[1]);
+        bench_set_number(row, "limit", 1.3);
+        bench_set_flag(row, "pass", least[0] / least[1] <= 1.3);
+    }
+    return true;
+}
+
+static bool run_all(struct subject* subject, const char* name, uint32_t count, double size, bool still)
+{
+    hair_solid* solids = malloc(count * sizeof *solids);
+    uint32_t    runs   = 9, before, after;
+    double      ms[MOST_RUNS];
+    bool        ok = solids;
+    if (ok) make_mixed(solids, count, size);
+    ok = ok && update(subject, solids, count);
+    sum_passes(subject->bench, &before);
+    for (uint32_t k = 0; k < runs && ok; ++k) {
+        for (uint32_t i = 0; i < count && !still; ++i) solids[i].position[2] += k % 2 ? 0.02f : -0.02f;
+        ok = !isnan(ms[k] = time_update(subject, solids, count));
+    }
+    sum_passes(subject->bench, &after);
+    free(solids);
+    if (!ok) return false;
+    json_t* row = new_row(subject, name, count);
+    set_times(row, ms, runs);
+    bench_set_count(row, "passes_run", after - before);
+    if (still) bench_set_flag(row, "pass", after == before);
+    return true;
+}
+
+static void run_scenes(struct bench* bench)
+{
+    static const char* const names[] = {"one of them", "all of them", "none of them", "many"};
+    for (int i = 0; i < 4; ++i) {
+        struct subject subject, alone;
+        if (!bench_begin(bench, names[i], "voxelise")) continue;
+        bool lives = live(bench, 128, &subject), two = lives && !i && live(bench, 128, &alone), ok = false;
+        if (two) ok = run_moved(&subject, &alone, MIXED);
+        if (lives && i) ok = run_all(&subject, names[i], i < 3 ? MIXED : MANY, i < 3 ? 0.04 : 0.01, i == 2);
+        if (!ok) bench_refuse(bench, names[i], "voxelise");
+        if (two) die(&alone);
+        if (lives) die(&subject);
+    }
+}
+
+static void run_suite(struct bench* bench)
+{
+    run_shapes(bench);
+    run_scenes(bench);
+}
+
+const struct bench_suite bench_field = {"field", "solids as a field, against their exact distances", columns,
+                                        run_suite};
