@@ -1,6 +1,7 @@
 # make demo            build, simulate and render the built-in scene: build/demo.png and build/demo.mp4
 # make test            build and run every test; filter=groom runs the programs so named
 # make config=asan     release (default), debug, asan, tsan, coverage
+# make BULLET=0        without libhair_bullet; libhair is the same
 # make V=1             show every command
 # make setup           install the Debian packages of tools/packages.txt that are missing; SETUP=0 skips it
 MAKEFLAGS += -r --no-print-directory
@@ -9,6 +10,7 @@ PREFIX    ?= /usr/local
 SETUP     ?= 1
 JOBS      ?= $(shell nproc)
 V         ?= 0
+BULLET    ?= 1
 filter    ?=
 B         := build/$(config)
 
@@ -28,16 +30,21 @@ VERSION := $(shell awk '/define HAIR_VERSION_(MAJOR|MINOR|PATCH)/{v=v s $$3; s="
 MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 
 # The rooms of lib/, as data flows through them: a file includes from its own room and from those before it.
-# Beside them egl/ and reference/, each a library of its own.
+# Beside them egl/, bullet/ and reference/, each a library of its own.
 ROOMS := base asset groom collide gl field wind sim interpolate draw api
 
 objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
 EGL   := $(call objects,lib/egl/*.c)
+BUL   := $(call objects,lib/bullet/*.cpp)
 REF   := $(call objects,lib/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/*_test.c tests/gpu/*_test.c tests/golden/*_test.c))
+TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
+
+NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
+LIBRARIES := $(foreach n,$(NAMES),$(B)/lib$(n).a $(B)/lib$(n).so)
 
 # Deferred, so that they are asked after `make setup` has installed the packages.
 packages   = $(shell pkg-config $(1) $(2))
@@ -45,9 +52,12 @@ TOOL_CFLAGS = $(call packages,--cflags,epoxy libpng OpenEXR jansson cglm libxxha
 TOOL_LIBS   = $(call packages,--libs,epoxy egl libpng OpenEXR jansson libxxhash) -pthread -lm
 TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) -pthread -lm
 EIGEN       = $(call packages,--cflags,eigen3)
+BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,bullet))
+# Of what the package names only these two: no dynamics, no soft bodies.
+BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--libs,bullet))
 
 all: libraries tools ## Libraries and tools, in build/$(config)
-libraries: $(B)/libhair.a $(B)/libhair.so $(B)/libhair_egl.a $(B)/libhair_egl.so ## libhair and libhair_egl, static and shared
+libraries: $(LIBRARIES) ## libhair, libhair_egl and libhair_bullet, static and shared
 tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
@@ -71,6 +81,9 @@ $(B)/%.a:
 $(B)/libhair.so: $(LIB:.o=.shared.o)
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: LINK = $(call packages,--libs,egl)
+$(B)/libhair_bullet.a: $(BUL)
+$(B)/libhair_bullet.so: $(BUL:.o=.shared.o) $(B)/lib/base/host.c.shared.o $(B)/libhair.so
+$(B)/libhair_bullet.so: LINK = -L$(B) -lhair $(BULLET_LIBS) -lstdc++
 $(B)/%.so:
 	$(call say,$@)
 	$(Q)$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
@@ -94,6 +107,10 @@ $(B)/tools/%.c.o: tools/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(C) $(TOOL_CFLAGS) -c $< -o $@
+$(B)/tests/%.cpp.o: tests/%.cpp
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CPP) $(BULLET_CFLAGS) -c $< -o $@
 $(B)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -102,6 +119,14 @@ $(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -O2 $(EIGEN) -c $< -o $@
+$(B)/lib/bullet/%.cpp.o: lib/bullet/%.cpp
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -c $< -o $@
+$(B)/lib/bullet/%.cpp.shared.o: lib/bullet/%.cpp
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -126,6 +151,10 @@ $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
 
+$(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
+
 run-tests: $(TESTS)
 	@failed=; for t in $(TESTS); do case $$t in *$(filter)*) echo "== $$t"; HAIR_TEST=required $$t || failed="$$failed $$t";; esac; done; \
 	  [ -z "$$failed" ] || { echo "failed:$$failed"; exit 1; }
@@ -145,11 +174,12 @@ rooms:
 	  match($$0, /#include "lib\/[a-z]+\//) { split(FILENAME, f, "/"); split($$0, q, "/"); \
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
-symbols: $(B)/libhair.so $(B)/libhair_egl.so $(B)/libhair.a
-	@nm -D --defined-only $(B)/libhair.so $(B)/libhair_egl.so | awk 'NF == 3 {print $$3}' | LC_ALL=C sort | diff tests/symbols.txt -
+symbols: $(LIBRARIES)
+	@nm -D --defined-only $(filter %.so,$(LIBRARIES)) | awk 'NF == 3 {print $$3}' | LC_ALL=C sort >$(B)/symbols.txt
+	@$(if $(filter 0,$(BULLET)),grep -v hair_bullet_,cat) tests/symbols.txt | diff - $(B)/symbols.txt
 	@! objdump -t $(B)/libhair.a | grep -E ' O (\.t?bss|\.t?data|\*COM\*)' | grep -vE '\.data\.rel\.ro|asan|ubsan|gcov' || \
 	  { echo "libhair has writable globals (above)"; exit 1; }
-	@! nm -u $(B)/libhair.a $(B)/libhair_egl.a | grep -wE 'exit|_exit|abort|printf|puts|putchar|fprintf|fputs|fwrite|perror' || { echo "the libraries call these (above)"; exit 1; }
+	@! nm -u $(filter %.a,$(LIBRARIES)) | grep -wE 'exit|_exit|abort|printf|puts|putchar|fprintf|fputs|fwrite|perror' || { echo "the libraries call these (above)"; exit 1; }
 
 consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
 	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
@@ -159,10 +189,11 @@ install-tree: libraries
 install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFIX
 	install -d $(DESTDIR)$(PREFIX)/include/hair $(DESTDIR)$(PREFIX)/lib/pkgconfig
 	install -m 644 include/hair/*.h $(DESTDIR)$(PREFIX)/include/hair
-	install -m 644 $(B)/libhair.a $(B)/libhair_egl.a $(DESTDIR)$(PREFIX)/lib
-	cp -P $(B)/libhair.so* $(B)/libhair_egl.so* $(DESTDIR)$(PREFIX)/lib
+	install -m 644 $(filter %.a,$(LIBRARIES)) $(DESTDIR)$(PREFIX)/lib
+	cp -P $(patsubst %.so,%.so*,$(filter %.so,$(LIBRARIES))) $(DESTDIR)$(PREFIX)/lib
 	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
+	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as solids, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
 format: ## clang-format everything
 	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp')

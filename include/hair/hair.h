@@ -383,6 +383,10 @@ static inline hair_solid hair_solid_default(void)
 HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count,
                                      size_t stride);
 
+/// A box in the world that no strand leaves on the way from the last step to where the head is, unless its root is
+/// free: what is outside need not be among the solids.
+HAIR_API hair_result hair_get_reach(const hair_instance* hair, float lower[3], float upper[3]);
+
 /// Advance by `dt` seconds, in substeps of the desc's fixed length: the motion does not depend on the frame
 /// rate, and what is drawn is interpolated to now. The same inputs on the same driver give the same bits.
 /// dt >= 0; 0 does nothing; beyond max_dt time slows, and the log says so once.

@@ -56,6 +56,20 @@ for standard in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++" "$CXX -std=c++17 -x
     build_and_run "hello-$language-shared" "$standard" -DHAIR_SHARED $shared
 done
 
+# A program with a Bullet world, if that library was built.
+if pkg-config --exists hair_bullet; then
+    shared=$(pkg-config --cflags --libs hair_bullet bullet)
+    static=$(echo "$(pkg-config --cflags --libs hair_bullet) $shared -lm" |
+        sed 's/-lhair_bullet/-l:libhair_bullet.a/g; s/-lhair /-l:libhair.a /g')
+    for linking in "$static" "-DHAIR_SHARED $shared"; do
+        # shellcheck disable=SC2086
+        $CXX -std=c++11 $OPT "$here/bullet.cpp" $linking -o "$out/bullet" || fail "bullet.cpp does not build"
+        output=$(ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH="$prefix/usr/lib" "$out/bullet") || fail "bullet.cpp does not run"
+        [ "$output" = "1 solid, of shape 2" ] || fail "bullet.cpp printed \"$output\""
+    done
+    echo "consumer: bullet: $output"
+fi
+
 # A program that links the static library does not pass its symbols on, also when it exports its own.
 # shellcheck disable=SC2086
 $CC -std=c99 $OPT -rdynamic "$here/hello.c" $static_hair -o "$out/hello-exporting"

@@ -1,0 +1,52 @@
+// reach.c - where the hair of an instance can be.
+#include "lib/api/api.h"
+
+#define GIVE 1.05f // hair may stretch a little, and followers stray from their guides
+
+static void include(hair_vec3 at, float around, hair_vec3 bounds[2])
+{
+    bounds[0] = hair_v3(fminf(bounds[0].x, at.x - around), fminf(bounds[0].y, at.y - around),
+                        fminf(bounds[0].z, at.z - around));
+    bounds[1] = hair_v3(fmaxf(bounds[1].x, at.x + around), fmaxf(bounds[1].y, at.y + around),
+                        fmaxf(bounds[1].z, at.z + around));
+}
+
+void hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2])
+{
+    const hair_groom_info* info = &groom->info;
+    bounds[0]                   = hair_load3(info->lower);
+    bounds[1]                   = hair_load3(info->upper);
+    for (uint32_t i = 0; i < info->guide_count; ++i) {
+        hair_vec4 root = groom->rest[groom->guides[i].first].position;
+        include(hair_v3(root.x, root.y, root.z), GIVE * info->length[2], bounds);
+    }
+}
+
+hair_result hair_get_reach(const hair_instance* hair, float lower[3], float upper[3])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    if (!lower || !upper)
+        return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: lower or upper is NULL",
+                         hair->label);
+    const struct hair_pose *from = &hair->sim.at_step, *to = &hair->sim.head;
+    hair_quat               a = from->rotation, b = to->rotation;
+    const hair_vec3*        box = hair->reach;
+    float                   far = 0;
+    for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
+    for (int i = 0; i < 16; ++i) { // The corners at both ends.
+        const struct hair_pose* head     = i < 8 ? from : to;
+        hair_vec3               corner   = hair_v3(box[i & 1].x, box[i >> 1 & 1].y, box[i >> 2 & 1].z);
+        hair_vec3               at       = hair_rotate(head->rotation, corner);
+        const float             turned[] = {at.x, at.y, at.z};
+        for (int k = 0; k < 3; ++k) {
+            float place = (float)(head->position[k] + (double)turned[k]);
+            lower[k]    = fminf(lower[k], place);
+            upper[k]    = fmaxf(upper[k], place);
+        }
+        far = fmaxf(far, hair_length(corner));
+    }
+    // Between them a corner bulges out of its chord by r (1 - cos(half the turn)).
+    float bulge = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
+    for (int k = 0; k < 3; ++k) lower[k] -= bulge, upper[k] += bulge;
+    return HAIR_OK;
+}

@@ -1,0 +1,199 @@
+// bullet.cpp - public calls on Bullet's shapes, objects and worlds.
+#include "lib/bullet/bullet.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#define ROUNDS 600 // as hair_bullet_begin promises
+
+hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_bullet** out)
+{
+    const hair_host own = hair_host_take(host);
+    if (scalar_size != sizeof(btScalar))
+        return hair_fail(
+            &own, HAIR_ERROR_VERSION,
+            "the program's btScalar is of %zu bytes, that of libhair_bullet of %zu: it is for another "
+            "Bullet",
+            scalar_size, sizeof(btScalar));
+    if (!out) return hair_fail(&own, HAIR_ERROR_ARGUMENT, "out is NULL");
+    hair_bullet* bullet = static_cast<hair_bullet*>(hair_alloc(&own, 1, sizeof *bullet));
+    if (!bullet) return hair_fail_memory(&own, "Bullet's solids");
+    bullet->host       = own;
+    bullet->resolution = 64;
+    *out               = bullet;
+    return HAIR_OK;
+}
+
+void hair_bullet_destroy(hair_bullet* bullet)
+{
+    if (!bullet) return;
+    const hair_host host = bullet->host;
+    for (uint32_t i = 0; i < bullet->met_capacity; ++i) hair_form_destroy(bullet->met[i].form);
+    hair_free(&host, bullet->met);
+    hair_free(&host, bullet->solids);
+    hair_free(&host, bullet->hits);
+    hair_free(&host, bullet);
+}
+
+hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* capacity, uint32_t count,
+                                size_t size)
+{
+    if (count <= *capacity) return HAIR_OK;
+    const uint32_t most  = count < 32 ? 32 : count + count / 2;
+    void*          grown = hair_alloc(host, most, size);
+    if (!grown) return hair_fail_memory(host, "Bullet's solids");
+    if (*array) std::memcpy(grown, *array, *capacity * size);
+    hair_free(host, *array);
+    *array    = grown;
+    *capacity = most;
+    return HAIR_OK;
+}
+
+hair_result hair_bullet_set_resolution(hair_bullet* bullet, uint32_t resolution)
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    if (resolution < 8 || resolution > 256)
+        return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "resolution is %u, not in [8, 256]", resolution);
+    bullet->resolution = resolution;
+    return HAIR_OK;
+}
+
+hair_result hair_bullet_begin(hair_bullet* bullet)
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    bullet->count = 0;
+    if (++bullet->round % 64 == 0) hair_bullet_free_old(bullet, ROUNDS, nullptr);
+    return HAIR_OK;
+}
+
+hair_result hair_bullet_forget(hair_bullet* bullet, const btCollisionShape* shape)
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    for (uint32_t i = 0; i < bullet->met_capacity && !shape; ++i) bullet->met[i].print = 0;
+    if (shape) hair_bullet_free_old(bullet, UINT32_MAX, shape);
+    return HAIR_OK;
+}
+
+const hair_solid* hair_bullet_solids(const hair_bullet* bullet, uint32_t* count)
+{
+    if (count) *count = bullet ? bullet->count : 0;
+    return bullet ? bullet->solids : nullptr;
+}
+
+// Nothing of what could not be taken whole is left in the list.
+static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
+{
+    const uint32_t before = bullet->count;
+    bullet->visits        = 0;
+    hair_result result    = hair_bullet_add(bullet, shape, taking);
+    if (result && !taking.is_quiet) bullet->count = before;
+    return result;
+}
+
+hair_result hair_bullet_take_shape(hair_bullet* bullet, const btCollisionShape* shape,
+                                   const float transform[16])
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "shape is NULL");
+    hair_taking taking = {btTransform::getIdentity(), 1, 0xcbf29ce484222325u, 0, false};
+    if (transform) taking.transform.setFromOpenGLMatrix(transform);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const btScalar off =
+                taking.transform.getBasis().getRow(i).dot(taking.transform.getBasis().getRow(k)) - (i == k);
+            if (!(std::fabs(off) <= btScalar(1e-3)))
+                return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT,
+                                 "transform is not a rigid motion to 1e-3");
+        }
+    taking.key = hair_bullet_print(taking.key, &bullet->count, sizeof bullet->count);
+    return take(bullet, shape, taking);
+}
+
+static hair_result take_object(hair_bullet* bullet, const btCollisionObject* object, bool is_quiet)
+{
+    const btBroadphaseProxy* proxy    = object->getBroadphaseHandle();
+    const int                unique   = proxy ? proxy->m_uniqueId : 0;
+    const btCollisionShape*  shape    = object->getCollisionShape();
+    float                    friction = object->getFriction();
+    hair_taking taking = {object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0,
+                          is_quiet};
+    taking.key         = hair_bullet_print(0xcbf29ce484222325u, &object, sizeof object);
+    taking.key         = hair_bullet_print(taking.key, &unique, sizeof unique);
+    if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "the object has no shape");
+    return take(bullet, shape, taking);
+}
+
+hair_result hair_bullet_take_object(hair_bullet* bullet, const btCollisionObject* object)
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    if (!object) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "object is NULL");
+    return take_object(bullet, object, false);
+}
+
+// Worlds ----------------------------------------------------------------------------------------------------
+
+namespace
+{
+struct hits : btBroadphaseAabbCallback {
+    hair_bullet* bullet = nullptr;
+    hair_result  result = HAIR_OK;
+    btVector3    lower, upper;
+    int          groups = -1;
+
+    // Whether to go on.
+    bool process(const btBroadphaseProxy* proxy) override
+    {
+        const btCollisionObject* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+        if (!(proxy->m_collisionFilterGroup & groups) || !object->getCollisionShape() ||
+            !object->hasContactResponse())
+            return true;
+        // The tree's boxes are larger than the object's.
+        btVector3 own_lower, own_upper;
+        object->getCollisionShape()->getAabb(object->getWorldTransform(), own_lower, own_upper);
+        if (!TestAabbAgainstAabb2(own_lower, own_upper, lower, upper)) return true;
+        void* memory = bullet->hits;
+        result = hair_bullet_reserve(&bullet->host, &memory, &bullet->hit_capacity, bullet->hit_count + 1,
+                                     sizeof *bullet->hits);
+        bullet->hits = static_cast<const void**>(memory);
+        if (!result) bullet->hits[bullet->hit_count++] = proxy;
+        return !result;
+    }
+};
+} // namespace
+
+static int compare(const void* a, const void* b)
+{
+    const int x = (*static_cast<const btBroadphaseProxy* const*>(a))->m_uniqueId;
+    const int y = (*static_cast<const btBroadphaseProxy* const*>(b))->m_uniqueId;
+    return (x > y) - (x < y);
+}
+
+hair_result hair_bullet_take_world(hair_bullet* bullet, const btCollisionWorld* world, const float lower[3],
+                                   const float upper[3], int groups)
+{
+    if (!bullet) return HAIR_ERROR_ARGUMENT;
+    if (!world) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "world is NULL");
+    if (!lower || !upper) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "bounds are NULL");
+    for (int k = 0; k < 3; ++k)
+        if (!(lower[k] <= upper[k]) || !std::isfinite(lower[k]) || !std::isfinite(upper[k]))
+            return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "bounds are from %g to %g along axis %d",
+                             static_cast<double>(lower[k]), static_cast<double>(upper[k]), k);
+    hits found;
+    found.bullet      = bullet;
+    found.groups      = groups;
+    found.lower       = btVector3(lower[0], lower[1], lower[2]);
+    found.upper       = btVector3(upper[0], upper[1], upper[2]);
+    bullet->hit_count = 0;
+    // Bullet's broadphase is not const, but a test changes nothing in it.
+    const_cast<btCollisionWorld*>(world)->getBroadphase()->aabbTest(found.lower, found.upper, found);
+    if (found.result) return found.result;
+    if (bullet->hit_count) std::qsort(bullet->hits, bullet->hit_count, sizeof *bullet->hits, compare);
+    for (uint32_t i = 0; i < bullet->hit_count; ++i) {
+        const btBroadphaseProxy* proxy = static_cast<const btBroadphaseProxy*>(bullet->hits[i]);
+        hair_result              result =
+            take_object(bullet, static_cast<const btCollisionObject*>(proxy->m_clientObject), true);
+        if (result && result != HAIR_ERROR_ARGUMENT) return result;
+    }
+    return HAIR_OK;
+}

@@ -1,0 +1,196 @@
+// hull.cpp - convex shapes that are nothing simpler: the hull of their points as a form, their margin as its rounding.
+#include "lib/bullet/bullet.h"
+
+#include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
+#include <LinearMath/btConvexHullComputer.h>
+
+#include <cmath>
+
+#define MOST_POINTS 1048576
+#define DIRECTIONS 1024 // over a sphere: a hull of points that far apart sags 0.4 % of the radius
+
+namespace
+{
+// Points whose hull it is, and what is to be added all round.
+struct cloud {
+    hair_mesh mesh;
+    float     rounding;
+};
+
+// The i-th of DIRECTIONS along Fibonacci's spiral.
+btVector3 direction(int i)
+{
+    const double z = 1 - (2 * i + 1.0) / DIRECTIONS, around = std::sqrt(1 - z * z),
+                 turn = 2.399963229728653 * i;
+    return btVector3(btScalar(around * std::cos(turn)), btScalar(around * std::sin(turn)), btScalar(z));
+}
+
+struct mesh_points : btInternalTriangleIndexCallback {
+    cloud* out = nullptr;
+
+    void internalProcessTriangleIndex(btVector3* triangle, int, int) override
+    {
+        for (int k = 0; k < 3; ++k)
+            if (out->mesh.vertex_count < MOST_POINTS) out->mesh.add_vertex(triangle[k]);
+    }
+};
+} // namespace
+
+// Spheres of one radius are their centres, rounded. Of others the least radius is the rounding, and the rest of each is
+// points over a sphere. Where its scale is not uniform Bullet scales the spheres, and so are the points.
+static void add_spheres(const btMultiSphereShape* shape, cloud* out)
+{
+    const btVector3& s       = shape->getLocalScaling();
+    bool             uniform = s.x() == s.y() && s.y() == s.z() && s.x() > 0;
+    btScalar         least = shape->getSphereCount() ? BT_LARGE_FLOAT : 0, most = 0;
+    for (int i = 0; i < shape->getSphereCount(); ++i) {
+        least = btMin(least, shape->getSphereRadius(i));
+        most  = btMax(most, shape->getSphereRadius(i));
+    }
+    if (!uniform) least = 0;
+    out->rounding = static_cast<float>(uniform ? least * s.x() : btScalar(0));
+    for (int i = 0; i < shape->getSphereCount(); ++i) {
+        const btScalar radius = shape->getSphereRadius(i) - least;
+        if (radius <= 0)
+            out->mesh.add_vertex(shape->getSpherePosition(i) * s);
+        else
+            for (int k = 0; k < DIRECTIONS; ++k)
+                out->mesh.add_vertex((shape->getSpherePosition(i) + radius * direction(k)) * s);
+    }
+}
+
+static void gather(const btConvexShape* shape, cloud* out)
+{
+    out->rounding = static_cast<float>(shape->getMargin());
+    switch (shape->getShapeType()) {
+    case CONVEX_HULL_SHAPE_PROXYTYPE: {
+        const btConvexHullShape* hull = static_cast<const btConvexHullShape*>(shape);
+        for (int i = 0; i < hull->getNumPoints(); ++i) out->mesh.add_vertex(hull->getScaledPoint(i));
+        return;
+    }
+    case CONVEX_POINT_CLOUD_SHAPE_PROXYTYPE: {
+        const btConvexPointCloudShape* points = static_cast<const btConvexPointCloudShape*>(shape);
+        for (int i = 0; i < points->getNumPoints(); ++i) out->mesh.add_vertex(points->getScaledPoint(i));
+        return;
+    }
+    case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE: {
+        mesh_points points;
+        points.out = out;
+        const btVector3 everywhere(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+        static_cast<const btConvexTriangleMeshShape*>(shape)->getMeshInterface()->InternalProcessAllTriangles(
+            &points, -everywhere, everywhere);
+        return;
+    }
+    case MULTI_SPHERE_SHAPE_PROXYTYPE:
+        add_spheres(static_cast<const btMultiSphereShape*>(shape), out);
+        return;
+    default:
+        if (shape->isPolyhedral()) {
+            const btPolyhedralConvexShape* polyhedron = static_cast<const btPolyhedralConvexShape*>(shape);
+            for (int i = 0; i < polyhedron->getNumVertices(); ++i) {
+                btVector3 at;
+                polyhedron->getVertex(i, at);
+                out->mesh.add_vertex(at);
+            }
+            return;
+        }
+        for (int k = 0; k < DIRECTIONS; ++k) // Whatever it is: where it is farthest in every direction.
+            out->mesh.add_vertex(shape->localGetSupportingVertexWithoutMargin(direction(k)));
+    }
+}
+
+static btVector3 vertex(const hair_mesh& mesh, uint32_t i)
+{
+    const float* at = mesh.positions + 3 * i;
+    return btVector3(at[0], at[1], at[2]);
+}
+
+// Points that are one, or on one line: a sphere or a capsule of the rounding. Else false.
+static bool as_capsule(const hair_mesh& points, hair_solid* solid, btQuaternion* turn)
+{
+    uint32_t a = 0, b = 0;
+    for (int round = 0; round < 3;
+         ++round) { // From any point the farthest one, from there the farthest, and back.
+        uint32_t from = round % 2 ? b : a, far = from;
+        for (uint32_t i = 0; i < points.vertex_count; ++i)
+            if (vertex(points, i).distance2(vertex(points, from)) >
+                vertex(points, far).distance2(vertex(points, from)))
+                far = i;
+        (round % 2 ? a : b) = far;
+    }
+    const btVector3 start = vertex(points, a), axis = vertex(points, b) - start;
+    const btScalar  length = axis.length(), close = btScalar(1e-6) * length;
+    for (uint32_t i = 0; i < points.vertex_count && length > 0; ++i)
+        if ((vertex(points, i) - start).cross(axis / length).length() > close) return false;
+    const btVector3 middle = start + axis / 2;
+    for (int k = 0; k < 3; ++k) solid->position[k] = static_cast<float>(middle[k]);
+    solid->shape   = length > 0 ? HAIR_SHAPE_CAPSULE : HAIR_SHAPE_SPHERE;
+    solid->size[0] = 0;
+    solid->size[1] = static_cast<float>(length / 2);
+    *turn = length > 0 ? shortestArcQuat(btVector3(0, 1, 0), axis / length) : btQuaternion::getIdentity();
+    return true;
+}
+
+static void close_hull(const hair_mesh& points, hair_mesh* out)
+{
+    btConvexHullComputer hull;
+    hull.compute(points.positions, 3 * static_cast<int>(sizeof(float)), static_cast<int>(points.vertex_count),
+                 0, 0);
+    for (int i = 0; i < hull.vertices.size(); ++i) out->add_vertex(hull.vertices[i]);
+    for (int i = 0; i < hull.faces.size(); ++i) {
+        const btConvexHullComputer::Edge* first = &hull.edges[hull.faces[i]];
+        const uint32_t                    apex  = static_cast<uint32_t>(first->getSourceVertex());
+        for (const btConvexHullComputer::Edge* edge                    = first->getNextEdgeOfFace();
+             edge->getTargetVertex() != first->getSourceVertex(); edge = edge->getNextEdgeOfFace())
+            out->add_triangle(apex, static_cast<uint32_t>(edge->getSourceVertex()),
+                              static_cast<uint32_t>(edge->getTargetVertex()));
+    }
+}
+
+// Its points, that it need not be made again where they are the same.
+static uint64_t print_of(const cloud& points)
+{
+    uint64_t print = hair_bullet_print(0xcbf29ce484222325u, points.mesh.positions,
+                                       3 * sizeof(float) * points.mesh.vertex_count);
+    return print > 1 ? print : 2;
+}
+
+static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking,
+                              const cloud& points)
+{
+    if (!points.mesh.vertex_count) return hair_bullet_wrong(bullet, shape, taking, "has no points");
+    if (points.mesh.vertex_count >= MOST_POINTS)
+        return hair_bullet_wrong(bullet, shape, taking, "has 1048576 points or more");
+    for (uint32_t i = 0; i < 3 * points.mesh.vertex_count; ++i)
+        if (!(std::fabs(points.mesh.positions[i]) <= 1e6f))
+            return hair_bullet_wrong(bullet, shape, taking, "has a point that is not within 1e6 m");
+    hair_solid   solid = hair_solid_default();
+    btQuaternion turn;
+    if (as_capsule(points.mesh, &solid, &turn)) {
+        solid.size[0] = points.rounding; // As a radius, all of it.
+        return hair_bullet_add_solid(bullet, shape, taking, solid, turn);
+    }
+    const uint64_t   print = print_of(points);
+    const hair_met*  met   = hair_bullet_find(bullet, shape, print);
+    const hair_form* form  = met ? met->form : nullptr;
+    if (!met) {
+        hair_mesh hull = {};
+        hull.host      = &bullet->host;
+        close_hull(points.mesh, &hull);
+        hair_result result =
+            hull.result ? hull.result : hair_bullet_make_form(bullet, shape, print, hull, &form);
+        hull.release();
+        if (result) return result;
+    }
+    return hair_bullet_add_form(bullet, shape, taking, form, points.rounding, 1);
+}
+
+hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking)
+{
+    cloud points     = {};
+    points.mesh.host = &bullet->host;
+    gather(shape, &points);
+    hair_result result = points.mesh.result ? points.mesh.result : add_points(bullet, shape, taking, points);
+    points.mesh.release();
+    return result;
+}

@@ -1,0 +1,195 @@
+// shape.cpp - Bullet's shapes as solids: what is exact here, and where the rest goes.
+#include "lib/bullet/bullet.h"
+
+#include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
+
+#include <cmath>
+
+// One that holds itself would never end.
+#define DEEPEST 16    // compounds in compounds
+#define MOST 1048576u // shapes of an object
+
+hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,
+                              const char* what)
+{
+    if (!taking.is_quiet)
+        return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "Bullet's shape %s of type %d %s",
+                         shape->getName(), shape->getShapeType(), what);
+    const uint64_t wrong = 1; // In place of a print.
+    if (hair_bullet_find(bullet, shape, wrong)) return HAIR_ERROR_ARGUMENT;
+    const hair_result result = hair_bullet_keep(bullet, shape, wrong, nullptr);
+    if (result) return result;
+    hair_log(&bullet->host, HAIR_LOG_WARNING, "Bullet's shape %s of type %d %s: hair goes through it",
+             shape->getName(), shape->getShapeType(), what);
+    return HAIR_ERROR_ARGUMENT;
+}
+
+static bool is_finite(const btVector3& v)
+{
+    return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+}
+
+// `turn`: of the solid within the shape.
+hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* shape,
+                                  const hair_taking& taking, hair_solid solid, const btQuaternion& turn)
+{
+    const btVector3 at =
+        taking.transform * btVector3(solid.position[0], solid.position[1], solid.position[2]);
+    btQuaternion q = taking.transform.getRotation() * turn;
+    if (!is_finite(at) || !std::isfinite(q.length2()) || !(q.length2() > btScalar(0.5)))
+        return hair_bullet_wrong(bullet, shape, taking, "has no place that is finite");
+    q.normalize();
+    for (int k = 0; k < 3; ++k) {
+        solid.position[k] = at[k];
+        if (!(std::fabs(at[k]) <= 1e9f))
+            return hair_bullet_wrong(bullet, shape, taking, "is farther than 1e9 m");
+        if (!(solid.size[k] >= 0 && solid.size[k] <= 1e6f))
+            return hair_bullet_wrong(bullet, shape, taking, "has a size that is not in [0, 1e6] m");
+    }
+    if (!(solid.rounding >= 0 && solid.rounding <= 1e6f))
+        return hair_bullet_wrong(bullet, shape, taking, "has a margin that is not in [0, 1e6] m");
+    if (!(solid.scale >= 1e-6f && solid.scale <= 1e6f))
+        return hair_bullet_wrong(bullet, shape, taking, "has a scale that is not in [1e-6, 1e6]");
+    const int sizes = solid.shape == HAIR_SHAPE_BOX       ? 3
+                      : solid.shape <= HAIR_SHAPE_CAPSULE ? 1
+                      : solid.shape < HAIR_SHAPE_PLANE    ? 2
+                                                          : 0;
+    for (int k = 0; k < sizes; ++k)
+        if (solid.size[k] == 0 && solid.rounding == 0)
+            return hair_bullet_wrong(bullet, shape, taking, "has no size");
+    solid.rotation[0] = q.x(), solid.rotation[1] = q.y(), solid.rotation[2] = q.z(),
+    solid.rotation[3] = q.w();
+    solid.friction    = taking.friction;
+    uint64_t key      = hair_bullet_print(taking.key, &solid.shape, sizeof solid.shape);
+    solid.key         = key ? key : 1;
+
+    void*       solids = bullet->solids;
+    hair_result result =
+        hair_bullet_reserve(&bullet->host, &solids, &bullet->capacity, bullet->count + 1, sizeof solid);
+    bullet->solids = static_cast<hair_solid*>(solids);
+    if (!result) bullet->solids[bullet->count++] = solid;
+    return result;
+}
+
+// The turn that takes +y to an axis. For the others of its kind any turn about it will do.
+static btQuaternion turn_to(int axis)
+{
+    const btScalar half = btScalar(0.70710678118654752);
+    return axis == 0   ? btQuaternion(0, 0, -half, half)
+           : axis == 2 ? btQuaternion(half, 0, 0, half)
+                       : btQuaternion(0, 0, 0, 1);
+}
+
+// What setMargin has made of a size may be below zero; the margin is then more than the whole.
+static float size_of(btScalar without_margin)
+{
+    return without_margin < 0 ? 0.0f : static_cast<float>(without_margin);
+}
+
+static hair_result add_box(hair_bullet* bullet, const btBoxShape* box, const hair_taking& taking)
+{
+    hair_solid solid = hair_solid_default();
+    solid.shape      = HAIR_SHAPE_BOX;
+    for (int k = 0; k < 3; ++k) solid.size[k] = size_of(box->getHalfExtentsWithoutMargin()[k]);
+    solid.rounding = box->getMargin();
+    return hair_bullet_add_solid(bullet, box, taking, solid, btQuaternion::getIdentity());
+}
+
+static hair_result add_capsule(hair_bullet* bullet, const btCapsuleShape* capsule, const hair_taking& taking)
+{
+    hair_solid solid = hair_solid_default();
+    solid.shape      = HAIR_SHAPE_CAPSULE;
+    solid.size[0]    = capsule->getRadius();
+    solid.size[1]    = capsule->getHalfHeight();
+    return hair_bullet_add_solid(bullet, capsule, taking, solid, turn_to(capsule->getUpAxis()));
+}
+
+// Bullet takes the radius along one axis, also where the other is longer.
+static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cylinder,
+                                const hair_taking& taking)
+{
+    const btVector3& half  = cylinder->getHalfExtentsWithoutMargin();
+    const int        up    = cylinder->getUpAxis();
+    hair_solid       solid = hair_solid_default();
+    solid.shape            = HAIR_SHAPE_CYLINDER;
+    solid.size[0]          = size_of(half[up == 0 ? 1 : 0]);
+    solid.size[1]          = size_of(half[up]);
+    solid.rounding         = cylinder->getMargin();
+    return hair_bullet_add_solid(bullet, cylinder, taking, solid, turn_to(up));
+}
+
+// To a cone the margin is added; from the others it has been taken before.
+static hair_result add_cone(hair_bullet* bullet, const btConeShape* cone, const hair_taking& taking)
+{
+    hair_solid solid = hair_solid_default();
+    solid.shape      = HAIR_SHAPE_CONE;
+    solid.size[0]    = cone->getRadius();
+    solid.size[1]    = cone->getHeight() / 2;
+    solid.rounding   = cone->getMargin();
+    return hair_bullet_add_solid(bullet, cone, taking, solid, turn_to(cone->getConeUpIndex()));
+}
+
+static hair_result add_sphere(hair_bullet* bullet, const btSphereShape* sphere, const hair_taking& taking)
+{
+    hair_solid solid = hair_solid_default();
+    solid.size[0]    = sphere->getRadius();
+    return hair_bullet_add_solid(bullet, sphere, taking, solid, btQuaternion::getIdentity());
+}
+
+static hair_result add_plane(hair_bullet* bullet, const btStaticPlaneShape* plane, const hair_taking& taking)
+{
+    const btVector3& normal = plane->getPlaneNormal();
+    if (!(std::fabs(normal.length2() - 1) < btScalar(1e-3)))
+        return hair_bullet_wrong(bullet, plane, taking, "has a normal that is not of length 1");
+    hair_solid solid = hair_solid_default();
+    solid.shape      = HAIR_SHAPE_PLANE;
+    for (int k = 0; k < 3; ++k) solid.position[k] = normal[k] * plane->getPlaneConstant();
+    return hair_bullet_add_solid(bullet, plane, taking, solid,
+                                 shortestArcQuat(btVector3(0, 1, 0), normal.normalized()));
+}
+
+// Its scale has been given to the children and to where they are.
+static hair_result add_compound(hair_bullet* bullet, const btCompoundShape* compound,
+                                const hair_taking& taking)
+{
+    if (taking.depth == DEEPEST)
+        return hair_bullet_wrong(bullet, compound, taking, "is nested deeper than 16");
+    hair_result worst = HAIR_OK;
+    for (int i = 0; i < compound->getNumChildShapes(); ++i) {
+        if (++bullet->visits > MOST)
+            return hair_bullet_wrong(bullet, compound, taking, "has more than 1048576 children");
+        hair_taking child = taking;
+        child.transform   = taking.transform * compound->getChildTransform(i);
+        child.key         = hair_bullet_print(taking.key, &i, sizeof i);
+        ++child.depth;
+        hair_result result = hair_bullet_add(bullet, compound->getChildShape(i), child);
+        if (result && (!taking.is_quiet || result != HAIR_ERROR_ARGUMENT)) return result;
+        if (result) worst = result;
+    }
+    return worst;
+}
+
+hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
+{
+    switch (shape->getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE: return add_sphere(bullet, static_cast<const btSphereShape*>(shape), taking);
+    case BOX_SHAPE_PROXYTYPE: return add_box(bullet, static_cast<const btBoxShape*>(shape), taking);
+    case CAPSULE_SHAPE_PROXYTYPE:
+        return add_capsule(bullet, static_cast<const btCapsuleShape*>(shape), taking);
+    case CYLINDER_SHAPE_PROXYTYPE:
+        return add_cylinder(bullet, static_cast<const btCylinderShape*>(shape), taking);
+    case CONE_SHAPE_PROXYTYPE: return add_cone(bullet, static_cast<const btConeShape*>(shape), taking);
+    case STATIC_PLANE_PROXYTYPE:
+        return add_plane(bullet, static_cast<const btStaticPlaneShape*>(shape), taking);
+    case COMPOUND_SHAPE_PROXYTYPE:
+        return add_compound(bullet, static_cast<const btCompoundShape*>(shape), taking);
+    case EMPTY_SHAPE_PROXYTYPE: return HAIR_OK;
+    case SDF_SHAPE_PROXYTYPE: break;
+    default:
+        if (shape->isConvex())
+            return hair_bullet_add_hull(bullet, static_cast<const btConvexShape*>(shape), taking);
+        if (shape->isConcave())
+            return hair_bullet_add_mesh(bullet, static_cast<const btConcaveShape*>(shape), taking);
+    }
+    return hair_bullet_wrong(bullet, shape, taking, "cannot be a solid");
+}

@@ -1,0 +1,101 @@
+// bullet.h - for tests in C++ of libhair_bullet: cmocka, a counting host, and Bullet's own distance to a shape.
+#ifndef HAIR_TESTS_SUPPORT_BULLET_H
+#define HAIR_TESTS_SUPPORT_BULLET_H
+
+#include <btBulletCollisionCommon.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <hair/hair_bullet.h>
+
+#include <cmath>
+#include <cstring>
+
+extern "C" {
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include "tests/support/host.h"
+
+double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3]);
+}
+
+// Of each test: a host, and what converts.
+struct bullet_test {
+    hair_test_host host;
+    hair_bullet*   bullet;
+};
+static bullet_test test;
+
+static int start(void**)
+{
+    hair_test_host_init(&test.host);
+    return hair_bullet_create(&test.host.host, sizeof(btScalar), &test.bullet);
+}
+
+static int stop(void**)
+{
+    hair_bullet_destroy(test.bullet);
+    if (test.host.blocks) print_message("%u blocks of memory were not freed\n", test.host.blocks);
+    if (test.host.errors) print_message("%s\n", test.host.sentence);
+    return test.host.blocks || test.host.errors;
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, start, stop)
+
+// The list, of the given length.
+static inline const hair_solid* solids(uint32_t expected)
+{
+    uint32_t          count;
+    const hair_solid* list = hair_bullet_solids(test.bullet, &count);
+    assert_int_equal(count, expected);
+    return list;
+}
+
+static inline double nearest(const btVector3& p)
+{
+    uint32_t          count;
+    const hair_solid* list     = hair_bullet_solids(test.bullet, &count);
+    double            distance = INFINITY;
+    const double      at[3]    = {p.x(), p.y(), p.z()};
+    for (uint32_t i = 0; i < count; ++i)
+        distance = std::fmin(distance, hair_distance_to_solid(&list[i], at, nullptr));
+    return distance;
+}
+
+// By GJK, from a point to a convex shape with its margin; inside its core by EPA, which is less exact.
+static inline double gjk(const btConvexShape* shape, const btTransform& where, const btVector3& p)
+{
+    btSphereShape                        point(0);
+    btVoronoiSimplexSolver               simplex;
+    btGjkEpaPenetrationDepthSolver       depth;
+    btGjkPairDetector                    detector(shape, &point, &simplex, &depth);
+    btGjkPairDetector::ClosestPointInput input;
+    btPointCollector                     result;
+    input.m_transformA = where;
+    input.m_transformB = btTransform(btQuaternion::getIdentity(), p);
+    detector.getClosestPoints(input, result, nullptr);
+    return result.m_hasResult ? result.m_distance : INFINITY;
+}
+
+struct randoms {
+    uint32_t seed = 1;
+    btScalar next(btScalar least, btScalar most)
+    {
+        seed = seed * 1664525u + 1013904223u;
+        return least + (most - least) * btScalar(seed >> 8) / btScalar(16777216);
+    }
+    btVector3 vector(btScalar reach)
+    {
+        const btScalar x = next(-reach, reach), y = next(-reach, reach);
+        return btVector3(x, y, next(-reach, reach));
+    }
+    btTransform transform(btScalar reach)
+    {
+        btQuaternion q(next(-1, 1), next(-1, 1), next(-1, 1), next(-1, 1) + btScalar(0.01));
+        return btTransform(q.normalized(), vector(reach));
+    }
+};
+
+#endif
