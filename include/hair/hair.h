@@ -176,6 +176,7 @@ typedef struct hair_form_desc {
     float
         voxel; ///< Their size instead, as far as 256 of them suffice. m. 0 (by resolution) to 1e6. Default 0.
     float thickness; ///< Of the shell that an open mesh is; at least 2 voxels. m. [0, 1e6]. Default 0.
+    float room;      ///< Kept around the surface too, for solids rounded by it. m. [0, 1e6]. Default 0.
 } hair_form_desc;
 HAIR_DESC(hair_form_desc)
 

@@ -77,7 +77,7 @@ hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* sh
                                  const hair_taking& taking, const hair_form* form, float rounding,
                                  float scale);
 hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                                  const struct hair_mesh& mesh, const hair_form** out);
+                                  const struct hair_mesh& mesh, float room, const hair_form** out);
 uint64_t    hair_bullet_print(uint64_t print, const void* bytes, size_t size); // FNV-1a, from a print on
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,

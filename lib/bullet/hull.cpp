@@ -152,6 +152,7 @@ static uint64_t print_of(const cloud& points)
 {
     uint64_t print = hair_bullet_print(0xcbf29ce484222325u, points.mesh.positions,
                                        3 * sizeof(float) * points.mesh.vertex_count);
+    print          = hair_bullet_print(print, &points.rounding, sizeof points.rounding);
     return print > 1 ? print : 2;
 }
 
@@ -177,8 +178,9 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
         hair_mesh hull = {};
         hull.host      = &bullet->host;
         close_hull(points.mesh, &hull);
-        hair_result result =
-            hull.result ? hull.result : hair_bullet_make_form(bullet, shape, print, hull, &form);
+        hair_result result = hull.result
+                                 ? hull.result
+                                 : hair_bullet_make_form(bullet, shape, print, hull, points.rounding, &form);
         hull.release();
         if (result) return result;
     }

@@ -45,7 +45,7 @@ void hair_mesh::release()
 }
 
 hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                                  const hair_mesh& mesh, const hair_form** out)
+                                  const hair_mesh& mesh, float room, const hair_form** out)
 {
     hair_form_desc desc = hair_form_desc_default();
     hair_form*     form = nullptr;
@@ -55,6 +55,7 @@ hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* s
     desc.vertex_count   = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution     = bullet->resolution;
+    desc.room           = room;
     hair_result result  = HAIR_OK;
     if (mesh.triangle_count && mesh.positions) result = hair_form_create(&desc, &form);
     if (result && result != HAIR_ERROR_ARGUMENT) return result;
@@ -144,12 +145,13 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 // What of a shape can be looked at in no time: its bounds and its scale.
 static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, const btVector3& upper)
 {
-    float numbers[9];
+    float numbers[10];
     for (int k = 0; k < 3; ++k) {
         numbers[k]     = static_cast<float>(lower[k]);
         numbers[3 + k] = static_cast<float>(upper[k]);
         numbers[6 + k] = static_cast<float>(shape->getLocalScaling()[k]);
     }
+    numbers[9]     = static_cast<float>(shape->getMargin());
     uint64_t print = hair_bullet_print(0xcbf29ce484222325u, numbers, sizeof numbers);
     return print > 1 ? print : 2;
 }
@@ -169,7 +171,9 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
         hair_bullet_keep(bullet, shape, print, nullptr);
         result = hair_bullet_wrong(bullet, shape, taking, "has more than 5592405 triangles");
     }
-    if (!result) result = hair_bullet_make_form(bullet, shape, print, mesh, out);
+    if (!result)
+        result = hair_bullet_make_form(bullet, shape, print, mesh, 2 * static_cast<float>(shape->getMargin()),
+                                       out);
     mesh.release();
     return result;
 }

@@ -11,7 +11,7 @@
 #define LEAST_SIZE 1e-6f     // m: of a mesh
 #define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
 #define MOST_VOXELS 256      // along the longest side
-#define MOST_WORK 2000000000 // triangles and boxes looked at: a minute or less
+#define MOST_WORK 500000000 // triangles and boxes looked at
 #define SWEEPS 8             // each way along the three axes
 
 static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
@@ -42,7 +42,7 @@ static float farthest_from_origin(const struct hair_triangles* t)
            longest(t->bounds.upper);
 }
 
-// How fine, and how thick a shell is, so that neither makes more nodes than the resolution says.
+// How fine, and how thick a shell is, so that neither makes more nodes than the resolution says, nor room many more.
 static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles* t, hair_form_info* info)
 {
     float side      = longest(hair_sub(t->bounds.upper, t->bounds.lower));
@@ -53,7 +53,8 @@ static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles
         info->voxel = fmaxf(desc->voxel, side / (voxels - 2));
         thickness   = 2 * info->voxel;
     }
-    info->thickness = thickness;
+    info->voxel     = fmaxf(info->voxel, (side + thickness + 2 * desc->room) / MOST_VOXELS);
+    info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel);
 }
 
 static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triangles* t, hair_form* form)
@@ -71,7 +72,7 @@ static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triang
                          "hair_form_desc: the mesh is %g m long but up to %g m from its origin: too far for "
                          "voxels of %g m",
                          (double)side, (double)far, (double)form->voxel);
-    float       room      = form->info.thickness / 2 + HAIR_FORM_PADDING * form->voxel;
+    float       room      = form->info.thickness / 2 + desc->room + HAIR_FORM_PADDING * form->voxel;
     const float lower[3]  = {t->bounds.lower.x, t->bounds.lower.y, t->bounds.lower.z};
     const float upper[3]  = {t->bounds.upper.x, t->bounds.upper.y, t->bounds.upper.z};
     const float center[3] = {t->center.x, t->center.y, t->center.z};

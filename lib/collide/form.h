@@ -16,8 +16,8 @@ struct hair_form {
     uint32_t       size[3];   // nodes along x, y, z
     float          origin[3]; // of the first node, m
     float          voxel;     // from node to node, m
-    // m, below 0 inside; node (i, j, k) is at i + size[0] (j + size[1] k). The surface stays HAIR_FORM_PADDING voxels
-    // away from the grid's faces. Exact up to HAIR_FORM_BAND voxels from the mesh, beyond it as good as exact.
+    // m, below 0 inside; node (i, j, k) is at i + size[0] (j + size[1] k). The surface, and the room
+    // around it, stay HAIR_FORM_PADDING voxels away from the grid's faces. Exact up to HAIR_FORM_BAND voxels from the mesh, beyond it as good as exact.
     float* distance;
 };
 
