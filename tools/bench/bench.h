@@ -49,7 +49,7 @@ struct bench_suite {
     void (*run)(struct bench* bench);
 };
 
-extern const struct bench_suite bench_accuracy, bench_field, bench_physics, bench_stability;
+extern const struct bench_suite bench_accuracy, bench_collision, bench_field, bench_physics, bench_stability;
 
 // Whether to make the row, or rows, of this case and method: it is asked for, this is no planning, and nobody
 // has interrupted. Shows progress.

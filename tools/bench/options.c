@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_field, &bench_physics,
-                                                   &bench_stability};
+static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_collision, &bench_field,
+                                                   &bench_physics, &bench_stability};
 
 #define MOST_SCENE 999999999
 
@@ -24,7 +24,9 @@ static const struct row {
     {"csv", CSV, "FILE", "write the rows as CSV, with the same keys"},
     {"quick", QUICK, NULL, "fewer and smaller cases: a minute at most"},
     {"case", CASE, "NAME", "only this case of the suite"},
-    {"method", METHOD, "NAME", "only this solver: direct, accurate, follow or redblack"},
+    {"method", METHOD, "NAME",
+     "only this solver: direct, accurate, follow or redblack; of collision, only\n"
+     "                   none, switch, push, compute or prepass"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
     {"strands", STRANDS, "N", "copies of the strand that are timed; 1000"},
     {"scene", SCENE, "N", "of the case fuzz, only this random scene, or those of N-M"},
@@ -38,7 +40,8 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
-static const char* const solvers[]  = {"direct", "accurate", "follow", "redblack", NULL};
+static const char* const methods[]  = {"direct", "accurate", "follow",  "redblack", "none",
+                                       "switch", "push",     "compute", "prepass",  NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)
@@ -110,7 +113,7 @@ static bool take(const struct row* row, const char* value, struct bench_options*
     case CSV: out->csv = value; return true;
     case QUICK: out->quick = true; return true;
     case CASE: out->only_case = value; return true;
-    case METHOD: out->only_method = value; return parse_name(row->name, value, solvers, &number);
+    case METHOD: out->only_method = value; return parse_name(row->name, value, methods, &number);
     case MAPPING:
         if (!parse_name(row->name, value, mappings, &number)) return false;
         out->mapping = (hair_mapping)number;

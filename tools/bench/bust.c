@@ -1,0 +1,189 @@
+// bust.c - long hair on a head and shoulders in motion.
+#include "tools/bench/bust.h"
+#include "tools/common/stats.h"
+#include "tools/common/subject.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_PASSES 512
+#define MOST_RUNS 15
+
+static bool make_target(struct bench_bust* bust)
+{
+    glCreateFramebuffers(1, &bust->target[0]);
+    glCreateRenderbuffers(1, &bust->target[1]);
+    glNamedRenderbufferStorage(bust->target[1], GL_RGBA8, 16, 16);
+    glNamedFramebufferRenderbuffer(bust->target[0], GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, bust->target[1]);
+    glBindFramebuffer(GL_FRAMEBUFFER, bust->target[0]);
+    glViewport(0, 0, 16, 16);
+    return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+static bool place(struct bench_bust* bust, float transform[16])
+{
+    hair_motion_at(&bust->scene.motion, (float)bust->frame / BUST_FPS, transform);
+    bust->solid_count = hair_rig_solids(&bust->scene, transform, bust->solids);
+    return !bust->hair ||
+           (!hair_set_transform(bust->hair, transform) &&
+            !hair_set_solids(bust->hair, bust->solids, bust->solid_count, sizeof *bust->solids));
+}
+
+static bool bring_to_life(struct bench_bust* bust, hair_first_hit first_hit)
+{
+    hair_groom_info info = hair_groom_info_default();
+    hair_desc       desc = bust->scene.settings.desc;
+    desc.physics         = &bust->scene.settings.physics;
+    desc.look            = &bust->look;
+    desc.first_hit       = first_hit;
+    if (!place(bust, desc.transform)) return false;
+    if (hair_create(bust->bench->context, bust->groom, &desc, &bust->hair)) return false;
+    if (hair_groom_describe(bust->groom, &info) || !place(bust, desc.transform)) return false;
+    bust->followers = info.follower_count;
+    bust->guides    = info.guide_count;
+    for (int i = 0; i < BUST_FPS / 2; ++i)
+        if (hair_step(bust->hair, 1.0f / BUST_FPS)) return false;
+    uint32_t smooth;
+    if (hair_read(bust->hair, HAIR_READ_SMOOTH, NULL, 0, &smooth)) return false;
+    bust->smooth = smooth / bust->guides;
+    return make_target(bust);
+}
+
+bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_first_hit first_hit,
+                     struct bench_bust* out)
+{
+    memset(out, 0, sizeof *out);
+    out->bench = bench;
+    snprintf(bench->sentence, sizeof bench->sentence, "the scene could not be made");
+    hair_scene_default(&out->scene);
+    if (!hair_scene_named(BENCH_TOOL, "demo", &out->scene)) return false;
+    if (followers) out->scene.settings.groom.follower_count = followers;
+    out->look       = out->scene.settings.look;
+    out->look.frizz = 0; // Turns are to be those that interpolation and solids make.
+    if (segments) out->look.segments = segments;
+    if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
+        bring_to_life(out, first_hit))
+        return true;
+    bench_bust_free(out);
+    return false;
+}
+
+void bench_bust_free(struct bench_bust* bust)
+{
+    hair_destroy(bust->hair);
+    hair_groom_destroy(bust->groom);
+    glDeleteFramebuffers(1, &bust->target[0]);
+    glDeleteRenderbuffers(1, &bust->target[1]);
+    bust->hair  = NULL;
+    bust->groom = NULL;
+}
+
+bool bench_bust_step(struct bench_bust* bust)
+{
+    float transform[16];
+    ++bust->frame;
+    return place(bust, transform) && !hair_step(bust->hair, 1.0f / BUST_FPS);
+}
+
+bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* followers)
+{
+    uint32_t count       = bust->followers * (bust->look.segments + 1), there;
+    bust->look.collision = collision;
+    return !hair_set_look(bust->hair, &bust->look) &&
+           !hair_read(bust->hair, HAIR_READ_FOLLOWERS, followers, count, &there) && there == count;
+}
+
+bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
+{
+    uint32_t count = bust->guides * bust->smooth, there, each = bust->look.segments + 1;
+    float*   all = malloc(3 * sizeof *all * count);
+    bool     ok  = all && !hair_read(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
+    for (uint32_t i = 0; i < bust->guides * each && ok; ++i) {
+        float    at    = (float)(i % each) / (float)(each - 1) * (float)(bust->smooth - 1);
+        uint32_t k     = (uint32_t)at < bust->smooth - 2 ? (uint32_t)at : bust->smooth - 2;
+        float    share = at - (float)k;
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            const float* a       = all + 3 * (i / each * bust->smooth + k) + axis;
+            guides[3 * i + axis] = a[0] + share * (a[3] - a[0]);
+        }
+    }
+    free(all);
+    return ok;
+}
+
+// All solids of the bust are capsules.
+double bench_bust_distance(const struct bench_bust* bust, const float at[3])
+{
+    double least = INFINITY;
+    for (uint32_t i = 0; i < bust->solid_count; ++i) {
+        const hair_solid* solid = &bust->solids[i];
+        const float*      q     = solid->rotation;
+        double            x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
+        double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3],
+               along   = 0;
+        double half    = (double)solid->size[1];
+        for (int k = 0; k < 3; ++k) {
+            arm[k] = (double)at[k] - (double)solid->position[k];
+            along += arm[k] * axis[k];
+        }
+        along         = fmin(fmax(along, -half), half);
+        double square = 0;
+        for (int k = 0; k < 3; ++k) square += (arm[k] - along * axis[k]) * (arm[k] - along * axis[k]);
+        least = fmin(least, sqrt(square) - (double)solid->size[0]);
+    }
+    return least;
+}
+
+// Timing ----------------------------------------------------------------------------------------------------
+
+static double time_of_passes(hair_context* context)
+{
+    hair_timing now[MOST_PASSES];
+    uint32_t    count = hair_timings(context, now, MOST_PASSES);
+    double      ms    = 0;
+    for (uint32_t i = 0; i < count && i < MOST_PASSES; ++i)
+        if (strstr(now[i].pass, "interpolate/hit") || strstr(now[i].pass, "interpolate/repair"))
+            ms += now[i].total_ms;
+    return ms;
+}
+
+// A frame of which next to nothing is drawn. What it finds, a second one need not look for.
+static bool draw(struct bench_bust* bust, bool again, double* ms)
+{
+    hair_look look = bust->look;
+    hair_view view = hair_view_default();
+    view.pass      = HAIR_PASS_DEPTH;
+    view.primitive = HAIR_LINES;
+    look.density   = 1e-6f;
+    glFinish();
+    double passes = time_of_passes(bust->bench->context), start = hair_now();
+    if (!again && hair_set_look(bust->hair, &look)) return false;
+    if (hair_draw(bust->hair, &view)) return false;
+    glFinish();
+    *ms = bust->bench->software ? hair_now() - start : time_of_passes(bust->bench->context) - passes;
+    return true;
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* ms, uint32_t* runs)
+{
+    double all[MOST_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
+    bust->look.collision = collision;
+    *runs                = 0;
+    for (int k = -2; k < MOST_RUNS; ++k) { // The first two compile what they need.
+        if (!draw(bust, false, &first) || !draw(bust, true, &second) || bench_was_interrupted()) return false;
+        if (k < 0) start = hair_now();
+        if (k >= 0) all[(*runs)++] = fmax(first - second, 0);
+        if (k >= 2 && hair_now() - start > enough) break;
+    }
+    qsort(all, *runs, sizeof *all, compare);
+    *ms = all[*runs / 2];
+    return true;
+}
