@@ -119,10 +119,10 @@ static int make_render(struct capture* capture)
     return code ? code : make_mesh(capture);
 }
 
-static hair_result set_solids(struct capture* capture, const float transform[16])
+static hair_result set_solids(struct capture* capture, float time, const float transform[16])
 {
     hair_solid solids[HAIR_RIG_SOLIDS];
-    uint32_t   count = hair_rig_solids(&capture->options.scene, transform, solids);
+    uint32_t   count = hair_rig_solids(&capture->options.scene, time, transform, solids);
     return hair_set_solids(capture->hair, solids, count, sizeof *solids);
 }
 
@@ -135,7 +135,7 @@ static int make_hair(struct capture* capture)
     desc.look                      = &scene->settings.look;
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
-    if (!result) result = set_solids(capture, desc.transform);
+    if (!result) result = set_solids(capture, 0, desc.transform);
     return hair_exit_for(result);
 }
 
@@ -178,10 +178,10 @@ static hair_result step(struct capture* capture, uint32_t frame)
     int                      parts  = (int)ceilf(1 / (scene->fps * LONGEST_STEP) - 1e-4f);
     hair_result              result = HAIR_OK;
     for (int i = 1; i <= parts && !result; ++i) {
-        float transform[16];
-        hair_motion_at(&scene->motion, time_of(capture, frame - 1 + (double)i / parts), transform);
+        float transform[16], time = time_of(capture, frame - 1 + (double)i / parts);
+        hair_motion_at(&scene->motion, time, transform);
         result = hair_set_transform(capture->hair, transform);
-        if (!result) result = set_solids(capture, transform);
+        if (!result) result = set_solids(capture, time, transform);
         if (!result) result = hair_step(capture->hair, 1 / (scene->fps * (float)parts));
     }
     return result;

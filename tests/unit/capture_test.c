@@ -153,6 +153,9 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
         {"{\"motion\": [{\"time\": 1}, {\"time\": 1}]}", "in order of time"},
         {"{\"motion\": [{\"time\": 1, \"dance\": 1}]}", "motion[0].dance"},
         {"{\"solids\": [{\"shape\": \"cube\"}]}", "solids[0].shape"},
+        {"{\"solids\": [{\"motion\": [{\"time\": 1}, {\"time\": 0}]}]}", "solids[0].motion must be in order"},
+        {"{\"solids\": [{\"stays\": 1}]}", "solids[0].stays must be true or false"},
+        {"{\"solids\": [{\"spin\": 1}]}", "solids[0].spin must be 3 numbers"},
         {"{\"settings\": {\"dance\": 1}}", "no setting dance"},
         {"{\"settings\": {\"damping\": null}}", "damping must be a number"},
         {"{\"groom\": \"\"}", "the name of a file"},
@@ -247,6 +250,30 @@ static void what_is_shown_is_what_was_asked_for(void** state)
     expect(0, "sort -u $D/shown | wc -l", "6");
     expect(0, "$T $D/ball.json --samples 1 --frames 0:1 --hash | grep -c -f $D/shown", "1"); // As "hair".
     expect(0, "rm $D/shown $D/ball.json", "");
+}
+
+// Every way to move leads to the same place: the picture is that of a solid which stands there.
+static void solids_are_where_their_motion_says(void** state)
+{
+    (void)state;
+    static const char* const ways[] = {
+        "\"position\": [0.1, 1.6, 0.2], \"rotation\": [0, 0.70710678, 0, 0.70710678]",
+        "\"position\": [0, 1.6, 0.2], \"velocity\": [1, 0, 0], \"spin\": [0, 900, 0]",
+        "\"position\": [0, 1.6, 0.2], \"motion\": [{\"time\": 0.1, \"rotation\": [90, 0, 0], "
+        "\"position\": [0.1, 0, 0]}]"};
+    for (int i = 0; i < 3; ++i) {
+        char command[640];
+        snprintf(command, sizeof command,
+                 "sed 's/{/{\"solids\": [{\"shape\": \"cone\", \"radius\": 0.05, \"half_length\": 0.1, "
+                 "\"rounding\": 0.01, \"stays\": true, %s}], /' $D/small.json >$D/moved.json",
+                 ways[i]);
+        expect(0, command, "");
+        expect(0, "$T $D/moved.json --samples 1 --frames 3:4 --show solids -o $D/way.png", "");
+        snprintf(command, sizeof command, "mv $D/way.png $D/way%d.png", i);
+        expect(0, command, "");
+    }
+    expect(0, "cmp $D/way0.png $D/way1.png && cmp $D/way0.png $D/way2.png && rm $D/way?.png $D/moved.json",
+           "");
 }
 
 static void pictures_and_videos_are_in_their_formats(void** state)
@@ -460,6 +487,7 @@ int main(void)
         cmocka_unit_test(hashes_tell_one_capture_from_another),
         cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
         cmocka_unit_test(what_is_shown_is_what_was_asked_for),
+        cmocka_unit_test(solids_are_where_their_motion_says),
         cmocka_unit_test(pictures_and_videos_are_in_their_formats),
         cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),
         cmocka_unit_test(an_encoder_that_fails_leaves_no_video),

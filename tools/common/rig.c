@@ -63,37 +63,22 @@ static float weight(float height)
     return t * t * (3 - 2 * t);
 }
 
-static void carry(const float transform[16], float share, hair_solid* solid)
-{
-    mat4   m;
-    versor turn, none = GLM_QUAT_IDENTITY_INIT, own;
-    vec3   rest = {solid->position[0], solid->position[1], solid->position[2]}, moved;
-    memcpy(m, transform, sizeof m);
-    glm_mat4_mulv3(m, rest, 1, moved);
-    glm_vec3_lerp(rest, moved, share, moved);
-    memcpy(solid->position, moved, sizeof solid->position);
-
-    glm_mat4_quat(m, turn);
-    glm_quat_slerp(none, turn, share, turn);
-    memcpy(own, solid->rotation, sizeof own);
-    glm_quat_mul(turn, own, own);
-    glm_quat_normalize(own);
-    memcpy(solid->rotation, own, sizeof own);
-}
-
-uint32_t hair_rig_solids(const struct hair_scene* scene, const float transform[16],
+uint32_t hair_rig_solids(const struct hair_scene* scene, float time, const float transform[16],
                          hair_solid out[HAIR_RIG_SOLIDS])
 {
     uint32_t count = 0;
     if (scene->head) count = head_solids(out, HEAD_SOLIDS);
-    for (uint32_t i = 0; i < count; ++i) carry(transform, weight(out[i].position[1]), &out[i]);
+    for (uint32_t i = 0; i < count; ++i) hair_solid_carry(transform, weight(out[i].position[1]), &out[i]);
 
-    uint32_t others = count;
-    if (scene->subject == HAIR_SUBJECT_FUR)
-        out[count++] =
-            (hair_solid){.rotation = {0, 0, 0, 1}, .size = {scene->ball_radius}, .scale = 1, .friction = 1};
-    memcpy(out + count, scene->solids, scene->solid_count * sizeof *out);
-    count += scene->solid_count;
-    for (uint32_t i = others; i < count; ++i) carry(transform, 1, &out[i]);
+    if (scene->subject == HAIR_SUBJECT_FUR) {
+        out[count]         = hair_solid_default();
+        out[count].size[0] = scene->ball_radius;
+        hair_solid_carry(transform, 1, &out[count++]);
+    }
+    for (uint32_t i = 0; i < scene->solid_count; ++i) {
+        out[count] = hair_scene_solid_at(&scene->solids[i], time);
+        if (!scene->solids[i].stays) hair_solid_carry(transform, 1, &out[count]);
+        ++count;
+    }
     return count;
 }

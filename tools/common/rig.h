@@ -15,8 +15,8 @@
 // The ball that fur grows on. Returns 0, or -1 when memory ran out; head_mesh_free undoes it.
 int hair_rig_ball(float radius, struct head_mesh* out);
 
-// The scene's solids in the world, with the head at `transform`. Returns how many.
-uint32_t hair_rig_solids(const struct hair_scene* scene, const float transform[16],
+// The scene's solids in the world at a time, in s, with the head at `transform`. Returns how many.
+uint32_t hair_rig_solids(const struct hair_scene* scene, float time, const float transform[16],
                          hair_solid out[HAIR_RIG_SOLIDS]);
 
 #endif

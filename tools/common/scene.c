@@ -121,30 +121,10 @@ static bool read_fur(const place* json, const char* key, const json_t* value, vo
     return hair_json_object(json, key, value, entries, out);
 }
 
-static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
-{
-    hair_solid* solid = out;
-    const char* name  = json_is_string(value) ? json_string_value(value) : "";
-    if (strcmp(name, "sphere") && strcmp(name, "capsule"))
-        return hair_json_wrong(json, key, "\"sphere\" or \"capsule\"");
-    solid->shape = *name == 's' ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
-    return true;
-}
-
 static bool read_solids(const place* json, const char* key, const json_t* value, void* out)
 {
-    static const entry entries[] = {OTHER("shape", read_shape),
-                                    NUMBERS("position", offsetof(hair_solid, position), 3, -FAR, FAR),
-                                    NUMBERS("rotation", offsetof(hair_solid, rotation), 4, -1, 1),
-                                    NUMBERS("radius", offsetof(hair_solid, size[0]), 1, 1e-6, FAR),
-                                    NUMBERS("half_length", offsetof(hair_solid, size[1]), 1, 0, FAR),
-                                    END};
-    struct hair_scene* scene     = out;
-    for (uint32_t i = 0; i < HAIR_SCENE_SOLIDS; ++i)
-        scene->solids[i] =
-            (hair_solid){.rotation = {0, 0, 0, 1}, .size = {0.1f, 0.1f, 0.1f}, .scale = 1, .friction = 1};
-    return hair_json_array(json, key, value, entries, scene->solids, sizeof *scene->solids, HAIR_SCENE_SOLIDS,
-                           &scene->solid_count);
+    struct hair_scene* scene = out;
+    return hair_scene_read_solids(json, key, value, scene->solids, HAIR_SCENE_SOLIDS, &scene->solid_count);
 }
 
 // Motion, camera, settings ----------------------------------------------------------------------------------

@@ -1,0 +1,120 @@
+// scene_solids.c - what hair collides with in a scene, from JSON, and where it is over time.
+#include "tools/common/scene_solids.h"
+
+#include <cglm/cglm.h>
+
+#include <string.h>
+
+#define FAR 1e6 // Of any coordinate, m.
+
+typedef struct hair_json       place;
+typedef struct hair_json_entry entry;
+
+#define NUMBERS(key, member, count, min, max)                                                                \
+    {                                                                                                        \
+        key, HAIR_JSON_NUMBERS, offsetof(struct hair_scene_solid, member), count, min, max, NULL, NULL       \
+    }
+#define OTHER(key, read)                                                                                     \
+    {                                                                                                        \
+        key, HAIR_JSON_OTHER, 0, 1, 0, 0, NULL, read                                                         \
+    }
+#define END                                                                                                  \
+    {                                                                                                        \
+        NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
+    }
+
+static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const char* const names[] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
+    struct hair_scene_solid* solid   = out;
+    const char*              name    = json_is_string(value) ? json_string_value(value) : "";
+    for (int i = 0; i <= HAIR_SHAPE_PLANE; ++i)
+        if (strcmp(name, names[i]) == 0) {
+            solid->solid.shape = (hair_shape)i;
+            return true;
+        }
+    return hair_json_wrong(json, key,
+                           "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"cone\" or \"plane\"");
+}
+
+static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
+{
+    static const entry entries[] = {
+        {"time", HAIR_JSON_NUMBERS, offsetof(struct hair_key, time), 1, 0, FAR, NULL, NULL},
+        {"rotation", HAIR_JSON_NUMBERS, offsetof(struct hair_key, rotation), 3, -FAR, FAR, NULL, NULL},
+        {"position", HAIR_JSON_NUMBERS, offsetof(struct hair_key, position), 3, -FAR, FAR, NULL, NULL},
+        END};
+    struct hair_scene_solid* solid = out;
+    if (!hair_json_array(json, key, value, entries, solid->key, sizeof *solid->key, HAIR_SCENE_SOLID_KEYS,
+                         &solid->key_count))
+        return false;
+    for (uint32_t i = 1; i < solid->key_count; ++i)
+        if (solid->key[i].time <= solid->key[i - 1].time)
+            return hair_json_wrong(json, key, "in order of time");
+    return true;
+}
+
+bool hair_scene_read_solids(const place* json, const char* key, const json_t* value,
+                            struct hair_scene_solid* solids, uint32_t most, uint32_t* count)
+{
+    static const entry entries[] = {
+        OTHER("shape", read_shape),
+        NUMBERS("position", solid.position, 3, -FAR, FAR),
+        NUMBERS("rotation", solid.rotation, 4, -1, 1),
+        NUMBERS("radius", solid.size[0], 1, 0, FAR),
+        NUMBERS("half_length", solid.size[1], 1, 0, FAR),
+        NUMBERS("size", solid.size, 3, 0, FAR),
+        NUMBERS("rounding", solid.rounding, 1, 0, FAR),
+        NUMBERS("friction", solid.friction, 1, 0, 100),
+        NUMBERS("velocity", velocity, 3, -1e3, 1e3),
+        NUMBERS("spin", spin, 3, -1e5, 1e5),
+        OTHER("motion", read_motion),
+        {"stays", HAIR_JSON_BOOLEAN, offsetof(struct hair_scene_solid, stays), 1, 0, 0, NULL, NULL},
+        END};
+    for (uint32_t i = 0; i < most; ++i) {
+        solids[i] = (struct hair_scene_solid){.solid = hair_solid_default()};
+        for (int k = 0; k < 3; ++k) solids[i].solid.size[k] = 0.1f;
+    }
+    return hair_json_array(json, key, value, entries, solids, sizeof *solids, most, count);
+}
+
+void hair_solid_carry(const float transform[16], float share, hair_solid* solid)
+{
+    mat4   m;
+    versor turn, none = GLM_QUAT_IDENTITY_INIT, own;
+    vec3   rest = {solid->position[0], solid->position[1], solid->position[2]}, moved;
+    memcpy(m, transform, sizeof m);
+    glm_mat4_mulv3(m, rest, 1, moved);
+    glm_vec3_lerp(rest, moved, share, moved);
+    memcpy(solid->position, moved, sizeof solid->position);
+
+    glm_mat4_quat(m, turn);
+    glm_quat_slerp(none, turn, share, turn);
+    memcpy(own, solid->rotation, sizeof own);
+    glm_quat_mul(turn, own, own);
+    glm_quat_normalize(own);
+    memcpy(solid->rotation, own, sizeof own);
+}
+
+// Turned about its middle by its spin and along its keys, and moved by its velocity.
+hair_solid hair_scene_solid_at(const struct hair_scene_solid* from, float time)
+{
+    struct hair_motion motion = {.count = from->key_count};
+    hair_solid         solid  = from->solid;
+    vec3               spin   = {from->spin[0], from->spin[1], from->spin[2]};
+    float              angle  = glm_vec3_norm(spin) * glm_rad(time), transform[16];
+    if (angle != 0) {
+        versor turn, own;
+        memcpy(own, solid.rotation, sizeof own);
+        glm_quatv(turn, angle, spin);
+        glm_quat_mul(turn, own, own);
+        glm_quat_normalize(own);
+        memcpy(solid.rotation, own, sizeof own);
+    }
+    memcpy(motion.key, from->key, from->key_count * sizeof *from->key);
+    memcpy(motion.pivot, solid.position, sizeof motion.pivot);
+    hair_motion_at(&motion, time, transform);
+    hair_solid_carry(transform, 1, &solid);
+    for (int k = 0; k < 3; ++k) solid.position[k] += time * from->velocity[k];
+    return solid;
+}
