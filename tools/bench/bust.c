@@ -24,8 +24,9 @@ static bool make_target(struct bench_bust* bust)
 
 static bool place(struct bench_bust* bust, float transform[16])
 {
-    hair_motion_at(&bust->scene.motion, (float)bust->frame / BUST_FPS, transform);
-    bust->solid_count = hair_rig_solids(&bust->scene, transform, bust->solids);
+    float time = (float)bust->frame / BUST_FPS;
+    hair_motion_at(&bust->scene.motion, time, transform);
+    bust->solid_count = hair_rig_solids(&bust->scene, time, transform, bust->solids);
     return !bust->hair ||
            (!hair_set_transform(bust->hair, transform) &&
             !hair_set_solids(bust->hair, bust->solids, bust->solid_count, sizeof *bust->solids));
