@@ -46,8 +46,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 // The pass that writes the field has neither guides nor these:
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
-#define HAIR_BIND_MEMBER 1 // uint[]             places in the next, of the solids that reach into each brick
-#define HAIR_BIND_SOLID 2  // hair_field_solid[]
+#define HAIR_BIND_MEMBER 1 // uint[]             places in HAIR_UNIT_WORK of the solids that reach into each brick
 #define HAIR_BIND_NODE 3   // float[]            distances at the nodes of forms, m
 // The passes of the crowd, which is what a hair feels of the hair around it, read the state and the history; and:
 #define HAIR_BIND_CROWD 3  // int[]          of the grid: four per node, mass and momentum; then one, volume
@@ -85,6 +84,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
+#define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
 #define HAIR_IMAGE_FIELD 0
@@ -101,6 +101,7 @@ typedef uint32_t hair_uint;
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
+#define HAIR_SOLID_TEXELS 6
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32    // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast

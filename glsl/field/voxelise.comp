@@ -10,9 +10,26 @@ layout(local_size_x = HAIR_BRICK, local_size_y = HAIR_BRICK, local_size_z = HAIR
 
 layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_field_brick brick[]; };
 layout(std430, binding = HAIR_BIND_MEMBER) readonly buffer member_buffer { uint member[]; };
-layout(std430, binding = HAIR_BIND_SOLID) readonly buffer solid_buffer { hair_field_solid solid[]; };
+layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer solid_texture; // One driver reads storage many times as slowly.
 layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
 layout(binding = HAIR_IMAGE_SOLID, r32ui) writeonly uniform uimage3D solid_image;
+
+hair_field_solid fetch_solid(uint i)
+{
+    int              at = int(i) * HAIR_SOLID_TEXELS;
+    hair_field_solid solid;
+    uvec4            last = texelFetch(solid_texture, at + 5);
+    solid.position = uintBitsToFloat(texelFetch(solid_texture, at));
+    solid.rotation = uintBitsToFloat(texelFetch(solid_texture, at + 1));
+    solid.size     = uintBitsToFloat(texelFetch(solid_texture, at + 2));
+    solid.shape = last.x, solid.number = last.y;
+#ifdef HAIR_FORMS
+    uvec4 nodes = texelFetch(solid_texture, at + 4);
+    solid.grid  = uintBitsToFloat(texelFetch(solid_texture, at + 3));
+    solid.nodes_x = nodes.x, solid.nodes_y = nodes.y, solid.nodes_z = nodes.z, solid.first = nodes.w;
+#endif
+    return solid;
+}
 
 void main()
 {
@@ -23,7 +40,7 @@ void main()
     float            nearest  = field.inverse.w;
     uint             number   = HAIR_NO_SOLID;
     for (uint i = own.first; i < own.first + own.count; ++i) {
-        hair_field_solid other    = solid[member[i]];
+        hair_field_solid other    = fetch_solid(member[i]);
         float            distance = solid_distance(other, position);
         if (distance < nearest) {
             nearest = distance;

@@ -23,6 +23,7 @@ static void clear(struct hair_solid_field* field)
     hair_gl_free_texture(gl, &field->distance);
     hair_gl_free_texture(gl, &field->number);
     hair_gl_free_buffer(gl, &field->params);
+    hair_gl_free_texture(gl, &field->work_texture);
     hair_gl_free_buffer(gl, &field->work);
     hair_free(&gl->host, field->placed);
     hair_free(&gl->host, field->dirty);
@@ -47,6 +48,9 @@ static hair_result make(struct hair_solid_field* field)
         result = hair_gl_texture_3d(gl, "hair field solid", GL_R32UI, size, GL_NEAREST, &field->number);
     if (!result) result = hair_gl_uniform(gl, "hair field", sizeof(struct hair_field_params), &field->params);
     if (!result) result = hair_gl_uniform(gl, "hair field work", ALIGNMENT, &field->work);
+    if (!result)
+        result =
+            hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture);
     if (result) return result;
     field->dirty   = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
     field->members = hair_alloc(&gl->host, bricks, sizeof *field->members);
@@ -133,17 +137,17 @@ static size_t aligned(size_t size)
     return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
-// Bricks, those with forms, members and solids, one after the other in one buffer.
+// Solids, members, bricks and those with forms, one after the other in one buffer.
 #define PARTS 4
 
 static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bricks, int part,
                 const GLintptr* at, const GLsizeiptr* length)
 {
-    const GLuint     buffers[] = {field->work, field->work, field->work};
-    const GLintptr   begin[]   = {at[part], at[2], at[3]};
-    const GLsizeiptr size[]    = {length[part], length[2], length[3]};
+    const GLuint     buffers[] = {field->work, field->work};
+    const GLintptr   begin[]   = {at[part], at[1]};
+    const GLsizeiptr size[]    = {length[part], length[1]};
     if (!bricks) return;
-    field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 3, buffers, begin, size);
+    field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
     hair_gl_run(field->gl, pass, bricks);
 }
 
@@ -151,9 +155,9 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
 {
     struct hair_gl* gl           = field->gl;
     uint32_t        plain        = job->bricks - job->with_forms;
-    const size_t    sizes[PARTS] = {plain * sizeof *job->brick, job->with_forms * sizeof *job->brick,
-                                    job->members * sizeof *job->member, job->solids * sizeof *job->solid};
-    const void*     parts[PARTS] = {job->brick, job->brick + plain, job->member, job->solid};
+    const size_t    sizes[PARTS] = {job->solids * sizeof *job->solid, job->members * sizeof *job->member,
+                                    plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
+    const void*     parts[PARTS] = {job->solid, job->member, job->brick, job->brick + plain};
     GLintptr        at[PARTS];
     GLsizeiptr      length[PARTS];
     size_t          all = 0;
@@ -163,6 +167,12 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
         length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
         all += aligned((size_t)length[i]);
     }
+    GLint most = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (sizes[0] / 16 > (size_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "the field's %u solids at once take more than the driver's %d texels", job->solids,
+                         most);
     unsigned char* bytes = hair_alloc(&gl->host, all, 1);
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
     for (int i = 0; i < PARTS; ++i)
@@ -173,10 +183,11 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     if (got != (GLint64)all)
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for hair field work",
                          all);
-    run(field, HAIR_GL_VOXELISE, plain, 0, at, length);
+    gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
+    run(field, HAIR_GL_VOXELISE, plain, 2, at, length);
     if (job->with_forms)
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
-    run(field, HAIR_GL_VOXELISE_FORMS, job->with_forms, 1, at, length);
+    run(field, HAIR_GL_VOXELISE_FORMS, job->with_forms, 3, at, length);
     return HAIR_OK;
 }
 

@@ -13,12 +13,13 @@ struct hair_solid_field {
     struct hair_gl*       gl;
     struct hair_forms*    forms; // of the context
     struct hair_field_box box;
-    GLuint                distance; // 3D texture, R16F, m; 0: there is none
-    GLuint                number;   // 3D texture, R32UI; HAIR_NO_SOLID where none is near
-    GLuint                params;   // uniform buffer
-    GLuint                work;     // what the last dispatch was to do
-    hair_quat             rotation; // of the head, as the parameters have it
-    struct hair_placed*   placed;   // as they were written
+    GLuint                distance;     // 3D texture, R16F, m; 0: there is none
+    GLuint                number;       // 3D texture, R32UI; HAIR_NO_SOLID where none is near
+    GLuint                params;       // uniform buffer
+    GLuint                work;         // what the last dispatch was to do
+    GLuint                work_texture; // the same
+    hair_quat             rotation;     // of the head, as the parameters have it
+    struct hair_placed*   placed;       // as they were written
     uint32_t              count, room;
     uint32_t              near;    // of them that reach into the box
     unsigned char*        dirty;   // per brick: is to be written

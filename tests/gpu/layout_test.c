@@ -325,7 +325,6 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
          sizeof(struct hair_field_params)},
         STORAGE(VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
         STORAGE(VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
-        STORAGE(VOXELISE, "solid_buffer", SOLID, sizeof(struct hair_field_solid)),
         DRAW(EXPAND),
         DRAW(RIBBONS)};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
