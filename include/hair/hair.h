@@ -6,7 +6,8 @@
 ///
 ///   Words      strand: one hair. guide: a strand that is simulated. follower: a strand made while drawing,
 ///              by interpolation. root, tip: first and last vertex of a strand. scalp: the surface that
-///              roots sit on. solid: a body hair collides with. step: one call of hair_step, made of substeps.
+///              roots sit on. solid: a body hair collides with. field: how far the nearest of them is, as a
+///              3D texture. step: one call of hair_step, made of substeps.
 ///   Units      metres, kilograms, seconds, radians. Right-handed; +y is up in the built-in haircuts only.
 ///              Matrices are 16 floats, column-major. Colours are linear, Rec. 709 primaries.
 ///   Ownership  Arrays and strings passed in are copied before the call returns. X_create is undone by
@@ -485,7 +486,7 @@ HAIR_API hair_result hair_get_health(hair_instance* hair, hair_health* out);
 typedef struct hair_field_info {
     hair_made made;
     uint32_t  distance_texture; ///< Of OpenGL: 3D, R16F. m, below 0 inside. 0: no solid reaches into the box.
-    uint32_t  solid_texture; ///< 3D, R32UI: number of the nearest solid, 4294967295 where none is near. Or 0.
+    uint32_t  solid_texture; ///< 3D, R32UI: which of hair_set_solids is nearest; 4294967295: none near. Or 0.
     uint32_t  size[3];       ///< Voxels along the head's x, y and z.
     float     voxel;         ///< Side of one. m.
     float     far; ///< Of solids farther than this it says so and no more; and so of all beyond the box. m.
