@@ -188,6 +188,18 @@ static bool blow(struct bench_watch* watch)
     physics.wind[2]      = 800;
     return shake_under(watch, &physics);
 }
+// As dense as hair can be: strands in one place, which a crowd would have apart.
+static void crowd(struct bench_scene* scene)
+{
+    scene->strands = 64;
+}
+static bool shake_in_crowd(struct bench_watch* watch)
+{
+    hair_physics physics = watch->calm;
+    physics.cohesion     = 1000;
+    physics.volume       = 100;
+    return shake_under(watch, &physics);
+}
 static bool weigh(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
@@ -290,6 +302,8 @@ const struct bench_stress bench_stresses[] = {
     {"young_0", make_limp, shake_ordinarily, true},
     {"damping_1000", NULL, shake_in_honey, false},
     {"wind_1000", NULL, blow, true},
+    {"crowd_of_1", NULL, shake_in_crowd, true},
+    {"crowd_coincident", crowd, shake_in_crowd, true},
     {"gravity_1000", NULL, weigh, false},
     {"coincident_vertices", let_three_coincide, shake_ordinarily, false},
     {"vertices_at_root", gather_at_root, shake_ordinarily, false},
