@@ -81,7 +81,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         result = draw_solids(hair, &own);
     } else {
         hair_smooth_need(&hair->smooth, &hair->sim);
-        if (own.pass != HAIR_PASS_GUIDES) result = meet_solids(hair);
+        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
         if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
     }
     hair_gl_leave(&context->gl);

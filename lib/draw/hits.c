@@ -6,6 +6,13 @@
 
 #define OUTSIDE 5e-4f // m: so far out of a solid, beyond the margin of guides, followers are put
 
+// A GPU wants many threads, each with little to do one after the other; a processor as little work as there need be.
+static hair_gl_pass pass_of(const struct hair_draw* draw)
+{
+    if (draw->hits.prepass) return HAIR_GL_PREPASS_HIT;
+    return draw->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP;
+}
+
 static hair_result make(struct hair_draw* draw)
 {
     struct hair_gl*   gl     = draw->gl;
@@ -22,7 +29,7 @@ static hair_result make(struct hair_draw* draw)
         result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL, &hits->repair);
     if (!result && pushes && !hits->repair_texture)
         result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, hits->repair, &hits->repair_texture);
-    if (!result) result = hair_gl_need(gl, hits->prepass ? HAIR_GL_PREPASS_HIT : HAIR_GL_HIT);
+    if (!result) result = hair_gl_need(gl, pass_of(draw));
     if (!result && hits->prepass) result = hair_draw_make_prepass(draw);
     if (!result && pushes) result = hair_gl_need(gl, HAIR_GL_REPAIR);
     return result;
@@ -57,8 +64,9 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    hair_gl_run(gl, hits->prepass ? HAIR_GL_PREPASS_HIT : HAIR_GL_HIT,
-                (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_pass pass   = pass_of(draw);
+    uint32_t     groups = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    hair_gl_run(gl, pass, pass == HAIR_GL_HIT_GROUP ? draw->followers : groups);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
         hair_gl_run(gl, HAIR_GL_REPAIR, (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }

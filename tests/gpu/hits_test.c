@@ -193,6 +193,34 @@ static void the_first_vertex_inside_is_found(void** state)
     finish(&f);
 }
 
+// On a GPU a work group looks at each follower.
+static void a_work_group_finds_the_same(void** state)
+{
+    static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
+    static float          hits[400], others[400];
+    struct fixture        f        = start(state, 0);
+    int                   software = f.test->context->gl.software;
+    for (size_t i = 0; i < 2 * sizeof segments / sizeof *segments; ++i) {
+        uint32_t       differ    = 0;
+        hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
+        f.look.segments          = segments[i / 2];
+        float* before            = read_followers(&f, collision);
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
+        f.test->context->gl.software = !software;
+        float* after                 = read_followers(&f, collision);
+        f.test->context->gl.software = software;
+        read_buffer(&f, f.hair->draw.hits.hit, sizeof *others, others);
+        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
+        assert_in_range(differ, 0, 1); // Where a vertex is on the surface, rounding decides.
+        if (!differ)
+            assert_memory_equal(before, after,
+                                3 * sizeof *after * f.groom->info.follower_count * (f.look.segments + 1));
+        free(before);
+        free(after);
+    }
+    finish(&f);
+}
+
 // Both evaluate the same function in other stages: where a vertex is on the surface, rounding decides.
 static void a_prepass_finds_the_same(void** state)
 {
@@ -426,6 +454,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(the_first_vertex_inside_is_found),
+        HAIR_TEST(a_work_group_finds_the_same),
         HAIR_TEST(a_prepass_finds_the_same),
         HAIR_TEST(below_its_hit_a_follower_keeps_to_its_own_guide),
         HAIR_TEST(what_leads_followers_round_solids_is_a_spline),
