@@ -44,8 +44,8 @@ guide_place find_place(uint number, float u)
     return guide_place(int(number * draw.smooth_vertices) + k, along - float(k));
 }
 
-// Beyond its tip (u > 1) a guide goes on straight.
-guide_point fetch_guide(uint number, float u)
+// Beyond its tip (u > 1) a guide goes on straight. `beyond`: it may; else its place needs no tangents.
+guide_point fetch_guide(uint number, float u, bool beyond)
 {
     guide_place place = find_place(number, u);
     vec4        a     = texelFetch(position_texture, place.at);
@@ -55,7 +55,7 @@ guide_point fetch_guide(uint number, float u)
     vec4        p     = mix(a, b, place.share);
     vec3        t     = direction_or(mix(ta, tb, place.share), ta);
     float       more  = max(u - 1.0, 0.0) * b.w;
-    return guide_point(p.xyz + more * t, t, p.w + more);
+    return beyond ? guide_point(p.xyz + more * t, t, p.w + more) : guide_point(p.xyz, t, p.w);
 }
 
 vec4 fetch_frame(uint number, float u)
@@ -81,12 +81,12 @@ struct repair {
 };
 const repair UNTOUCHED = repair(vec3(0.0), vec3(0.0), 0.0, 0.0);
 
-// Beyond t = 1 straight on.
-hair_point interpolate(hair_follower follower, float t, repair r)
+// Beyond t = 1 straight on. `beyond`: the follower may be longer than its guides.
+hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
 {
     float       u     = t * follower.length_ratio;
     float       v     = min(t, 1.0);
-    guide_point g0    = fetch_guide(follower.guide0, u);
+    guide_point g0    = fetch_guide(follower.guide0, u, beyond);
     vec4        frame = fetch_frame(follower.guide0, u);
     float       s     = 1.0 - v;
 
@@ -106,8 +106,8 @@ hair_point interpolate(hair_follower follower, float t, repair r)
     float clumped = follower.multi * (1.0 - draw.clump * smoothstep(0.1, 1.0, v));
     float multi   = clumped * (1.0 - r.freed);
     if (multi > 0.0) {
-        guide_point g1 = fetch_guide(follower.guide1, u);
-        guide_point g2 = fetch_guide(follower.guide2, u);
+        guide_point g1 = fetch_guide(follower.guide1, u, beyond);
+        guide_point g2 = fetch_guide(follower.guide2, u, beyond);
         float       w1 = follower.weight1, w2 = follower.weight2, w0 = 1.0 - w1 - w2;
         vec3        own     = vec3(follower.offset[1].w, follower.offset[2].w, follower.offset[3].w);
         vec3        blended = w0 * g0.position + w1 * g1.position + w2 * g2.position +
@@ -119,3 +119,5 @@ hair_point interpolate(hair_follower follower, float t, repair r)
     float taper = mix(1.0, draw.tip_radius, v * v);
     return hair_point(position + r.away, direction_or(tangent, g0.tangent), draw.radius * follower.offset[0].w * taper);
 }
+
+hair_point interpolate(hair_follower follower, float t, repair r) { return interpolate(follower, t, r, true); }

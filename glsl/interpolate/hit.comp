@@ -15,9 +15,10 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 layout(std430, binding = HAIR_BIND_HIT) writeonly restrict buffer hit_buffer { float hit[]; };
 layout(std430, binding = HAIR_BIND_LIST) restrict buffer list_buffer { uint list[]; };
 
-bool is_inside(hair_follower follower, uint k)
+bool is_inside(hair_follower follower, uint k, bool beyond)
 {
-    return field_distance(interpolate(follower, float(k) / float(draw.segments), UNTOUCHED).position) < 0.0;
+    float t = float(k) / float(draw.segments);
+    return field_distance(interpolate(follower, t, UNTOUCHED, beyond).position) < 0.0;
 }
 
 #ifdef HAIR_PREPASS
@@ -37,7 +38,7 @@ float find_first(uint number, hair_follower follower)
     for (uint from = 1u; from <= draw.segments && found == HAIR_NO_SOLID; from += HAIR_HIT_THREADS) {
         uint k = from + gl_LocalInvocationID.x;
         synchronise();
-        if (k <= draw.segments && is_inside(follower, k)) atomicMin(least, k);
+        if (k <= draw.segments && is_inside(follower, k, true)) atomicMin(least, k);
         synchronise();
         found = least;
     }
@@ -46,9 +47,13 @@ float find_first(uint number, hair_follower follower)
 #else
 float find_first(uint number, hair_follower follower)
 {
-    for (uint k = 1u; k <= draw.segments; ++k)
-        if (is_inside(follower, k)) return float(k);
-    return HAIR_NO_HIT;
+    // Where loops are run for several followers at once, that for all but the longest needs half as much of memory.
+    uint last = draw.segments, k = 1u;
+    if (follower.length_ratio <= 1.0)
+        while (k <= last && !is_inside(follower, k, false)) ++k;
+    else
+        while (k <= last && !is_inside(follower, k, true)) ++k;
+    return k <= last ? float(k) : HAIR_NO_HIT;
 }
 #endif
 
