@@ -4,6 +4,7 @@
 #include "sim/contact.glsl"
 
 #define MOST_STEPS 8u
+#define HEAVY_ROUNDS 6u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
 // Which displacement is allowed of what is wanted; and how long that leaves the segments.
@@ -56,8 +57,31 @@ bool fit_lengths(bool of_start, float tolerance, vec3 head_moved)
     }
 }
 
-// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already. What that draws into
-// solids is turned out of them, once.
+// Vertex k at its length from the one it follows, in the direction that it has from there.
+void draw_along(uint k, uint leader, float len, inout vec3 last)
+{
+    vec3  between = GET(place, k) - GET(place, leader), to = between + (GET(moved, k) - GET(moved, leader));
+    float l       = length(to);
+    if (bits_of(l) < 0x7f800000u && l > 1e-3 * len) last = to / l;
+    PUT(moved, k, GET(moved, leader) - between + len * last);
+}
+
+// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already. A tip that outweighs
+// its strand is not to be thrown about by it: first the strand is drawn after both ends in turn (Aristidou and Lasenby
+// 2011).
+void draw_strand()
+{
+    uint tip  = guide_count - 1u, rounds = slack[tip] * guide_length < 1.0 ? HEAVY_ROUNDS : 0u;
+    vec3 goal = GET(moved, tip), last = rotate(scalp, vec3(0.0, 1.0, 0.0));
+    for (uint n = 0u;; ++n) {
+        for (uint k = 1u; k <= tip; ++k) draw_along(k, k - 1u, rest_length[k - 1u], last);
+        if (n == rounds) break;
+        PUT(moved, tip, goal);
+        for (uint k = tip; k-- > 1u;) draw_along(k, k + 1u, rest_length[k], last);
+    }
+}
+
+// What that draws into solids is turned out of them, once.
 void follow_leader(vec3 head_moved)
 {
     find_solids(head_moved);
@@ -72,15 +96,7 @@ void follow_leader(vec3 head_moved)
             }
         }
         MEET;
-        ONCE(1u) {
-            vec3 last = rotate(scalp, vec3(0.0, 1.0, 0.0));
-            for (uint k = 1u; k < guide_count; ++k) {
-                vec3  to = (GET(place, k) - GET(place, k - 1u)) + (GET(moved, k) - GET(moved, k - 1u));
-                float l  = length(to);
-                if (bits_of(l) < 0x7f800000u && l > 1e-3 * rest_length[k - 1u]) last = to / l;
-                PUT(moved, k, GET(moved, k - 1u) + (GET(place, k - 1u) - GET(place, k)) + rest_length[k - 1u] * last);
-            }
-        }
+        ONCE(1u) { draw_strand(); }
         MEET;
     }
 }

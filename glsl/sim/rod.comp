@@ -92,7 +92,7 @@ void accept(int method, vec3 head_moved)
         if (method == LEADER) { // What was drawn along may not keep that speed.
             vec3  relative = d - GET(moved, 0u);
             float speed    = length(relative);
-            kept           = GET(moved, 0u) + LEADER_KEEPS * relative * (speed > fastest ? fastest / speed : 1.0);
+            kept           = GET(moved, 0u) + (slack[i] * guide_length < 1.0 ? 1.0 : LEADER_KEEPS) * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
         precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));

@@ -17,8 +17,8 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = sim->solids.capsules, met = solids ? 44 * (solids + 6) : 0;
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    if (by_thread) return (sim->most_vertices + 1) * (170 + met) + 3 * (solids + 1);
-    return 600 + 8 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+    if (by_thread) return (sim->most_vertices + 1) * (190 + met) + 3 * (solids + 1);
+    return 600 + 32 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
 }
 
 // Where a thread would have too much to do, it is a work group's.
