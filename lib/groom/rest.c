@@ -10,6 +10,7 @@
 #include <string.h>
 
 #define FEWEST 4 // Vertices, where guide_vertices allows: the scalp pins two, and two that are free can bend.
+#define CLOSEST 0.1 // two vertices of a guide are, of the mean distance
 #define Y_AXIS hair_v3(0, 1, 0)
 
 static hair_vec3 vertex(const float* p, size_t i)
@@ -30,7 +31,23 @@ static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
     return vertices < most ? vertices : most;
 }
 
-// A strand with `count` vertices. Those that it has are kept where they are enough: its shape and length
+// Drop vertices nearer to the one before than a tenth of the mean distance: solvers do not know how to turn what is
+// that short, and their substeps would have to be as much shorter. The tip stays.
+static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
+{
+    float    least = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
+    uint32_t kept  = 1;
+    for (uint32_t i = 1; i < vertices; ++i) {
+        hair_vec3 at = vertex(positions, i);
+        if (hair_distance(vertex(positions, kept - 1), at) >= least)
+            hair_store3(positions + 3 * (size_t)kept++, at);
+        else if (i + 1 == vertices && kept > 1)
+            hair_store3(positions + 3 * (size_t)(kept - 1), at);
+    }
+    return kept;
+}
+
+// A strand with `count` vertices. Those that it has are kept where they are enough and apart: its shape and length
 // stay. Where they are too many they are replaced by others at equal distances: then each arc of length s and
 // radius r is cut short to its chord, by (s/r)^2 / 24 of its length.
 static void sample(const float* positions, uint32_t vertices, float* out, uint32_t count)
@@ -46,6 +63,7 @@ static void sample(const float* positions, uint32_t vertices, float* out, uint32
         }
     } else {
         memcpy(out, positions, 3 * (size_t)vertices * sizeof *out);
+        have = space_out(out, vertices, count);
     }
     hair_strand_split(out, have, count);
 }

@@ -393,6 +393,37 @@ static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
 
+// All at the root but the tip; all but the root at the tip; pairs.
+static hair_vec3 bunch(float t, uint32_t strand, const void* user)
+{
+    uint32_t i = (uint32_t)(t * *(const float*)user + 0.5f);
+    float    d = 2e-5f * (float)i;
+    if (strand == 0) return hair_v3(0, t == 1 ? -1 : -d, 0);
+    if (strand == 1) return hair_v3(1, t == 0 ? 0 : -1 - d, 0);
+    return hair_v3(2, -0.1f * (float)(i / 2) - (i % 2 ? 2e-5f : 0), 0);
+}
+
+static void vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does(void** state)
+{
+    (void)state;
+    const float              last    = 23;
+    struct hair_test_strands strands = hair_test_strands_make(3, 24);
+    for (int k = 0; k < 3; ++k) hair_test_strands_add(&strands, 24, bunch, &last);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    hair_groom* groom    = make(&desc);
+    for (uint32_t g = 0; g < 3; ++g) {
+        float mean = groom->guides[g].arc_length / last;
+        assert_int_equal(groom->guides[g].count, 24);
+        for (uint32_t i = 0; i < 23; ++i)
+            assert_true(hair_distance(vertex(groom, g, i), vertex(groom, g, i + 1)) >= 0.09f * mean);
+        assert_true(hair_distance(vertex(groom, g, 23), bunch(1, g, &last)) < 1e-6f);
+        assert_true(hair_distance(vertex(groom, g, 0), bunch(0, g, &last)) < 1e-6f);
+    }
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -404,6 +435,7 @@ int main(void)
         TEST(strands_that_are_all_alike_are_shared_out_too),
         TEST(a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_may),
         TEST(a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples),
+        TEST(vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does),
         TEST(every_root_frame_is_a_rotation_of_y_onto_the_first_segment),
         TEST(root_frames_vary_as_smoothly_as_the_roots),
         TEST(lengths_and_directions_give_the_guide_back),

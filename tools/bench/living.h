@@ -10,9 +10,10 @@ struct bench_living {
     const struct bench_scene* scene; // outlives it
     hair_groom*               groom;
     hair_instance*            hair;
-    double                    substep; // s
-    float*                    read;    // of all strands
-    double                    length;  // of the strand, m
+    double                    substep;                            // s
+    float*                    read;                               // of all strands
+    float                     positions[3 * BENCH_MOST_VERTICES]; // at rest, as the groom has them
+    double                    length;                             // of the strand, m
     double                    lengths[BENCH_MOST_VERTICES];
 };
 

@@ -115,6 +115,7 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
 {
     struct bench_scene scene = *watch->living->scene;
     if (scene.solver == HAIR_SOLVER_REDBLACK) return false; // It has no material.
+    memcpy(scene.positions, watch->living->positions, sizeof scene.positions);
     scene.physics                  = watch->calm;
     scene.head                     = watch->head;
     struct hair_reference_rod* rod = bench_reference(&scene);

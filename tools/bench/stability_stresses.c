@@ -240,7 +240,7 @@ static void put(struct bench_scene* scene, uint32_t i, double at)
         scene->positions[3 * i + k] = (float)(root + at * (tip - root));
     }
 }
-// As near as the groom lets them be: what is nearer than 1e-5 of the length it removes.
+// Hardly farther apart than what the groom takes for one vertex, 1e-5 of the length: of guides it spaces them out.
 static void let_three_coincide(struct bench_scene* scene)
 {
     put(scene, 16, 15.0 / 31 + 2e-5);
