@@ -142,7 +142,9 @@ struct hair_rod {
     // xyz: rest strain at the vertex, between the frames of segments i-1 and i (at the root: of the scalp and
     // segment 0): 2 Im(conj(q_(i-1)) q_i); w: bending stiffness over the length it is for, m^3/s^2
     hair_vec4 strain;
-    hair_vec4 segment; // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2
+    // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2; w: of a first vertex, how
+    // accurate takes it: 0 explicitly, 1 bending implicitly, 2 by implicit Euler, for a heavy tip pulls it taut
+    hair_vec4 segment;
     // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method; and
     // of implicit Euler, to which it falls back
     hair_vec4 factor;

@@ -71,7 +71,7 @@ void draw_along(uint k, uint leader, float len, inout vec3 last)
 // 2011).
 void draw_strand()
 {
-    uint tip  = guide_count - 1u, rounds = slack[tip] * guide_length < 1.0 ? HEAVY_ROUNDS : 0u;
+    uint tip  = guide_count - 1u, rounds = heavy ? HEAVY_ROUNDS : 0u;
     vec3 goal = GET(moved, tip), last = rotate(scalp, vec3(0.0, 1.0, 0.0));
     for (uint n = 0u;; ++n) {
         for (uint k = 1u; k <= tip; ++k) draw_along(k, k - 1u, rest_length[k - 1u], last);

@@ -21,6 +21,7 @@ OWN(vec3, push); // a
 OWN(vec4, aim);         // rest position from the root, in groom space; w^2
 float     known;     // 0: at rest, just begun; 1: `rate` is known; 2: `rate_before` too
 bool      stiff;     // SHAKE takes bending implicitly
+bool      taut;      // by a tip so heavy that SHAKE cannot follow: implicit Euler does it
 vec4      turn_then; // turn_now, of the substep before
 
 // The configuration whose bending acts, as a displacement from the start.
@@ -63,11 +64,14 @@ void predict(int method)
     measure(1.0);
     find_bending();
 
-    vec3 wind = params.wind.xyz * params.gravity.w;
     EACH(guide_count) {
+        // Of what its inertia would weigh: see lib/sim/taut.c.
+        float share  = heavy && i > 0u && i + 1u < guide_count
+                           ? min(0.5 * (rest_length[i - 1u] + rest_length[i]) * slack[i], 1.0) : 1.0;
+        vec3 wind    = share * params.gravity.w * params.wind.xyz;
         own(wanted)  = root_moved;
         vec3 bending = bending_force(i);
-        vec3 force   = params.gravity.xyz;
+        vec3 force   = share * params.gravity.xyz;
         if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved, i) : vec3(0.0)) - GET(place, i));
 #ifdef HAIR_CROWD
         force += own(push);

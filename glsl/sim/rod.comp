@@ -43,7 +43,9 @@ void load()
     }
     known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
     stiff = rod[guide_first].segment.w != 0.0;
+    taut  = rod[guide_first].segment.w == 2.0;
     MEET;
+    heavy = slack[guide_count - 1u] * guide_length < 1.0;
 }
 
 void store()
@@ -92,7 +94,7 @@ void accept(int method, vec3 head_moved)
         if (method == LEADER) { // What was drawn along may not keep that speed.
             vec3  relative = d - GET(moved, 0u);
             float speed    = length(relative);
-            kept           = GET(moved, 0u) + (slack[i] * guide_length < 1.0 ? 1.0 : LEADER_KEEPS) * relative * (speed > fastest ? fastest / speed : 1.0);
+            kept           = GET(moved, 0u) + (heavy && i + 1u == guide_count ? 1.0 : LEADER_KEEPS) * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
         precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));
@@ -151,7 +153,7 @@ void main()
         share_then      = share_now;
         share_now       = params.substep[s].displacement.w;
 
-        int method = HAIR_SOLVER == BACK && known < 2.0 ? EULER : HAIR_SOLVER;
+        int method = (HAIR_SOLVER == BACK && known < 2.0) || (HAIR_SOLVER == SHAKE && taut) ? EULER : HAIR_SOLVER;
         for (;; ++method) {
             predict(method);
             if (method == LEADER) {

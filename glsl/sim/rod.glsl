@@ -21,6 +21,7 @@ OWN(float, excess);         // of length, of segment i
 // The guide, the same for all its vertices.
 uint  guide_number, guide_first, guide_count;
 float guide_length;
+bool  heavy; // its tip outweighs the rest of it
 vec3 root_now;   // from the head's origin, at the end of the substep
 vec3 root_moved; // over it
 vec4 turn_now;   // of the head

@@ -12,7 +12,10 @@
 #define FRAME (1.0 / 60)  // s
 #define FEWEST_A_FRAME 18 // substeps of the accurate solver: a whip to half a millimetre
 #define MOST_A_FRAME 80   // that one guide can ask for all
-#define MOST_STIFF 1e6    // h^2 K_ii / m_i.
+#define EXPLICIT_MARGIN 1.15
+#define FEWEST_A_FRAME_DIRECT 4
+#define MOST_A_FRAME_DIRECT 16 // for a heavy tip; what it lacks then, inertia makes up for: taut.c
+#define MOST_STIFF 1e6         // h^2 K_ii / m_i.
 
 struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
     double x, y, z;
@@ -80,7 +83,7 @@ static double most_frequency_squared(const struct hair_rod_shape* s, const struc
 static double longest_explicit(const struct hair_rod_shape* s, const struct band* k)
 {
     double most = most_frequency_squared(s, k);
-    return most > 0 ? 2 / (1.15 * sqrt(most)) : INFINITY;
+    return most > 0 ? 2 / (EXPLICIT_MARGIN * sqrt(most)) : INFINITY;
 }
 
 // The rows of L D L^T above the next: the last, and the one before it. x: D, y: L(i+1,i), z: L(i+2,i).
@@ -116,8 +119,8 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }
 
-static void write_guide(const struct hair_rod_shape* s, double stiffen, const hair_physics* physics,
-                        hair_solver solver, double h, struct hair_rod* out)
+static void write_guide(const struct hair_rod_shape* s, double stiffen, double tautness,
+                        const hair_physics* physics, hair_solver solver, double h, struct hair_rod* out)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
     double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
@@ -125,18 +128,19 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, const ha
         stiffness[i] = fmin(hair_rod_stiffness(s, i, stiffen), most_stiffness(s, i, h));
     find_bands(s, stiffness, k);
     int    leapfrog = solver == HAIR_SOLVER_ACCURATE, direct = solver == HAIR_SOLVER_DIRECT;
+    int    taut     = leapfrog && tautness * h > 2 / EXPLICIT_MARGIN;
     int    implicit = leapfrog && longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
     double damping = (double)physics->damping, b = direct ? 2 * h / 3 : h;
 
     struct rows own = {0}, euler = {0};
     for (uint32_t i = 0; i < s->count; ++i) {
         int    fixed = i == 0 && s->held;
-        double pull  = pull_squared(physics, (double)i / (s->count - 1));
+        double pull  = pull_squared(physics, (double)i / (s->count - 1)) * hair_rod_weight_share(s, i);
         double of_b  = fixed ? 1 : s->mass[i] * (leapfrog ? 1 : 1 + damping * b + pull * b * b);
         double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
         out[i]       = (struct hair_rod){.strain  = rest_strain(s, i, stiffness[i]),
                                          .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
-                                                     (float)pull, (float)implicit}};
+                                                     (float)pull, taut ? 2 : (float)implicit}};
         if (direct || implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
@@ -150,10 +154,11 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
-        double stiffen = hair_rod_stiffen(&shape);
+        double stiffen = hair_rod_stiffen(&shape), tautness = hair_rod_tautness(&shape);
+        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
         if (stiffen > 1) ++report->stiffened;
         if (stiffen > (double)report->stiffest) report->stiffest = (float)stiffen;
-        write_guide(&shape, stiffen, physics, solver, substep, out + guides[i].first);
+        write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guides[i].first);
     }
 }
 
@@ -170,13 +175,14 @@ static double least_explicit(const struct hair_rod_shape* s)
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                          const hair_physics* physics, hair_solver solver)
 {
-    if (solver == HAIR_SOLVER_DIRECT) return FRAME / 4;
-    if (solver != HAIR_SOLVER_ACCURATE) return FRAME / 2;
-    double most = FEWEST_A_FRAME;
-    for (uint32_t i = 0; i < count; ++i) {
+    int direct = solver == HAIR_SOLVER_DIRECT;
+    if (!direct && solver != HAIR_SOLVER_ACCURATE) return FRAME / 2;
+    double most = direct ? FEWEST_A_FRAME_DIRECT : FEWEST_A_FRAME;
+    for (uint32_t i = 0; i < count && (!direct || physics->tip_mass > 0); ++i) {
         struct hair_rod_shape shape;
         hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
-        double own = least_explicit(&shape);
+        double own = direct ? fmin(ceil(2 * FRAME / (3 * hair_rod_longest_taut(&shape))), MOST_A_FRAME_DIRECT)
+                            : least_explicit(&shape);
         if (own <= MOST_A_FRAME) most = fmax(most, own);
     }
     return FRAME / most;

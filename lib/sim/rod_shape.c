@@ -62,12 +62,13 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
         total += s->length[i];
     }
     s->mass[s->count - 1] += (double)physics->tip_mass * total;
-    s->weight = 0;
+    s->weight  = 0;
+    s->gravity = hair_dlength(gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
         double share = so_far / total, root = (double)physics->stiffness_root;
         s->bend[i] = bend * (root + share * ((double)physics->stiffness_tip - root));
         so_far += s->length[i];
-        if (i > 0) s->weight += s->mass[i] * hair_dlength(gravity);
+        if (i > 0) s->weight += s->mass[i] * s->gravity;
     }
 }
 

@@ -59,6 +59,7 @@ struct hair_rod_shape {
     double     ratio[3];
     uint32_t   count;                           // of vertices
     int        clamped, held;                   // at the root
+    double     gravity;                         // m/s^2
     double     weight;                          // of all but the root vertex
     double     length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
     double     mass[HAIR_MAX_GUIDE_VERTICES];
@@ -81,6 +82,12 @@ double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i, double
 // From the rest strain that bears the stress to the strain of the groom, at a vertex of that stiffness, not 0.
 #define HAIR_ROD_MOST_STRAIN 1.0
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness);
+
+// taut.c: of strands that hang from a held root and whose tip outweighs them. Others have tautness 0.
+double hair_rod_tautness(const struct hair_rod_shape* shape);        // the highest frequency that gives, 1/s
+double hair_rod_longest_taut(const struct hair_rod_shape* shape);    // b that implicit methods can have, s
+void   hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
+double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
 
 // hold.c: 1, or the least multiple of the stiffness with which the groom's shape is stable and the strain within the most.
 #define HAIR_ROD_MOST_STIFFEN 1e4

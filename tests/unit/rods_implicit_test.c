@@ -238,6 +238,37 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
     free(f);
 }
 
+// The highest frequency of swinging crosswise under the tip's weight is at most 2.7 over b, and inertia for that is
+// only added where it takes it, and little beside the tip's.
+static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    f->physics.hold         = 0;
+    hair_test_rod_straight(f, 32, 0.31, PI / 2);
+    for (int k = 0; k < 4; ++k) {
+        const float masses[] = {0, 10, 100, 1000};
+        double      added = 0, highest = 0, l = 0.01, tip = 0.005 + 0.31 * (double)masses[k];
+        f->physics.tip_mass = masses[k];
+        double h = wanted(f, HAIR_SOLVER_DIRECT), b = 2 * h / 3;
+        hair_test_rod_write(f, HAIR_SOLVER_DIRECT, h);
+        for (uint32_t i = 1; i < 31; ++i) {
+            double mass = 1 / (double)f->rod[i].segment.y, below = tip + (30 - i) * l;
+            added += mass - l;
+            highest = fmax(highest, sqrt(2 * 9.81 * (2 * below + l) / l / mass));
+            assert_true(mass > 0.9999 * l);
+        }
+        printf("tip of %g: %.0f substeps a frame, w b %.2f, added %.2g of the tip\n", (double)masses[k],
+               1 / (60 * h), b * highest, added / tip);
+        hair_test_near("tip", k, 1 / (double)f->rod[31].segment.y, tip, 1e-5 * tip);
+        assert_true(b * highest < 2.8 && added < 0.02 * tip);
+        assert_true(masses[k] > 10 || added < 1e-5);
+        hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, wanted(f, HAIR_SOLVER_ACCURATE));
+        assert_true((f->rod[0].segment.w == 2) == (masses[k] > 10));
+    }
+    free(f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +276,7 @@ int main(void)
         cmocka_unit_test(the_substep_of_the_accurate_solver_is_stable),
         cmocka_unit_test(a_solve_in_single_precision_is_good_at_any_stiffness),
         cmocka_unit_test(stiffness_is_limited_to_what_single_precision_bears),
+        cmocka_unit_test(under_a_heavy_tip_a_strand_has_inertia_to_be_followed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
