@@ -169,13 +169,21 @@ struct hair_history {
 };
 HAIR_SIZE(hair_history, 32)
 
-// A sphere (both ends alike) or capsule, at the start and at the end of the step, from the head's origin.
+// A sphere (both ends alike) or capsule, or what is around another shape, at the start and at the end of the step, from the head's origin.
 struct hair_capsule {
     hair_vec4 start[2]; // xyz: ends of the axis, m; w: radius, m
     hair_vec4 end[2];
     hair_vec4 spin; // xyz: turn about its own axis (a sphere: any) over the step, radians
 };
 HAIR_SIZE(hair_capsule, 80)
+
+// The same solid as it is, where the capsule is only around it: at the start and at the end of the step.
+struct hair_body {
+    hair_vec4 position[2]; // xyz: from the head's origin, m; [0].w: rounding, m; [1].w: factor of the friction
+    hair_vec4 rotation[2]; // unit quaternions, on the same side
+    hair_vec4 size;        // xyz: as the shape says, m; w: hair_shape
+};
+HAIR_SIZE(hair_body, 80)
 
 // One substep: where the head is at its end.
 struct hair_substep {
@@ -213,11 +221,12 @@ struct hair_step_params {
     float     share_start; // of the step done before this dispatch
     float     rescale;     // of displacements, where the substep's length has changed; else 1
     hair_uint vertices; // of all guides
-    hair_uint unused0, unused1;
+    hair_uint bodies0, bodies1; // a bit for each solid that is no capsule
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
+    HAIR_STRUCT(hair_body) body[HAIR_STEP_SOLIDS];
 };
-HAIR_SIZE(hair_step_params, 208 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 80)
+HAIR_SIZE(hair_step_params, 208 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
 
 // What a guide vertex puts into the crowd's grid, in its units.
 struct hair_share {

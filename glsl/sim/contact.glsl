@@ -122,25 +122,40 @@ vec4 left_of(vec4 freedom, vec3 normal)
     return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
 }
 
-// Out of one solid after the other; returns of how many.
+#include "sim/body.glsl"
+
+// Out of one solid by the depth, and held by its friction.
+uint push(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,
+          inout vec4 freedom, inout uvec2 met)
+{
+    if (depth <= 0.0 && (kept[word] & bit) == 0u) return 0u;
+    vec3 slip = d - surface;
+    slip -= dot(slip, normal) * normal;
+    float speed = length(slip), grip = params.friction * factor * max(depth, 0.0);
+    bool  stuck = speed <= grip;
+    d += depth * normal - (stuck ? slip : slip * (grip / speed));
+    freedom = stuck ? vec4(normal, STICKS) : left_of(freedom, normal);
+    met[word] |= bit;
+    return 1u;
+}
+
+// Out of one solid after the other, capsules first; returns of how many.
 uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
-    uint contacts = 0u;
-    for (int word = 0; word < 2; ++word)
-        for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {
-            vec3  normal, surface;
-            uint  bit   = bits & -bits;
-            float depth = depth_in(32u * uint(word) + uint(findLSB(bits)), start, d, head_moved, normal, surface);
-            if (depth > 0.0 || (kept[word] & bit) != 0u) {
-                vec3 slip = d - surface;
-                slip -= dot(slip, normal) * normal;
-                float speed = length(slip), grip = params.friction * max(depth, 0.0);
-                bool  stuck = speed <= grip;
-                d += depth * normal - (stuck ? slip : slip * (grip / speed));
-                freedom = stuck ? vec4(normal, STICKS) : left_of(freedom, normal);
-                met[word] |= bit;
-                ++contacts;
-            }
+    uint  contacts = 0u;
+    uvec2 bodies   = uvec2(params.bodies0, params.bodies1);
+    vec3  normal, surface;
+    for (uint word = 0u; word < 2u; ++word)
+        for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
+            uint  k     = 32u * word + uint(findLSB(bits));
+            float depth = depth_in(k, start, d, head_moved, normal, surface);
+            contacts += push(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
+        }
+    for (uint word = 0u; word < 2u; ++word)
+        for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
+            uint  k     = 32u * word + uint(findLSB(bits));
+            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
+            contacts += push(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
         }
     return contacts;
 }

@@ -134,11 +134,12 @@ hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint3
     const hair_host* host = &hair->context->host;
     hair->draw.hits.fresh = 0;
     hair_result result    = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
-    if (!result && count > hair->sim.solids.capsules && !hair->has_left_out) {
+    uint32_t    contacts  = hair_sim_contacts(&hair->sim);
+    if (!result && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
-        hair_log(host, HAIR_LOG_WARNING,
-                 "%s: of %u solids guides collide with %u, which are spheres and capsules, the %d nearest",
-                 hair->label, count, hair->sim.solids.capsules, HAIR_STEP_SOLIDS);
+        hair_log(host, HAIR_LOG_WARNING, "%s: of %u solids guides collide with %u: the nearest %d, and no %s",
+                 hair->label, count, contacts, HAIR_STEP_SOLIDS,
+                 hair->sim.rods ? "forms" : "others than spheres and capsules");
     }
     return result;
 }

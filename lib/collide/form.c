@@ -11,7 +11,7 @@
 #define LEAST_SIZE 1e-6f     // m: of a mesh
 #define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
 #define MOST_VOXELS 256      // along the longest side
-#define MOST_WORK 500000000 // triangles and boxes looked at
+#define MOST_WORK 500000000  // triangles and boxes looked at
 #define SWEEPS 8             // each way along the three axes
 
 static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)

@@ -114,11 +114,14 @@ static void put(struct hair_solid_list* list, const hair_solid* from, uint32_t c
     list->count = count;
 }
 
-static void count_capsules(struct hair_solids* solids)
+static void count_contacts(struct hair_solids* solids)
 {
-    solids->capsules = 0;
-    for (uint32_t i = 0; i < solids->now.count && solids->capsules < HAIR_STEP_SOLIDS; ++i)
-        solids->capsules += solids->now.solid[i].shape <= HAIR_SHAPE_CAPSULE;
+    solids->capsules = solids->bodies = 0;
+    for (uint32_t i = 0; i < solids->now.count && solids->capsules < HAIR_STEP_SOLIDS; ++i) {
+        hair_shape shape = solids->now.solid[i].shape;
+        solids->capsules += shape <= HAIR_SHAPE_CAPSULE;
+        solids->bodies += shape <= HAIR_SHAPE_PLANE && solids->bodies < HAIR_STEP_SOLIDS;
+    }
 }
 
 static hair_result check_list(const hair_host* host, const hair_solid* from, uint32_t count, size_t stride)
@@ -157,7 +160,7 @@ hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, c
                                   solids->pair);
     if (result) return result;
     put(&solids->now, from, count, stride);
-    count_capsules(solids);
+    count_contacts(solids);
     return HAIR_OK;
 }
 
@@ -171,7 +174,7 @@ hair_result hair_solids_restore(const hair_host* host, struct hair_solids* solid
     if (result) return result;
     put(&solids->now, now, count, sizeof *now);
     put(&solids->before, before, count_before, sizeof *before);
-    count_capsules(solids);
+    count_contacts(solids);
     return HAIR_OK;
 }
 
@@ -203,87 +206,4 @@ void hair_solids_settle(struct hair_solids* solids)
 void hair_solids_forget(struct hair_solids* solids)
 {
     put(&solids->before, NULL, 0, 0);
-}
-
-// As capsules -----------------------------------------------------------------------------------------------
-
-static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
-{
-    hair_vec3 center = {(float)((double)solid->position[0] - head->position[0]),
-                        (float)((double)solid->position[1] - head->position[1]),
-                        (float)((double)solid->position[2] - head->position[2])};
-    hair_quat q      = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
-    float     half   = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
-    float     radius = solid->size[0] + solid->rounding;
-    hair_vec3 axis   = hair_rotate(hair_quat_normalize(q), hair_v3(0, half, 0));
-    hair_vec3 a = hair_sub(center, axis), b = hair_add(center, axis);
-    ends[0] = (hair_vec4){a.x, a.y, a.z, radius};
-    ends[1] = (hair_vec4){b.x, b.y, b.z, radius};
-}
-
-// The turn from one pose of a solid to the next, as far as its capsule's ends do not show it.
-static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
-{
-    hair_quat a = hair_quat_normalize(
-        (hair_quat){from->rotation[0], from->rotation[1], from->rotation[2], from->rotation[3]});
-    hair_quat b =
-        hair_quat_normalize((hair_quat){to->rotation[0], to->rotation[1], to->rotation[2], to->rotation[3]});
-    hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
-    hair_vec3 v    = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
-    float     sine = hair_length(v);
-    float     angle = 2 * atan2f(sine, fabsf(turn.w));
-    hair_vec3 spin  = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
-    if (to->shape == HAIR_SHAPE_CAPSULE) {
-        hair_vec3 axis = hair_rotate(b, hair_v3(0, 1, 0));
-        spin           = hair_scale(axis, hair_dot(spin, axis));
-    }
-    return (hair_vec4){spin.x, spin.y, spin.z, 0};
-}
-
-// From the head to the surface.
-static float distance_of(const hair_solid* solid, const struct hair_pose* head)
-{
-    hair_vec4 end[2];
-    place(solid, head, end);
-    hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
-    float     t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
-    return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
-}
-
-// The nearest of those that are capsules, in their order. Of two as near the earlier one stays.
-static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head,
-                       uint32_t chosen[HAIR_STEP_SOLIDS])
-{
-    float    distance[HAIR_STEP_SOLIDS];
-    uint32_t count = 0, farthest = 0;
-    for (uint32_t i = 0; i < solids->now.count; ++i) {
-        const hair_solid* solid = &solids->now.solid[i];
-        if (solid->shape > HAIR_SHAPE_CAPSULE) continue;
-        float far = distance_of(solid, head);
-        if (count == HAIR_STEP_SOLIDS) {
-            if (far >= distance[farthest]) continue;
-            for (uint32_t k = farthest; k + 1 < count; ++k)
-                chosen[k] = chosen[k + 1], distance[k] = distance[k + 1];
-            --count;
-        }
-        chosen[count] = i, distance[count++] = far;
-        farthest = 0;
-        for (uint32_t k = 1; k < count && count == HAIR_STEP_SOLIDS; ++k)
-            if (distance[k] >= distance[farthest]) farthest = k;
-    }
-    return count;
-}
-
-uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
-                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS])
-{
-    uint32_t chosen[HAIR_STEP_SOLIDS], count = choose(solids, head_now, chosen);
-    for (uint32_t i = 0; i < count; ++i) {
-        const hair_solid *now    = &solids->now.solid[chosen[i]],
-                         *before = hair_solids_before(solids, chosen[i]);
-        place(before, head_before, out[i].start);
-        place(now, head_now, out[i].end);
-        out[i].spin = spin_between(before, now);
-    }
-    return count;
 }

@@ -18,7 +18,8 @@ struct hair_solids {
     struct hair_solid_list now, before; // before: at the last step; it has room for as many as there are now
     uint32_t*              pair;        // of each now: its place in before, or HAIR_UNPAIRED
     uint32_t               capacity;    // of pair
-    uint32_t               capsules;    // what hair_solids_capsules will return
+    uint32_t               capsules;    // what hair_solids_capsules will return,
+    uint32_t               bodies;      // and what hair_solids_bodies will
 };
 
 #define HAIR_UNPAIRED UINT32_MAX
@@ -39,6 +40,11 @@ const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t 
 // order. Returns how many.
 uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS]);
+
+// The same of all solids but forms: a capsule around each, and the solid itself.
+uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_pose* head_before,
+                            const struct hair_pose* head_now, struct hair_capsule around[HAIR_STEP_SOLIDS],
+                            struct hair_body out[HAIR_STEP_SOLIDS]);
 
 // The step is over: now becomes before.
 void hair_solids_settle(struct hair_solids* solids);

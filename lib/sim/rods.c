@@ -118,7 +118,7 @@ hair_result hair_sim_renew_rods(struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
-    int struck = sim->struck || sim->solids.capsules > 0;
+    int struck = sim->struck || hair_sim_contacts(sim) > 0;
     int other  = sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != rods->struck;
     hair_result result =
         other || hair_rods_differ(&rods->made_for, &sim->physics) ? make(sim, struck) : HAIR_OK;

@@ -13,9 +13,16 @@
 // reach of all solids. A loop that nobody enters goes round once.
 #define MOST_ROUNDS 65000
 
+static uint32_t lesser(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
 static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t solids = sim->solids.capsules, met = solids ? 44 * (solids + 6) : 0;
+    uint32_t solids = hair_sim_contacts(sim),
+             others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
+    uint32_t met    = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
     if (by_thread) return (sim->most_vertices + 1) * (190 + met) + 3 * (solids + 1);
     return 600 + 32 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
@@ -44,7 +51,7 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
     hair_gl_pass pass = smallest[sim->solver];
-    int          kind = (sim->solids.capsules > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim) +
+    int          kind = (hair_sim_contacts(sim) > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim) +
                8 * hair_crowd_is_on(sim);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
@@ -171,6 +178,23 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
     params->substeps = count;
 }
 
+uint32_t hair_sim_contacts(const struct hair_sim* sim)
+{
+    return sim->rods ? sim->solids.bodies : sim->solids.capsules;
+}
+
+static void write_solids(const struct hair_sim* sim, struct hair_step_params* params)
+{
+    if (!sim->rods) {
+        params->solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params->solid);
+        return;
+    }
+    params->solids = hair_solids_bodies(&sim->solids, &sim->at_step, &sim->head, params->solid, params->body);
+    for (uint32_t i = 0; i < params->solids; ++i)
+        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE)
+            *(i < 32 ? &params->bodies0 : &params->bodies1) |= 1u << i % 32;
+}
+
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     struct hair_step_params params = {0};
@@ -181,7 +205,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     if (!result) result = hair_gl_need(sim->gl, pass);
     if (result) return result;
     write_physics(sim, &params);
-    params.solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params.solid);
+    write_solids(sim, &params);
 
     double   left = fmin(sim->left, sim->substep), time = left + dt; // Substeps may have become shorter.
     uint32_t total =

@@ -33,6 +33,7 @@ struct hair_sim {
     struct hair_crowd  crowd;
 };
 
+uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom);
 void        hair_sim_destroy(struct hair_sim* sim);
 

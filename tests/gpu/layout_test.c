@@ -46,6 +46,11 @@ static const struct member members[] = {
     VEC4(hair_capsule, end[0]),
     VEC4(hair_capsule, end[1]),
     VEC4(hair_capsule, spin),
+    VEC4(hair_body, position[0]),
+    VEC4(hair_body, position[1]),
+    VEC4(hair_body, rotation[0]),
+    VEC4(hair_body, rotation[1]),
+    VEC4(hair_body, size),
     VEC4(hair_substep, rotation),
     VEC4(hair_substep, displacement),
     VEC4(hair_step_params, gravity),
@@ -74,8 +79,8 @@ static const struct member members[] = {
     FLOAT(hair_step_params, share_start),
     FLOAT(hair_step_params, rescale),
     UINT(hair_step_params, vertices),
-    UINT(hair_step_params, unused0),
-    UINT(hair_step_params, unused1),
+    UINT(hair_step_params, bodies0),
+    UINT(hair_step_params, bodies1),
     VEC4(hair_step_params, substep[0].rotation),
     VEC4(hair_step_params, substep[0].displacement),
     VEC4(hair_step_params, substep[1].rotation),
@@ -84,6 +89,8 @@ static const struct member members[] = {
     VEC4(hair_step_params, solid[0].end[1]),
     VEC4(hair_step_params, solid[63].end[1]),
     VEC4(hair_step_params, solid[63].spin),
+    VEC4(hair_step_params, body[0].position[0]),
+    VEC4(hair_step_params, body[63].size),
     UINT(hair_share, mass),
     UINT(hair_share, volume),
     UINT(hair_share, first),
@@ -166,10 +173,11 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),       STRUCT(hair_rest),        STRUCT(hair_rod),          STRUCT(hair_state),
-    STRUCT(hair_history),     STRUCT(hair_capsule),     STRUCT(hair_substep),      STRUCT(hair_step_params),
-    STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params),  STRUCT(hair_field_params),
-    STRUCT(hair_field_solid), STRUCT(hair_field_brick), STRUCT(hair_crowd_params), STRUCT(hair_share),
+    STRUCT(hair_guide),        STRUCT(hair_rest),        STRUCT(hair_rod),         STRUCT(hair_state),
+    STRUCT(hair_history),      STRUCT(hair_capsule),     STRUCT(hair_body),        STRUCT(hair_substep),
+    STRUCT(hair_step_params),  STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params),
+    STRUCT(hair_field_params), STRUCT(hair_field_solid), STRUCT(hair_field_brick), STRUCT(hair_crowd_params),
+    STRUCT(hair_share),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)

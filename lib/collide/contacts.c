@@ -1,0 +1,133 @@
+// contacts.c - solids as guides meet them: between two poses of the head, the nearest ones.
+#include "lib/collide/solid.h"
+
+#define EVERYWHERE 1e7f // m: the radius of what is around a half-space
+
+static hair_vec3 from_head(const hair_solid* solid, const struct hair_pose* head)
+{
+    return (hair_vec3){(float)((double)solid->position[0] - head->position[0]),
+                       (float)((double)solid->position[1] - head->position[1]),
+                       (float)((double)solid->position[2] - head->position[2])};
+}
+
+static hair_quat turn_of(const hair_solid* solid)
+{
+    return hair_quat_normalize(
+        (hair_quat){solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]});
+}
+
+// Without rounding.
+static float radius_around(const hair_solid* solid)
+{
+    const float* size = solid->size;
+    switch (solid->shape) {
+    case HAIR_SHAPE_BOX: return hair_length(hair_load3(size));
+    case HAIR_SHAPE_CYLINDER:
+    case HAIR_SHAPE_CONE: return hypotf(size[0], size[1]);
+    case HAIR_SHAPE_PLANE: return EVERYWHERE;
+    default: return size[0];
+    }
+}
+
+// A sphere or capsule, or what is around another solid.
+static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
+{
+    hair_vec3 center = from_head(solid, head);
+    float     half   = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
+    float     radius = radius_around(solid) + solid->rounding;
+    hair_vec3 axis   = hair_rotate(turn_of(solid), hair_v3(0, half, 0));
+    hair_vec3 a = hair_sub(center, axis), b = hair_add(center, axis);
+    ends[0] = (hair_vec4){a.x, a.y, a.z, radius};
+    ends[1] = (hair_vec4){b.x, b.y, b.z, radius};
+}
+
+// The turn from one pose of a solid to the next, as far as its capsule's ends do not show it.
+static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
+{
+    hair_quat a = turn_of(from), b = turn_of(to);
+    hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
+    hair_vec3 v    = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
+    float     sine = hair_length(v);
+    float     angle = 2 * atan2f(sine, fabsf(turn.w));
+    hair_vec3 spin  = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
+    if (to->shape == HAIR_SHAPE_CAPSULE) {
+        hair_vec3 axis = hair_rotate(b, hair_v3(0, 1, 0));
+        spin           = hair_scale(axis, hair_dot(spin, axis));
+    }
+    return (hair_vec4){spin.x, spin.y, spin.z, 0};
+}
+
+// From the head to the surface.
+static float distance_of(const hair_solid* solid, const struct hair_pose* head)
+{
+    hair_vec4 end[2];
+    place(solid, head, end);
+    hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
+    float     t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
+    return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
+}
+
+// The nearest of those of a shape up to `last`, in their order. Of two as near the earlier one stays.
+static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head, hair_shape last,
+                       uint32_t chosen[HAIR_STEP_SOLIDS])
+{
+    float    distance[HAIR_STEP_SOLIDS];
+    uint32_t count = 0, farthest = 0;
+    for (uint32_t i = 0; i < solids->now.count; ++i) {
+        const hair_solid* solid = &solids->now.solid[i];
+        if (solid->shape > last) continue;
+        float far = distance_of(solid, head);
+        if (count == HAIR_STEP_SOLIDS) {
+            if (far >= distance[farthest]) continue;
+            for (uint32_t k = farthest; k + 1 < count; ++k)
+                chosen[k] = chosen[k + 1], distance[k] = distance[k + 1];
+            --count;
+        }
+        chosen[count] = i, distance[count++] = far;
+        farthest = 0;
+        for (uint32_t k = 1; k < count && count == HAIR_STEP_SOLIDS; ++k)
+            if (distance[k] >= distance[farthest]) farthest = k;
+    }
+    return count;
+}
+
+static struct hair_body body_of(const hair_solid* before, const hair_solid* now,
+                                const struct hair_pose* head_before, const struct hair_pose* head_now)
+{
+    hair_vec3 a = from_head(before, head_before), b = from_head(now, head_now);
+    hair_quat p = turn_of(before), q = turn_of(now);
+    float     side = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
+    return (struct hair_body){
+        .position = {{a.x, a.y, a.z, now->rounding}, {b.x, b.y, b.z, now->friction}},
+        .rotation = {{side * p.x, side * p.y, side * p.z, side * p.w}, {q.x, q.y, q.z, q.w}},
+        .size     = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
+}
+
+static uint32_t fill(const struct hair_solids* solids, const struct hair_pose* head_before,
+                     const struct hair_pose* head_now, hair_shape last, struct hair_capsule* around,
+                     struct hair_body* out)
+{
+    uint32_t chosen[HAIR_STEP_SOLIDS], count = choose(solids, head_now, last, chosen);
+    for (uint32_t i = 0; i < count; ++i) {
+        const hair_solid *now    = &solids->now.solid[chosen[i]],
+                         *before = hair_solids_before(solids, chosen[i]);
+        place(before, head_before, around[i].start);
+        place(now, head_now, around[i].end);
+        around[i].spin = spin_between(before, now);
+        if (out) out[i] = body_of(before, now, head_before, head_now);
+    }
+    return count;
+}
+
+uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
+                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS])
+{
+    return fill(solids, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
+}
+
+uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_pose* head_before,
+                            const struct hair_pose* head_now, struct hair_capsule around[HAIR_STEP_SOLIDS],
+                            struct hair_body out[HAIR_STEP_SOLIDS])
+{
+    return fill(solids, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
+}
