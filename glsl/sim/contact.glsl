@@ -125,7 +125,7 @@ vec4 left_of(vec4 freedom, vec3 normal)
 #include "sim/body.glsl"
 
 // Out of one solid by the depth, and held by its friction.
-uint push(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,
+uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,
           inout vec4 freedom, inout uvec2 met)
 {
     if (depth <= 0.0 && (kept[word] & bit) == 0u) return 0u;
@@ -149,13 +149,13 @@ uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 
         for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
             uint  k     = 32u * word + uint(findLSB(bits));
             float depth = depth_in(k, start, d, head_moved, normal, surface);
-            contacts += push(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
+            contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
         }
     for (uint word = 0u; word < 2u; ++word)
         for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
             uint  k     = 32u * word + uint(findLSB(bits));
             float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
-            contacts += push(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
+            contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
         }
     return contacts;
 }
