@@ -42,17 +42,17 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HISTORY 4 // hair_history[]  per guide vertex
 #define HAIR_BIND_MATERIAL                                                                                   \
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
-#define HAIR_BIND_HEALTH 6   // uint[HAIR_HEALTH_COUNT], of every solver
+#define HAIR_BIND_HEALTH 6    // uint[HAIR_HEALTH_COUNT], of every solver
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 // The pass that writes the field has neither guides nor these:
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
 #define HAIR_BIND_MEMBER 1 // uint[]             places in HAIR_UNIT_WORK of the solids that reach into each brick
 #define HAIR_BIND_NODE 3   // float[]            distances at the nodes of forms, m
 // The passes of the crowd, which is what a hair feels of the hair around it, read the state and the history; and:
-#define HAIR_BIND_CROWD 3  // int[]          of the grid: four per node, mass and momentum; then one, volume
-#define HAIR_BIND_SHARE 5  // hair_share[]   per guide vertex, never written
-#define HAIR_BIND_LIMIT 6  // float[]        per node, never written: volume from which it presses
-#define HAIR_BIND_PUSH 7   // hair_vec4[]    per guide vertex: acceleration, m/s^2
+#define HAIR_BIND_CROWD 3    // int[]          of the grid: four per node, mass and momentum; then one, volume
+#define HAIR_BIND_SHARE 5    // hair_share[]   per guide vertex, never written
+#define HAIR_BIND_LIMIT 6    // float[]        per node, never written: volume from which it presses
+#define HAIR_BIND_PUSH 7     // hair_vec4[]    per guide vertex: acceleration, m/s^2
 #define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 // Of the passes that look for followers inside solids:
@@ -66,11 +66,11 @@ typedef uint32_t hair_uint;
 #define HAIR_HEALTH_COUNT 4
 
 // Uniform buffers.
-#define HAIR_BIND_STEP 0 // hair_step_params
-#define HAIR_BIND_DRAW 1 // hair_draw_params
-#define HAIR_BIND_FIELD 2 // hair_field_params
+#define HAIR_BIND_STEP 0         // hair_step_params
+#define HAIR_BIND_DRAW 1         // hair_draw_params
+#define HAIR_BIND_FIELD 2        // hair_field_params
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
-#define HAIR_BIND_SHOWN 0 // hair_shown_params, of the passes that draw solids and the field
+#define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids and the field
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -103,7 +103,7 @@ typedef uint32_t hair_uint;
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
 #define HAIR_SOLID_TEXELS 6
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
-#define HAIR_CROWD_NODES 32    // along an axis, at most
+#define HAIR_CROWD_NODES 32       // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
 
 #define HAIR_NO_HIT 1e9
@@ -132,7 +132,8 @@ struct hair_rest {
     // xyz: unit direction to the next vertex, in the frame carried here along the strand from the segment before
     // (at the root: in the root frame); w: distance to the vertex after the next, m
     hair_vec4 direction;
-    hair_vec4 frame; // of the segment to the next vertex: unit quaternion, y along it, carried so from the root's
+    hair_vec4
+        frame; // of the segment to the next vertex: unit quaternion, y along it, carried so from the root's
 };
 HAIR_SIZE(hair_rest, 48)
 
@@ -143,7 +144,7 @@ struct hair_rod {
     // segment 0): 2 Im(conj(q_(i-1)) q_i); w: bending stiffness over the length it is for, m^3/s^2
     hair_vec4 strain;
     // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2; w: of a first vertex, how
-    // accurate takes it: 0 explicitly, 1 bending implicitly, 2 by implicit Euler, for a heavy tip pulls it taut
+    // accurate takes it: 0 explicitly, 1 by BDF2, 2 by implicit Euler, for a heavy tip pulls it taut
     hair_vec4 segment;
     // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method; and
     // of implicit Euler, to which it falls back
@@ -305,10 +306,11 @@ HAIR_SIZE(hair_shown_solid, 128)
 // Solids drawn for debugging, cut open where a slice of the field is.
 struct hair_shown_params {
     hair_vec4 rotation; // of the head: unit quaternion
-    hair_vec4 plane;    // of the slice, in the head's frame: xyz: unit normal, 0 if there is none; w: its distance, m
-    hair_vec4 corner;   // xyz: of the slice, m
-    hair_vec4 side[2];  // xyz: from there along it, m
-    hair_vec4 depth;    // depth in the framebuffer is x + y times that in clip space
+    hair_vec4
+        plane; // of the slice, in the head's frame: xyz: unit normal, 0 if there is none; w: its distance, m
+    hair_vec4 corner;  // xyz: of the slice, m
+    hair_vec4 side[2]; // xyz: from there along it, m
+    hair_vec4 depth;   // depth in the framebuffer is x + y times that in clip space
     HAIR_STRUCT(hair_shown_solid) shown[HAIR_SHOWN_SOLIDS];
 };
 HAIR_SIZE(hair_shown_params, 96 + HAIR_SHOWN_SOLIDS * 128)

@@ -1,8 +1,16 @@
 // lengths.glsl - rest lengths, exactly: Newton's method on all lengths of a strand at once, each step a tridiagonal
 // system (Han and Harada 2013), contact within it. The corrections of vertex i, wanted by the segments on both its
 // sides, pass its contact: that makes its inverse mass an operator.
+//
+// Where bending is taken implicitly what keeps the lengths moves the strand by A^-1 = (M + b^2 K)^-1, as all forces
+// do: by M^-1 alone the shape at rest would depend on the substep. The first steps correct them so, the others, of
+// what is left, by M^-1, which is exact sooner.
 #include "sim/contact.glsl"
 
+SHARED(float, strain_along); // relative correction of length that is wanted of segment i
+SHARED(float, hinge_along);  // what bending, taken for a spring along the strand, has against it
+
+#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // steps by A^-1: the bias at rest is a tenth with each
 #define MOST_STEPS 8u
 #define HEAVY_ROUNDS 6u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
@@ -25,7 +33,26 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
 
 vec3 direction_of(uint i, bool of_start) { return of_start ? GET(lever, i) : GET(edge, i); }
 
-void correct_lengths(bool of_start)
+// The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
+// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988).
+void stiffen_solution()
+{
+    uint  segments = guide_count - 1u;
+    float b        = 2.0 / 3.0 * params.gravity.w;
+    EACH(segments) {
+        float turned = strain_along[i] - (i > 0u ? strain_along[i - 1u] : 0.0);
+        hinge_along[i] = own(strain).w * max(params.ratio.x, params.ratio.z) * turned;
+    }
+    MEET;
+    EACH(segments) {
+        float massive = 1.0 + b * params.damping + b * b * own(aim).w;
+        float stiffly = b * b * (hinge_along[i] - (i + 1u < segments ? hinge_along[i + 1u] : 0.0)) / rest_length[i];
+        solution[i]   = massive * solution[i] + stiffly;
+    }
+    MEET;
+}
+
+void correct_lengths(bool of_start, bool stiffly)
 {
     uint segments = guide_count - 1u;
     EACH(segments) {
@@ -36,24 +63,36 @@ void correct_lengths(bool of_start)
                           i + 1u < segments ? -dot(above, direction_of(i + 1u, of_start)) : 0.0,
                           -own(excess));
         if (b == 0.0) row[i] = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
+        if (stiffly) strain_along[i] = -own(excess) / rest_length[i];
     }
     MEET;
     solve_rows(segments);
+    if (stiffly) stiffen_solution();
     EACH(guide_count) {
-        if (i > 0u) own(wanted) += slack[i] * solution[i - 1u] * direction_of(i - 1u, of_start);
-        if (i + 1u < guide_count) own(wanted) -= slack[i] * solution[i] * direction_of(i, of_start);
+        vec3 force = vec3(0.0);
+        if (i > 0u) force += solution[i - 1u] * direction_of(i - 1u, of_start);
+        if (i + 1u < guide_count) force -= solution[i] * direction_of(i, of_start);
+        if (stiffly) { PUT(moved, i, slack[i] > 0.0 ? force : vec3(0.0)); }
+        else own(wanted) += slack[i] * force;
+    }
+    if (!stiffly) return;
+    MEET;
+    solve_implicit(false);
+    EACH(guide_count) {
+        if (slack[i] > 0.0) own(wanted) += GET(moved, i);
     }
 }
 
 // False: some length is broken even so.
-bool fit_lengths(bool of_start, float tolerance, vec3 head_moved)
+bool fit_lengths(int method, float tolerance, vec3 head_moved)
 {
+    bool of_start = method == SHAKE;
     find_solids(head_moved);
     for (uint n = 0u;; ++n) {
         try_wanted(head_moved, n >= KEEP_FROM, tolerance);
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
         if ((n > 0u && loose[slot] == 0u) || n == MOST_STEPS) return broken[slot] == 0u;
-        correct_lengths(of_start);
+        correct_lengths(of_start, own_method != SHAKE && method == BACK && n < STIFFLY);
     }
 }
 

@@ -12,36 +12,38 @@
 #define EULER 2  // implicit Euler: first order, more stable still
 #define LEADER 3 // the same, then follow the leader
 
-OWN(vec3, rate);        // h v at the end of the last substep,
+#if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
+#define KEEPS_RATES
+OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
 OWN(vec3, rate_before); // and of the one before
+#endif
 #ifdef HAIR_CROWD
 layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
-OWN(vec3, push); // a
+OWN(vec3, push); // acceleration by the hair around, m/s^2
+#endif
+#ifdef HAIR_STIFF
+int own_method; // of the guide
+#else
+const int own_method = HAIR_SOLVER;
 #endif
 OWN(vec4, aim);         // rest position from the root, in groom space; w^2
-float     known;     // 0: at rest, just begun; 1: `rate` is known; 2: `rate_before` too
-bool      stiff;     // SHAKE takes bending implicitly
-bool      taut;      // by a tip so heavy that SHAKE cannot follow: implicit Euler does it
+float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too
 vec4      turn_then; // turn_now, of the substep before
 
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
-    if (slack[i] == 0.0) return method != SHAKE ? root_moved : stiff ? root_moved - last : vec3(0.0);
+    if (slack[i] == 0.0) return method != SHAKE ? root_moved : vec3(0.0);
     return method == BACK ? last / 3.0 : vec3(0.0);
 }
 
-// SHAKE: d' = keep d + kick (g + f/m), forces of the start. Where bending is stiff it is kept stable:
-// (m + h^2 K) (d' - d) = m ((keep - 1) d + kick g) + kick f.
+// SHAKE: d' = keep d + kick (g + f/m), forces of the start.
 void leap(uint i, vec3 force, vec3 wind, vec3 bending)
 {
     float part = known == 0.0 ? 0.5 : 1.0; // The first leap is half a step.
     float kick = part * params.kick;
     vec3  d    = own(displacement);
-    vec3  gain = part * (params.keep - 1.0) * (d - wind) + kick * force;
-    own(wanted) = d;
-    if (stiff) { PUT(moved, i, gain / slack[i] + kick * bending); }
-    else own(wanted) += gain + kick * slack[i] * bending;
+    own(wanted) = d + part * (params.keep - 1.0) * (d - wind) + kick * (force + slack[i] * bending);
 }
 
 // x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
@@ -49,7 +51,11 @@ void leap(uint i, vec3 force, vec3 wind, vec3 bending)
 void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
 {
     float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
-    vec3  hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : HAIR_SOLVER == SHAKE ? own(displacement) : own(rate);
+#ifdef KEEPS_RATES
+    vec3 hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : known < 2.0 ? own(displacement) : own(rate);
+#else
+    vec3 hv = own(displacement);
+#endif
     own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
     PUT(moved, i, (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending);
 }
@@ -87,7 +93,7 @@ void predict(int method)
         EACH(guide_count - 1u) { PUT(lever, i, GET(edge, i)); }
         MEET;
     }
-    if (at_end || stiff) {
+    if (at_end) {
         solve_implicit(method >= EULER);
         EACH(guide_count) {
             if (slack[i] > 0.0) own(wanted) += GET(moved, i);

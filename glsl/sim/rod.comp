@@ -1,7 +1,7 @@
 // rod.comp - the solvers of an inextensible rod: all substeps of a step for every guide.
 //
-// HAIR_SOLVER names the method that is tried first. A substep that it leaves stretched or not finite is done again
-// by implicit Euler, and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes
+// HAIR_SOLVER names the method that is tried first; of guides whose bending SHAKE cannot bear at that substep BDF2, in
+// the programs that have HAIR_STIFF. A substep that it leaves stretched or not finite is done again by implicit Euler, and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes
 // back to its rest pose. What this takes is counted in health[].
 #version 450 core
 #include "sim/rod.glsl"
@@ -21,6 +21,11 @@ vec3 root_at_rest, root_then;
 void load()
 {
     float rescale = params.rescale;
+    known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+#ifdef HAIR_STIFF
+    float taken = rod[guide_first].segment.w;
+    own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
+#endif
     EACH(guide_count) {
         uint      at         = guide_first + i;
         vec3      from_root  = rest[at].position.xyz - root_at_rest;
@@ -35,15 +40,12 @@ void load()
 #ifdef HAIR_CROWD
         own(push)            = texelFetch(push_texture, int(at)).xyz;
 #endif
-#if HAIR_SOLVER != SHAKE
-        own(rate)            = history[at].rate.xyz * rescale;
-        own(rate_before)     = history[at].rate_before.xyz * rescale;
+#ifdef KEEPS_RATES
+        own(rate)            = known < 2.0 ? own(displacement) : history[at].rate.xyz;
+        own(rate_before)     = history[at].rate_before.xyz;
 #endif
         if (i == 0u) loose[0] = loose[1] = loose[2] = broken[0] = broken[1] = broken[2] = 0u;
     }
-    known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
-    stiff = rod[guide_first].segment.w != 0.0;
-    taut  = rod[guide_first].segment.w == 2.0;
     MEET;
     heavy = slack[guide_count - 1u] * guide_length < 1.0;
 }
@@ -55,7 +57,7 @@ void store()
         state[at].position     = vec4(root_now + GET(place, i), known);
         state[at].displacement = vec4(own(displacement), 0.0);
         if (CURVED) material[at] = own(section);
-#if HAIR_SOLVER != SHAKE
+#ifdef KEEPS_RATES
         history[at].rate        = vec4(own(rate), 0.0);
         history[at].rate_before = vec4(own(rate_before), 0.0);
 #endif
@@ -71,7 +73,7 @@ void count_in(uint what)
 #endif
 }
 
-#if HAIR_SOLVER != SHAKE
+#ifdef KEEPS_RATES
 // An impact ends what was, and so does what sticks. Of what slides on, only the part that the contact stops: along the
 // surface BDF2 would else do with 4/9 of every force.
 void forget(uint i, vec3 d)
@@ -100,17 +102,17 @@ void accept(int method, vec3 head_moved)
         precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));
         precise vec3 from_root = from_head - root_now;
         PUT(place, i, from_root);
-#if HAIR_SOLVER != SHAKE
+#ifdef KEEPS_RATES
         own(rate_before) = method == LEADER ? kept : own(rate); // It may be what was not finite.
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
         if (SOLIDS && touch[i].w != FREE) forget(i, d);
 #endif
-        own(displacement) = HAIR_SOLVER == SHAKE ? kept : d;
+        own(displacement) = kept;
         if (max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST))
             broken[slot] = 1u;
         clear_next(i);
     }
-    known       = method == BACK || method == EULER ? 2.0 : 1.0;
+    known       = own_method != SHAKE && (method == BACK || method == EULER) ? 2.0 : 1.0;
     MEET;
     if (broken[slot] == 0u) return;
 
@@ -119,7 +121,7 @@ void accept(int method, vec3 head_moved)
         PUT(place, i, rotate(turn_now, own(aim).xyz));
         own(displacement) = still;
         if (CURVED) own(section) = quat_multiply(turn_now, rest[guide_first + i].frame);
-#if HAIR_SOLVER != SHAKE
+#ifdef KEEPS_RATES
         own(rate) = own(rate_before) = still;
 #endif
     }
@@ -153,14 +155,14 @@ void main()
         share_then      = share_now;
         share_now       = params.substep[s].displacement.w;
 
-        int method = (HAIR_SOLVER == BACK && known < 2.0) || (HAIR_SOLVER == SHAKE && taut) ? EULER : HAIR_SOLVER;
+        int method = own_method == BACK && known < 2.0 ? EULER : own_method;
         for (;; ++method) {
             predict(method);
             if (method == LEADER) {
                 follow_leader(head_moved);
                 break;
             }
-            if (fit_lengths(method == SHAKE, method == SHAKE ? 3e-4 : 9e-4, head_moved)) break;
+            if (fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved)) break;
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }

@@ -4,8 +4,7 @@
 // x|^2 with row = (1/l_(i-1), -1/l_(i-1) - 1/l_i, 1/l_i) of the vertices i-1, i, i+1; at the root (-1/l_0, 1/l_0).
 // K sums these; the systems are diag(m_i A_i) + b^2 K, five diagonals, symmetric and positive:
 //
-//   BDF2 and implicit Euler   b = 2/3 h, h   A_i = 1 + c b + w_i^2 b^2   of damping c and pull w_i
-//   implicit leapfrog         b = h          A_i = 1
+//   b = 2/3 h of BDF2, h of implicit Euler   A_i = 1 + c b + w_i^2 b^2   of damping c and pull w_i
 #include "lib/sim/rod_shape.h"
 
 #define TWO_PI 6.283185307179586
@@ -127,21 +126,21 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
     for (uint32_t i = 0; i + 1 < s->count; ++i)
         stiffness[i] = fmin(hair_rod_stiffness(s, i, stiffen), most_stiffness(s, i, h));
     find_bands(s, stiffness, k);
-    int    leapfrog = solver == HAIR_SOLVER_ACCURATE, direct = solver == HAIR_SOLVER_DIRECT;
-    int    taut     = leapfrog && tautness * h > 2 / EXPLICIT_MARGIN;
-    int    implicit = leapfrog && longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
-    double damping = (double)physics->damping, b = direct ? 2 * h / 3 : h;
+    int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
+    if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
+    int    taut    = accurate && tautness * h > 2 / EXPLICIT_MARGIN;
+    double damping = (double)physics->damping, b = 2 * h / 3;
 
     struct rows own = {0}, euler = {0};
     for (uint32_t i = 0; i < s->count; ++i) {
         int    fixed = i == 0 && s->held;
         double pull  = pull_squared(physics, (double)i / (s->count - 1)) * hair_rod_weight_share(s, i);
-        double of_b  = fixed ? 1 : s->mass[i] * (leapfrog ? 1 : 1 + damping * b + pull * b * b);
+        double of_b  = fixed ? 1 : s->mass[i] * (1 + damping * b + pull * b * b);
         double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
         out[i]       = (struct hair_rod){.strain  = rest_strain(s, i, stiffness[i]),
                                          .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
                                                      (float)pull, taut ? 2 : (float)implicit}};
-        if (direct || implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
+        if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
 }

@@ -31,8 +31,9 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
                      const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
                      struct hair_rods_report* report);
 
-// The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much shorter as bending needs to be stable without
-// being implicit, down to 1/4800; guides that need still shorter ones are left to be implicit.
+// The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
+// shorter as bending needs to be stable without being implicit, down to 1/4800; guides that need still shorter ones
+// take BDF2.
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                          const hair_physics* physics, hair_solver solver);
 

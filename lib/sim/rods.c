@@ -9,6 +9,7 @@ struct hair_rods {
     hair_physics            made_for;
     struct hair_rods_report report;
     int                     curved;
+    int                     stiff;  // for SHAKE, some
     int                     struck; // made for: sim->struck
 };
 
@@ -25,6 +26,14 @@ static int is_curved(const struct hair_rod* rod, uint32_t vertices, const hair_p
         hair_vec3 strain = {rod[i].strain.x, rod[i].strain.y, rod[i].strain.z};
         if (hair_dot(strain, strain) > STRAIGHT * STRAIGHT) return 1;
     }
+    return 0;
+}
+
+static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
+{
+    if (sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    for (uint32_t i = 0; i < sim->guides; ++i)
+        if (rod[sim->rods->guides[i].first].segment.w != 0) return 1;
     return 0;
 }
 
@@ -74,6 +83,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->made_for = sim->physics;
         rods->struck   = struck;
         rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
+        rods->stiff    = is_stiff(sim, rod);
         sim->substep   = substep;
     }
     hair_free(host, rod);
@@ -84,9 +94,8 @@ static hair_result make_buffers(struct hair_sim* sim)
 {
     size_t      vertices = sim->guide_vertices;
     hair_result result   = HAIR_OK;
-    // SHAKE keeps no past beyond the state.
-    size_t history = sim->solver == HAIR_SOLVER_ACCURATE ? 0 : vertices * sizeof(struct hair_history);
-    result         = hair_gl_storage(sim->gl, "hair history", history, NULL, &sim->history);
+    result =
+        hair_gl_storage(sim->gl, "hair history", vertices * sizeof(struct hair_history), NULL, &sim->history);
     if (!result)
         result =
             hair_gl_storage(sim->gl, "hair material", vertices * sizeof(hair_vec4), NULL, &sim->material);
@@ -164,6 +173,11 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
 int hair_sim_is_curved(const struct hair_sim* sim)
 {
     return sim->rods && sim->rods->curved;
+}
+
+int hair_sim_is_stiff(const struct hair_sim* sim)
+{
+    return sim->rods && sim->rods->stiff;
 }
 
 float hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides)

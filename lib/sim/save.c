@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 4 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 5 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -260,9 +260,8 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_solids(c, "number of solids at the last step", &sim->solids, &sim->solids.before, &c->before);
     walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
     walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
-    if (sim->solver != HAIR_SOLVER_ACCURATE)
-        walk_buffer(c, "rates of guide vertices", sim->history,
-                    sim->guide_vertices * sizeof(struct hair_history));
+    walk_buffer(c, "rates of guide vertices", sim->history,
+                sim->guide_vertices * sizeof(struct hair_history));
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
 }
 

@@ -25,7 +25,7 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
     uint32_t met    = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
     if (by_thread) return (sim->most_vertices + 1) * (190 + met) + 3 * (solids + 1);
-    return 600 + 32 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+    return 620 + 32 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
 }
 
 // Where a thread would have too much to do, it is a work group's.
@@ -50,7 +50,7 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW_32,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
-    hair_gl_pass pass = smallest[sim->solver];
+    hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
     int          kind = (hair_sim_contacts(sim) > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim) +
                8 * hair_crowd_is_on(sim);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;

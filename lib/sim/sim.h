@@ -52,6 +52,7 @@ void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);
 void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
 int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, or their sections are flat
+int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
 float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // and how many were stiffened
 void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
 
