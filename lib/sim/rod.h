@@ -32,7 +32,7 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
                      struct hair_rods_report* report);
 
 // The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
-// shorter as bending needs to be stable without being implicit, down to 1/4800; guides that need still shorter ones
+// shorter as bending needs to be stable without being implicit, down to 1/6000; guides that need still shorter ones
 // take BDF2.
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                          const hair_physics* physics, hair_solver solver);
