@@ -83,7 +83,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     GLuint program = gl->CreateProgram();
     if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
     hair_result result      = HAIR_OK;
-    char        prefix[192] = "";
+    char        prefix[512] = "";
     size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
     for (const char* at = stages; *at && !result;) {
         char   word[64];
@@ -93,6 +93,8 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
         if (value) {
             *value = ' ';
             used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define %s\n", word);
+            if (used >= sizeof prefix)
+                result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", label);
         } else {
             result = compile_stage(gl, program, word, prefix);
         }
