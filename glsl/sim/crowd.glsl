@@ -46,7 +46,11 @@ uint node_of(uvec3 corner)
 
 vec3 shares_of(uvec3 corner) { return mix(1.0 - part, part, vec3(corner)); }
 
-vec3 rate_of(uint i) { return i < uint(history.length()) ? history[i].rate.xyz : state[i].displacement.xyz; }
+// Of a vertex whose past is known no better its displacement.
+vec3 rate_of(uint i)
+{
+    return state[i].position.w < 2.0 ? state[i].displacement.xyz : history[i].rate.xyz;
+}
 
 bool counts(uint i) { return is_sound(state[i].position.xyz) && is_sound(rate_of(i)); }
 
