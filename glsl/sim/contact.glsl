@@ -10,14 +10,7 @@
 #define STICK_PASS 0.1 // see pass_on
 #define EMERGE 1.0     // m/s
 
-#define touch row_next // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS. Written before lengths are fitted.
-
-#ifdef HAIR_THREAD_PER_GUIDE
-vec4 row_next[MOST];
-uint near[2];
-#else
-shared uint near[2];
-#endif
+OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
 OWN(uvec2, reachable); // solids, one bit each,
 OWN(uvec2, met);       // and those met in this substep
 float share_then, share_now; // of the step that is done at the substep's start and end
@@ -57,27 +50,19 @@ float swept_by(uint k, capsule now)
 void find_solids(vec3 head_moved)
 {
     if (!SOLIDS) return;
-    EACH(1u) { near[0] = near[1] = 0u; }
-    MEET;
+    uvec2 near    = uvec2(0u);
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
-    if (slack[0] > 0.0) longest = 2.0 * FARTHEST; // A root that nothing holds may be anywhere.
-    for (uint k = 0u; k < params.solids; ++k) {
-#ifndef HAIR_THREAD_PER_GUIDE
-        if (k % MOST != gl_LocalInvocationID.x) continue;
-#endif
+    if (root_is_free) longest = 2.0 * FARTHEST; // A root that nothing holds may be anywhere.
+    for (uint k = lane; k < params.solids; k += lanes) {
         capsule solid = solid_at(k, share_now);
-        bool    met   = length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid);
-#ifdef HAIR_THREAD_PER_GUIDE
-        if (met) near[k / 32u] |= 1u << (k % 32u);
-#else
-        if (met) atomicOr(near[k / 32u], 1u << (k % 32u));
-#endif
+        if (length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid))
+            near[k / 32u] |= 1u << (k % 32u);
     }
-    MEET;
+    near = all_bits(near);
     EACH(guide_count) {
         own(reachable) = own(met) = uvec2(0u);
-        if (slack[i] > 0.0) {
-            vec3  position = root_now + GET(place, i) + own(wanted) - root_moved;
+        if (own(slack) > 0.0) {
+            vec3  position = root_now + GET(place) + own(wanted) - root_moved;
             float reach    = 0.02 + length(own(wanted) - head_moved);
             for (int word = 0; word < 2; ++word)
                 for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
@@ -165,7 +150,7 @@ uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 
 vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
 {
     vec3 d     = want;
-    vec3 start = root_now - root_moved + head_moved + GET(place, i);
+    vec3 start = root_now - root_moved + head_moved + GET(place);
     freedom    = vec4(0.0, 0.0, 0.0, FREE);
     if (push_out(start, solids, kept, head_moved, d, freedom, met) > 1u)
         push_out(start, solids, kept, head_moved, d, freedom, met);

@@ -1,24 +1,18 @@
-// mapping.glsl - one text for two ways to spread a guide over threads: a work group per guide and a thread per
-// vertex, or, with HAIR_THREAD_PER_GUIDE, a thread per guide that goes over its vertices.
+// mapping.glsl - one text for three ways to spread a guide over threads: a work group per guide and a thread per
+// vertex; the same of a guide that fits into a subgroup (HAIR_SUBGROUP), whose threads read each other's registers; or,
+// with HAIR_THREAD_PER_GUIDE, a thread per guide that goes over its vertices.
 //
-//   EACH(n)  for the vertices i below n, in any order; between two of them MEET where one reads what the other
-//            wrote for another vertex
-//   SHARED   an array that all vertices of the guide see
-//   OWN      what only its vertex sees: a register, or an array; read as own(name)
-//   ONCE(n)  n jobs j that each go over the whole guide, as recurrences do
+//   EACH(n)  for the vertices i below n, in any order. A subgroup goes over those beyond as well: nothing of them is
+//            looked at
+//   OWN      what only its vertex sees: a register, or an array; own(name)
+//   SHARED   what its neighbours see too: seen(name), BEFORE(name). Of vectors SHARED_VEC3: GET(name), PUT(name, v),
+//            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
+//            within a condition that differs between vertices, nor in an EACH that writes it
+//   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
+//            any of the guide's threads has, do that too
+//   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v)
+//   lend     makes a vector seen by all threads of a work group or subgroup, as lent_by(thread), which goes round
 #include "workgroup.glsl"
-
-// Vectors in arrays, component after component: neighbouring threads then use neighbouring banks of a GPU's memory.
-#define SHARED_VEC3(name) SHARED_FLOATS(name, 3 * MOST)
-#define COMPONENT(name, i, c) name[uint(MOST) * (c) + (i)]
-#define GET(name, i) vec3(COMPONENT(name, i, 0u), COMPONENT(name, i, 1u), COMPONENT(name, i, 2u))
-#define PUT(name, i, v)                                                                                      \
-    {                                                                                                        \
-        vec3 put_value           = v;                                                                        \
-        COMPONENT(name, i, 0u) = put_value.x;                                                                \
-        COMPONENT(name, i, 1u) = put_value.y;                                                                \
-        COMPONENT(name, i, 2u) = put_value.z;                                                                \
-    }
 
 // What a program leaves out. Constants, for software rasterisers run both sides of a branch.
 #ifdef HAIR_CURVED
@@ -32,33 +26,121 @@
 #define SOLIDS false
 #endif
 
-#ifdef HAIR_THREAD_PER_GUIDE
+#if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 
-// Vertices, and one more: Mesa unrolls a loop over an array of 32, and then takes 16 s to compile it.
-#define MOST (HAIR_GUIDE_THREADS + 1)
-#define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
-#define EACH(n) for (uint i = 0u; i < (n); ++i)
-#define ONCE(n) for (uint j = 0u; j < (n); ++j)
-#define SHARED(T, name) T name[MOST]
-#define SHARED_FLOATS(name, n) float name[n]
-#define OWN(T, name) T name[MOST]
-#define own(name) name[i]
+#define GROUP_THREADS 32
+#define EACH(n) for (uint i = lane, goes = 1u; goes > 0u; goes = 0u)
+#define ONCE
+#define SHARED(T, name) T name
+#define SHARED_VEC3(name) vec3 name
+#define OWN(T, name) T name
+#define own(name) name
+#define seen(name) name
+#define GET(name) name
+#define PUT(name, v) name = v
+#define BEFORE(name) subgroupShuffle(name, (lane - 1u) & 31u)
+#define BEFORE_VEC3(name) BEFORE(name)
+#define AFTER_VEC3(name) subgroupShuffle(name, (lane + 1u) & 31u)
+#define GET_AT(name, k) subgroupShuffle(name, k)
+#define PUT_AT(name, k, v)                                                                                   \
+    if ((k) == lane) name = v
 #define MEET
-uint loose[3], broken[3];
-uint hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocationID.x; }
+#define lane gl_SubgroupInvocationID
+#define lanes 32u
+uint  hair_guide_number() { return hair_group(); }
+bvec2 any_of(bvec2 v) { return bvec2(subgroupAny(v.x), subgroupAny(v.y)); }
+uvec2 all_bits(uvec2 bits) { return subgroupOr(bits); }
+vec3  lent;
+void  lend(vec3 v) { lent = v; }
+vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
 
 #else
 
-#define MOST HAIR_GUIDE_THREADS // vertices
-#define GROUP_THREADS MOST
-#define EACH(n) for (uint i = gl_LocalInvocationID.x; i < (n); i = 0xffffffffu)
-#define ONCE(n) for (uint j = gl_LocalInvocationID.x; j < (n); j = 0xffffffffu)
+// Vertices, and one more, which AFTER_VEC3 may read. And Mesa takes 16 s to unroll a loop over an array of 32.
+#define MOST (HAIR_GUIDE_THREADS + 1)
+
+// Vectors component after component: neighbouring threads then use neighbouring banks of a GPU's memory.
+#define COMPONENT(name, i, c) name[uint(MOST) * (c) + (i)]
+#define GET_AT(name, k) vec3(COMPONENT(name, k, 0u), COMPONENT(name, k, 1u), COMPONENT(name, k, 2u))
+#define PUT_AT(name, k, v)                                                                                   \
+    {                                                                                                        \
+        vec3 put_value         = v;                                                                          \
+        COMPONENT(name, k, 0u) = put_value.x;                                                                \
+        COMPONENT(name, k, 1u) = put_value.y;                                                                \
+        COMPONENT(name, k, 2u) = put_value.z;                                                                \
+    }
+#define GET(name) GET_AT(name, i)
+#define PUT(name, v) PUT_AT(name, i, v)
+#define seen(name) name[i]
+#define BEFORE(name) name[max(i, 1u) - 1u]
+#define BEFORE_VEC3(name) GET_AT(name, max(i, 1u) - 1u)
+#define AFTER_VEC3(name) GET_AT(name, i + 1u)
+
+#ifdef HAIR_THREAD_PER_GUIDE
+
+#define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
+#define EACH(n) for (uint i = 0u; i < (n); ++i)
+#define ONCE
+#define SHARED(T, name) T name[MOST]
+#define SHARED_VEC3(name) float name[3 * MOST]
+#define OWN(T, name) T name[MOST]
+#define own(name) name[i]
+#define MEET
+#define lane 0u
+#define lanes 1u
+uint  hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocationID.x; }
+bvec2 any_of(bvec2 v) { return v; }
+uvec2 all_bits(uvec2 bits) { return bits; }
+
+#else
+
+#define GROUP_THREADS HAIR_GUIDE_THREADS
+#define EACH(n) for (uint i = lane; i < (n); i = 0xffffffffu)
+#define ONCE if (lane == 0u)
 #define SHARED(T, name) shared T name[MOST]
-#define SHARED_FLOATS(name, n) shared float name[n]
+#define SHARED_VEC3(name) shared float name[3 * MOST]
 #define OWN(T, name) T name
 #define own(name) name
 #define MEET synchronise()
-shared uint loose[3], broken[3];
-uint hair_guide_number() { return hair_group(); }
+#define lane gl_LocalInvocationID.x
+#define lanes uint(HAIR_GUIDE_THREADS)
 
+shared uvec2 gathered[3]; // Taken in turn, so that one can be cleared while another is read.
+shared float lent[6 * MOST]; // Two in turn, likewise.
+uint gathering, lending;
+
+uint hair_guide_number()
+{
+    if (lane == 0u) gathered[0] = uvec2(0u);
+    gathering = lending = 0u;
+    synchronise();
+    return hair_group();
+}
+
+uvec2 all_bits(uvec2 bits)
+{
+    uint next = gathering == 2u ? 0u : gathering + 1u;
+    if (lane == 0u) gathered[next] = uvec2(0u);
+    if (bits.x != 0u) atomicOr(gathered[gathering].x, bits.x);
+    if (bits.y != 0u) atomicOr(gathered[gathering].y, bits.y);
+    synchronise();
+    bits      = gathered[gathering];
+    gathering = next;
+    return bits;
+}
+bvec2 any_of(bvec2 v) { return notEqual(all_bits(uvec2(v)), uvec2(0u)); }
+
+void lend(vec3 v)
+{
+    lending = uint(3 * MOST) - lending;
+    PUT_AT(lent, lending + lane, v);
+    synchronise();
+}
+vec3 lent_by(uint thread)
+{
+    uint k = lending + (thread & (lanes - 1u));
+    return GET_AT(lent, k);
+}
+
+#endif
 #endif

@@ -33,7 +33,7 @@ vec4      turn_then; // turn_now, of the substep before
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
-    if (slack[i] == 0.0) return method != SHAKE ? root_moved : vec3(0.0);
+    if (own(slack) == 0.0) return method != SHAKE ? root_moved : vec3(0.0);
     return method == BACK ? last / 3.0 : vec3(0.0);
 }
 
@@ -43,7 +43,7 @@ void leap(uint i, vec3 force, vec3 wind, vec3 bending)
     float part = known == 0.0 ? 0.5 : 1.0; // The first leap is half a step.
     float kick = part * params.kick;
     vec3  d    = own(displacement);
-    own(wanted) = d + part * (params.keep - 1.0) * (d - wind) + kick * (force + slack[i] * bending);
+    own(wanted) = d + part * (params.keep - 1.0) * (d - wind) + kick * (force + own(slack) * bending);
 }
 
 // x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
@@ -57,7 +57,7 @@ void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
     vec3 hv = own(displacement);
 #endif
     own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
-    PUT(moved, i, (b * hv + b * b * h * (h * force + params.damping * wind)) / slack[i] + b * b * h * h * bending);
+    PUT(moved, (b * hv + b * b * h * (h * force + params.damping * wind)) / own(slack) + b * b * h * h * bending);
 }
 
 void predict(int method)
@@ -65,7 +65,7 @@ void predict(int method)
     bool at_end  = method != SHAKE; // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
-    EACH(guide_count) { PUT(moved, i, offset_of(i, method, own(displacement))); }
+    EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
     MEET;
     measure(1.0);
     find_bending();
@@ -73,31 +73,29 @@ void predict(int method)
     EACH(guide_count) {
         // Of what its inertia would weigh: see lib/sim/taut.c.
         float share  = heavy && i > 0u && i + 1u < guide_count
-                           ? min(0.5 * (rest_length[i - 1u] + rest_length[i]) * slack[i], 1.0) : 1.0;
+                           ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
         vec3 wind    = share * params.gravity.w * params.wind.xyz;
         own(wanted)  = root_moved;
-        vec3 bending = bending_force(i);
+        vec3 bending = by_segments(i);
         vec3 force   = share * params.gravity.xyz;
-        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved, i) : vec3(0.0)) - GET(place, i));
+        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved) : vec3(0.0)) - GET(place));
 #ifdef HAIR_CROWD
         force += own(push);
 #endif
-        PUT(moved, i, vec3(0.0));
-        if (slack[i] > 0.0) {
+        PUT(moved, vec3(0.0));
+        if (own(slack) > 0.0) {
             if (method == SHAKE) leap(i, force, wind, bending);
             else step_back(i, method == BACK, force, wind, bending);
         }
     }
-    MEET;
     if (method == SHAKE) {
-        EACH(guide_count - 1u) { PUT(lever, i, GET(edge, i)); }
+        EACH(guide_count - 1u) { PUT(lever, GET(edge)); }
         MEET;
     }
     if (at_end) {
         solve_implicit(method >= EULER);
         EACH(guide_count) {
-            if (slack[i] > 0.0) own(wanted) += GET(moved, i);
+            if (own(slack) > 0.0) own(wanted) += GET(moved);
         }
-        MEET;
     }
 }

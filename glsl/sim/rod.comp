@@ -4,6 +4,11 @@
 // the programs that have HAIR_STIFF. A substep that it leaves stretched or not finite is done again by implicit Euler, and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes
 // back to its rest pose. What this takes is counted in health[].
 #version 450 core
+#ifdef HAIR_SUBGROUP
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#endif
 #include "sim/rod.glsl"
 layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
@@ -18,59 +23,59 @@ layout(local_size_x = GROUP_THREADS) in;
 
 vec3 root_at_rest, root_then;
 
+vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
+
 void load()
 {
     float rescale = params.rescale;
-    known = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+    bool  pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
+    known         = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+    root_is_free  = rod[guide_first].segment.y > 0.0;
+    heavy         = rod[guide_first + guide_count - 1u].segment.y * guide_length < 1.0;
 #ifdef HAIR_STIFF
     float taken = rod[guide_first].segment.w;
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
 #endif
     EACH(guide_count) {
-        uint      at         = guide_first + i;
-        vec3      from_root  = rest[at].position.xyz - root_at_rest;
+        uint at      = guide_first + min(i, guide_count - 1u);
+        vec4 segment = i < guide_count ? rod[at].segment : vec4(0.0);
         // What is held is where the scalp has it, wherever it was when it was not.
-        PUT(place, i, rod[at].segment.y > 0.0 ? state[at].position.xyz - root_then : vec3(0.0));
-        own(displacement)    = state[at].displacement.xyz * rescale;
-        rest_length[i]       = rod[at].segment.x;
-        slack[i]             = rod[at].segment.y;
-        own(aim)             = vec4(from_root, rod[at].segment.z);
-        own(strain)          = rod[at].strain;
-        if (CURVED) own(section) = material[at];
+        PUT(place, segment.y > 0.0 ? state[at].position.xyz - root_then : vec3(0.0));
+        own(displacement) = state[at].displacement.xyz * rescale;
+        own(rest_length)  = segment.x;
+        own(slack)        = segment.y;
+        own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
+        own(strain)       = rod[at].strain;
+        if (CURVED) seen(section) = material[at];
 #ifdef HAIR_CROWD
-        own(push)            = texelFetch(push_texture, int(at)).xyz;
+        own(push) = texelFetch(push_texture, int(at)).xyz;
 #endif
 #ifdef KEEPS_RATES
-        own(rate)            = known < 2.0 ? own(displacement) : history[at].rate.xyz;
-        own(rate_before)     = history[at].rate_before.xyz;
+        own(rate)        = known < 2.0 ? own(displacement) : history[at].rate.xyz;
+        own(rate_before) = history[at].rate_before.xyz;
 #endif
-        if (i == 0u) loose[0] = loose[1] = loose[2] = broken[0] = broken[1] = broken[2] = 0u;
     }
-    MEET;
-    heavy = slack[guide_count - 1u] * guide_length < 1.0;
 }
 
 void store()
 {
     EACH(guide_count) {
-        uint at                = guide_first + i;
-        state[at].position     = vec4(root_now + GET(place, i), known);
-        state[at].displacement = vec4(own(displacement), 0.0);
-        if (CURVED) material[at] = own(section);
+        if (i < guide_count) {
+            uint at                = guide_first + i;
+            state[at].position     = vec4(root_now + GET(place), known);
+            state[at].displacement = vec4(own(displacement), 0.0);
+            if (CURVED) material[at] = seen(section);
 #ifdef KEEPS_RATES
-        history[at].rate        = vec4(own(rate), 0.0);
-        history[at].rate_before = vec4(own(rate_before), 0.0);
+            history[at].rate        = vec4(own(rate), 0.0);
+            history[at].rate_before = vec4(own(rate_before), 0.0);
 #endif
+        }
     }
 }
 
 void count_in(uint what)
 {
-#ifdef HAIR_THREAD_PER_GUIDE
-    atomicAdd(health[what], 1u);
-#else
-    if (gl_LocalInvocationID.x == 0u) atomicAdd(health[what], 1u);
-#endif
+    if (lane == 0u) atomicAdd(health[what], 1u);
 }
 
 #ifdef KEEPS_RATES
@@ -79,10 +84,10 @@ void count_in(uint what)
 void forget(uint i, vec3 d)
 {
     vec3 lost   = own(displacement) - d;
-    bool struck = length(lost - pass_on(touch[i], lost)) > STRUCK * params.gravity.w;
-    bool ends   = struck || touch[i].w == STICKS;
-    own(rate)        = ends ? d : d + pass_on(touch[i], own(rate) - d);
-    own(rate_before) = ends ? d : d + pass_on(touch[i], own(rate_before) - d);
+    bool struck = length(lost - pass_on(own(touch), lost)) > STRUCK * params.gravity.w;
+    bool ends   = struck || own(touch).w == STICKS;
+    own(rate)        = ends ? d : d + pass_on(own(touch), own(rate) - d);
+    own(rate_before) = ends ? d : d + pass_on(own(touch), own(rate_before) - d);
 }
 #endif
 
@@ -91,43 +96,43 @@ void forget(uint i, vec3 d)
 void accept(int method, vec3 head_moved)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+    vec3 root_d = GET_AT(moved, 0u);
+    bool lost   = false;
     EACH(guide_count) {
-        vec3 d = GET(moved, i), kept = d;
+        vec3 d = GET(moved), kept = d;
         if (method == LEADER) { // What was drawn along may not keep that speed.
-            vec3  relative = d - GET(moved, 0u);
+            vec3  relative = d - root_d;
             float speed    = length(relative);
-            kept           = GET(moved, 0u) + (heavy && i + 1u == guide_count ? 1.0 : LEADER_KEEPS) * relative * (speed > fastest ? fastest / speed : 1.0);
+            float keeps    = heavy && i + 1u == guide_count ? 1.0 : LEADER_KEEPS;
+            kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
-        precise vec3 from_head = root_now + (GET(place, i) + (d - root_moved));
+        precise vec3 from_head = root_now + (GET(place) + (d - root_moved));
         precise vec3 from_root = from_head - root_now;
-        PUT(place, i, from_root);
+        PUT(place, from_root);
 #ifdef KEEPS_RATES
         own(rate_before) = method == LEADER ? kept : own(rate); // It may be what was not finite.
         own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
-        if (SOLIDS && touch[i].w != FREE) forget(i, d);
+        if (SOLIDS && own(touch).w != FREE) forget(i, d);
 #endif
         own(displacement) = kept;
-        if (max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST))
-            broken[slot] = 1u;
-        clear_next(i);
+        if (i < guide_count)
+            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
     }
     known       = own_method != SHAKE && (method == BACK || method == EULER) ? 2.0 : 1.0;
-    MEET;
-    if (broken[slot] == 0u) return;
+    if (!any_of(bvec2(lost, false)).x) return;
 
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
     EACH(guide_count) {
-        PUT(place, i, rotate(turn_now, own(aim).xyz));
+        PUT(place, rotate(turn_now, rest_from_root(i)));
         own(displacement) = still;
-        if (CURVED) own(section) = quat_multiply(turn_now, rest[guide_first + i].frame);
+        if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
 #ifdef KEEPS_RATES
         own(rate) = own(rate_before) = still;
 #endif
     }
     known       = 1.0;
     count_in(HAIR_HEALTH_RESET);
-    MEET;
 }
 
 void main()
@@ -142,7 +147,6 @@ void main()
     root_then    = rotate(turn_now, root_at_rest);
     root_now     = root_then;
     share_now    = params.share_start;
-    slot         = 0u;
     load();
 
     for (uint s = 0u; s < params.substeps; ++s) {
@@ -166,7 +170,6 @@ void main()
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
-        next_slot();
         accept(method, head_moved);
     }
     store();

@@ -8,15 +8,16 @@
 #include "sim/mapping.glsl"
 #include "sim/tridiagonal.glsl"
 
-SHARED_VEC3(place);        // at the start of the substep
-SHARED_VEC3(moved);        // displacement that is tried
-SHARED_VEC3(edge);         // unit, of segment i, where `moved` leads
-SHARED_VEC3(lever);        // bending: what a hinge does; then: directions in which lengths are corrected
-SHARED(float, rest_length); // of segment i; 0 for the tip
-SHARED(float, slack);       // 1 / mass; 0: held
-OWN(vec3, wanted);          // displacement if no solid were in the way
-OWN(vec3, displacement);    // over the last substep
-OWN(float, excess);         // of length, of segment i
+SHARED_VEC3(place);      // at the start of the substep
+SHARED_VEC3(moved);      // displacement that is tried
+SHARED_VEC3(edge);       // unit, of segment i, where `moved` leads
+SHARED_VEC3(lever);      // bending: what a hinge does; then: directions in which lengths are corrected
+SHARED_VEC3(handed);     // to the neighbours, of forces: see there
+OWN(float, rest_length); // of segment i; 0 for the tip
+OWN(float, slack);       // 1 / mass; 0: held
+OWN(vec3, wanted);       // displacement if no solid were in the way
+OWN(vec3, displacement); // over the last substep
+OWN(float, excess);      // of length, of segment i
 
 // The guide, the same for all its vertices.
 uint  guide_number, guide_first, guide_count;
@@ -26,6 +27,8 @@ vec3 root_now;   // from the head's origin, at the end of the substep
 vec3 root_moved; // over it
 vec4 turn_now;   // of the head
 vec4 scalp;      // frame that clamps the first segment
+bool root_is_free;
+bool loose, broken; // what measure() finds
 
 // By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
 uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
@@ -33,27 +36,18 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 #define FARTHEST 1e4  // m from the head's origin, or in a substep: no hair is there
 #define TOO_LONG 0.01 // relative error of length with which a method has failed
 
-// One of three pairs of flags, taken in turn, so that one can be cleared while another is read.
-uint slot;
-void next_slot() { slot = slot == 2u ? 0u : slot + 1u; }
-void clear_next(uint i)
-{
-    if (i == 0u) loose[slot == 2u ? 0u : slot + 1u] = broken[slot == 2u ? 0u : slot + 1u] = 0u;
-}
-
 // Unit edges where `moved` leads; whether some length is loose, wrong by more than the relative `tolerance`, or broken.
 void measure(float tolerance)
 {
-    next_slot();
+    uint most = 0u;
     EACH(guide_count - 1u) {
-        vec3  to = (GET(place, i + 1u) - GET(place, i)) + (GET(moved, i + 1u) - GET(moved, i));
+        vec3  to = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
         float l  = length(to);
-        PUT(edge, i, to / l);
-        own(excess) = l - rest_length[i];
-        uint error = bits_of(own(excess) / rest_length[i]);
-        if (error > floatBitsToUint(tolerance)) loose[slot] = 1u;
-        if (error > floatBitsToUint(TOO_LONG)) broken[slot] = 1u;
-        clear_next(i);
+        PUT(edge, to / l);
+        own(excess) = l - own(rest_length);
+        if (i + 1u < guide_count) most = max(most, bits_of(own(excess) / own(rest_length)));
     }
-    MEET;
+    bvec2 found = any_of(bvec2(most > floatBitsToUint(tolerance), most > floatBitsToUint(TOO_LONG)));
+    loose       = found.x;
+    broken      = found.y;
 }

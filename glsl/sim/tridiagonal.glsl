@@ -1,9 +1,8 @@
 // tridiagonal.glsl - a x_(i-1) + b x_i + c x_(i+1) = r for i < n, a of the first and c of the last being 0.
+OWN(vec4, row); // a, b, c, r
+OWN(float, solution);
 
 #ifdef HAIR_THREAD_PER_GUIDE
-
-vec4  row[MOST]; // a, b, c, r
-float solution[MOST];
 
 // Thomas: elimination downwards, substitution upwards.
 void solve_rows(uint n)
@@ -23,39 +22,23 @@ void solve_rows(uint n)
 
 #else
 
-shared vec4  row[MOST];
-shared vec4  row_next[MOST];
-shared float solution[MOST];
-
-// Rows whose diagonal is 1: it need not be handed on.
-vec4 reduced(vec4 own_row, vec4 above, vec4 below)
+// A row a, 1, c, r freed of its neighbours.
+vec3 reduced(vec3 mine, vec3 above, vec3 below)
 {
-    float scale = 1.0 / (1.0 - own_row.x * above.z - own_row.z * below.x);
-    return scale * vec4(-own_row.x * above.x, 0.0, -own_row.z * below.z,
-                        own_row.w - own_row.x * above.w - own_row.z * below.w);
+    float scale = 1.0 / (1.0 - mine.x * above.y - mine.y * below.x);
+    return scale * vec3(-mine.x * above.x, -mine.y * below.y, mine.z - mine.x * above.z - mine.y * below.z);
 }
 
-// Parallel cyclic reduction (Hockney 1965): every row is freed of its neighbours at distance 1, 2, 4, ...
+// Parallel cyclic reduction (Hockney 1965): every row is freed of its neighbours at distance 1, 2, 4, ... Beyond the
+// ends are rows of nothing, and of what comes round there a and c are 0.
 void solve_rows(uint n)
 {
-    uint i    = gl_LocalInvocationID.x;
-    vec4 mine = vec4(0.0);
-    if (i < n) row[i] = mine = row[i] / row[i].y;
-    bool there = false;
-    for (uint reach = 1u; reach < n; reach *= 2u) {
-        synchronise();
-        if (i < n) {
-            vec4 none  = vec4(0.0);
-            vec4 above = i >= reach ? (there ? row_next[i - reach] : row[i - reach]) : none;
-            vec4 below = i + reach < n ? (there ? row_next[i + reach] : row[i + reach]) : none;
-            mine       = reduced(mine, above, below);
-            if (there) row[i] = mine;
-            else row_next[i] = mine;
-        }
-        there = !there;
+    vec3 mine = lane < n ? row.xzw / row.y : vec3(0.0);
+    for (uint reach = 1u; reach < lanes; reach *= 2u) {
+        lend(mine);
+        mine = reduced(mine, lent_by(lane - reach), lent_by(lane + reach));
     }
-    if (i < n) solution[i] = mine.w;
-    synchronise();
+    solution = mine.z;
 }
 
 #endif

@@ -11,6 +11,32 @@ static int find(const hair_context_desc* desc, const char* name, void* function)
     return address != NULL;
 }
 
+static int has_extension(const struct hair_gl* gl, const char* name)
+{
+    GLint count = 0;
+    gl->GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        const char* other = (const char*)gl->GetStringi(GL_EXTENSIONS, (GLuint)i);
+        if (other && strcmp(other, name) == 0) return 1;
+    }
+    return 0;
+}
+
+// Whether a work group of 32 is one subgroup, of which compute shaders can do what glsl/sim/mapping.glsl does. Mesa says
+// 32 too, and may run it as two or four.
+static int find_subgroup(const struct hair_gl* gl)
+{
+    const char* vendor   = (const char*)gl->GetString(GL_VENDOR);
+    const GLint features = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_VOTE_BIT_KHR |
+                           GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR | GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
+    GLint size = 0, stages = 0, there = 0;
+    if (!vendor || !strstr(vendor, "NVIDIA") || !has_extension(gl, "GL_KHR_shader_subgroup")) return 0;
+    gl->GetIntegerv(GL_SUBGROUP_SIZE_KHR, &size);
+    gl->GetIntegerv(GL_SUBGROUP_SUPPORTED_STAGES_KHR, &stages);
+    gl->GetIntegerv(GL_SUBGROUP_SUPPORTED_FEATURES_KHR, &there);
+    return size == 32 && (stages & GL_COMPUTE_SHADER_BIT) && (there & features) == features;
+}
+
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
 {
     const hair_host* host = &gl->host;
@@ -32,6 +58,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
     gl->software         = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
+    gl->subgroup         = find_subgroup(gl);
     return HAIR_OK;
 }
 

@@ -41,6 +41,7 @@ struct hair_gl {
     char*                glsl_dir; // NULL: the text built in
     int                  timings;
     int                  software; // the driver is a software rasteriser
+    int                  subgroup; // work groups of 32 threads are one
     GLuint               program[HAIR_GL_PASS_COUNT];
     struct hair_gl_timer timer[HAIR_GL_PASS_COUNT];
     GLuint               vertex_array; // empty: every vertex comes from its number

@@ -85,6 +85,8 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     hair_result result      = HAIR_OK;
     char        prefix[512] = "";
     size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
+    if (gl->subgroup)
+        used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define HAIR_SUBGROUP 1\n");
     for (const char* at = stages; *at && !result;) {
         char   word[64];
         size_t length = strcspn(at, " ");

@@ -24,8 +24,8 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
              others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
     uint32_t met    = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    if (by_thread) return (sim->most_vertices + 1) * (190 + met) + 3 * (solids + 1);
-    return 620 + 32 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+    if (by_thread) return (sim->most_vertices + 1) * (250 + met) + 3 * (solids + 1);
+    return 740 + 40 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
 }
 
 // Where a thread would have too much to do, it is a work group's.
