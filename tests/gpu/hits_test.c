@@ -405,8 +405,8 @@ static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
 
 static uint32_t runs_of(struct hair_test* test, const char* words)
 {
-    hair_timing timings[256];
-    uint32_t    count = hair_timings(test->context, timings, 256), runs = 0;
+    hair_timing timings[HAIR_GL_PASS_COUNT];
+    uint32_t    count = hair_timings(test->context, timings, HAIR_GL_PASS_COUNT), runs = 0;
     for (uint32_t i = 0; i < count; ++i)
         if (strstr(timings[i].pass, words)) runs += timings[i].runs;
     return runs;

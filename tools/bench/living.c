@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PASSES 256
+#define MOST_PASSES 512
 
 static hair_result make_groom(struct bench_living* living)
 {
