@@ -133,6 +133,8 @@ void main()
     control[own].xyz = vec3(slide - 1.0, 0.0, 0.0);
     for (int i = 0; i < HAIR_REPAIR_CONTROLS; ++i) {
         vec4 c = control[i * HAIR_REPAIR_THREADS + own];
+        // By the bits, for comparisons with NaN may be compiled away: what halves cannot hold leads nowhere.
+        if ((floatBitsToUint(dot(c, c)) & 0x7fffffffu) > floatBitsToUint(1e8)) c = vec4(0.0);
         halves[number * HAIR_REPAIR_CONTROLS + uint(i)] = uvec2(packHalf2x16(c.xy), packHalf2x16(c.zw));
     }
 }

@@ -227,6 +227,8 @@ static void check_compiled(struct hair_test* test, int way)
         int pass = 0;
         while (pass < HAIR_GL_PASS_COUNT && strcmp(hair_gl_pass_label((hair_gl_pass)pass), label)) ++pass;
         if (pass == HAIR_GL_PASS_COUNT) fail_msg("there is no %s", label);
+        if (hair->sim.rods && hair_sim_is_stiff(&hair->sim))
+            pass += HAIR_GL_ACCURATE_STIFF_32 - HAIR_GL_ACCURATE_32;
         if (!context->gl.program[pass]) fail_msg("%s is not compiled", label);
         hair_destroy(hair);
         hair_groom_destroy(groom);

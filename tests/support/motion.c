@@ -149,7 +149,8 @@ void hair_test_same(const struct hair_test_seen* a, const struct hair_test_seen*
 void hair_test_finite(const struct hair_test_seen* seen)
 {
     for (size_t i = 0; i < seen->count; ++i)
-        if (!isfinite(seen->number[i])) fail_msg("number %zu is %g", i, (double)seen->number[i]);
+        if (!isfinite(seen->number[i]))
+            fail_msg("number %zu of %u is %g", i, seen->count, (double)seen->number[i]);
 }
 
 struct hair_test_blob hair_test_save(struct hair_test* test, hair_instance* hair)
