@@ -107,7 +107,9 @@ vec4 left_of(vec4 freedom, vec3 normal)
     return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
 }
 
+#ifdef HAIR_BODIES
 #include "sim/body.glsl"
+#endif
 
 // Out of one solid by the depth, and held by its friction.
 uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,
@@ -128,7 +130,11 @@ uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3
 uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
     uint  contacts = 0u;
-    uvec2 bodies   = uvec2(params.bodies0, params.bodies1);
+#ifdef HAIR_BODIES
+    uvec2 bodies = uvec2(params.bodies0, params.bodies1);
+#else
+    const uvec2 bodies = uvec2(0u);
+#endif
     vec3  normal, surface;
     for (uint word = 0u; word < 2u; ++word)
         for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
@@ -136,12 +142,14 @@ uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 
             float depth = depth_in(k, start, d, head_moved, normal, surface);
             contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
         }
+#ifdef HAIR_BODIES
     for (uint word = 0u; word < 2u; ++word)
         for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
             uint  k     = 32u * word + uint(findLSB(bits));
             float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
             contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
         }
+#endif
     return contacts;
 }
 

@@ -41,7 +41,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids, curved, by thread, in a crowd.
+// In the order of passes.inl: four sizes, with solids and with bodies, curved, by thread, in a crowd.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -51,8 +51,8 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
     };
     hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
-    int          kind = (hair_sim_contacts(sim) > 0) + 2 * hair_sim_is_curved(sim) + 4 * is_by_thread(sim) +
-               8 * hair_crowd_is_on(sim);
+    int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
+    int kind = met + 3 * hair_sim_is_curved(sim) + 6 * is_by_thread(sim) + 12 * hair_crowd_is_on(sim);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
