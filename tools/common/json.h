@@ -33,6 +33,32 @@ struct hair_json_entry {
                  void* out); // of HAIR_JSON_OTHER
 };
 
+// Rows of such a table, and what ends it.
+#define HAIR_NUMBERS(key, at, count, min, max)                                                               \
+    {                                                                                                        \
+        key, HAIR_JSON_NUMBERS, at, count, min, max, NULL, NULL                                              \
+    }
+#define HAIR_COUNTS(key, at, count, min, max)                                                                \
+    {                                                                                                        \
+        key, HAIR_JSON_COUNTS, at, count, min, max, NULL, NULL                                               \
+    }
+#define HAIR_BOOLEAN(key, at)                                                                                \
+    {                                                                                                        \
+        key, HAIR_JSON_BOOLEAN, at, 1, 0, 0, NULL, NULL                                                      \
+    }
+#define HAIR_OBJECT(key, entries)                                                                            \
+    {                                                                                                        \
+        key, HAIR_JSON_OBJECT, 0, 1, 0, 0, entries, NULL                                                     \
+    }
+#define HAIR_OTHER(key, read)                                                                                \
+    {                                                                                                        \
+        key, HAIR_JSON_OTHER, 0, 1, 0, 0, NULL, read                                                         \
+    }
+#define HAIR_END                                                                                             \
+    {                                                                                                        \
+        NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
+    }
+
 // False: something is wrong, and `tool` has complained. A key that is in no row is wrong.
 bool hair_json_object(const struct hair_json* json, const char* name, const json_t* object,
                       const struct hair_json_entry* entries, void* out);

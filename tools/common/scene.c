@@ -8,36 +8,11 @@
 #include <string.h>
 
 #define MAX_BYTES ((size_t)16 << 20)
-#define FAR 1e6 // Of any coordinate, m.
 
 typedef struct hair_json       place;
 typedef struct hair_json_entry entry;
 
 #define AT(member) offsetof(struct hair_scene, member)
-#define NUMBERS(key, struct_at, count, min, max)                                                             \
-    {                                                                                                        \
-        key, HAIR_JSON_NUMBERS, struct_at, count, min, max, NULL, NULL                                       \
-    }
-#define COUNTS(key, struct_at, count, min, max)                                                              \
-    {                                                                                                        \
-        key, HAIR_JSON_COUNTS, struct_at, count, min, max, NULL, NULL                                        \
-    }
-#define BOOLEAN(key, struct_at)                                                                              \
-    {                                                                                                        \
-        key, HAIR_JSON_BOOLEAN, struct_at, 1, 0, 0, NULL, NULL                                               \
-    }
-#define OBJECT(key, entries)                                                                                 \
-    {                                                                                                        \
-        key, HAIR_JSON_OBJECT, 0, 1, 0, 0, entries, NULL                                                     \
-    }
-#define OTHER(key, read)                                                                                     \
-    {                                                                                                        \
-        key, HAIR_JSON_OTHER, 0, 1, 0, 0, NULL, read                                                         \
-    }
-#define END                                                                                                  \
-    {                                                                                                        \
-        NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
-    }
 
 void hair_scene_default(struct hair_scene* scene)
 {
@@ -113,9 +88,9 @@ static bool read_style(const place* json, const char* key, const json_t* value, 
 
 static bool read_fur(const place* json, const char* key, const json_t* value, void* out)
 {
-    static const entry entries[] = {COUNTS("strands", AT(fur_strands), 1, 1, 4194304),
-                                    NUMBERS("length", AT(fur_length), 1, 1e-4, 10),
-                                    NUMBERS("ball", AT(ball_radius), 1, 1e-3, 100), END};
+    static const entry entries[] = {HAIR_COUNTS("strands", AT(fur_strands), 1, 1, 4194304),
+                                    HAIR_NUMBERS("length", AT(fur_length), 1, 1e-4, 10),
+                                    HAIR_NUMBERS("ball", AT(ball_radius), 1, 1e-3, 100), HAIR_END};
     struct hair_scene* scene     = out;
     scene->subject               = HAIR_SUBJECT_FUR;
     return hair_json_object(json, key, value, entries, out);
@@ -131,28 +106,18 @@ static bool read_solids(const place* json, const char* key, const json_t* value,
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
 {
-    static const entry  entries[] = {NUMBERS("time", offsetof(struct hair_key, time), 1, 0, FAR),
-                                     NUMBERS("rotation", offsetof(struct hair_key, rotation), 3, -FAR, FAR),
-                                     NUMBERS("position", offsetof(struct hair_key, position), 3, -FAR, FAR),
-                                     END};
-    struct hair_scene*  scene     = out;
-    struct hair_motion* motion    = &scene->motion;
+    struct hair_scene*  scene  = out;
+    struct hair_motion* motion = &scene->motion;
     if (json_is_string(value)) return hair_scene_set_motion(json->tool, json_string_value(value), scene);
     memset(motion->key, 0, sizeof motion->key);
-    if (!hair_json_array(json, key, value, entries, motion->key, sizeof *motion->key, HAIR_MOTION_MAX_KEYS,
-                         &motion->count))
-        return false;
-    for (uint32_t i = 1; i < motion->count; ++i)
-        if (motion->key[i].time <= motion->key[i - 1].time)
-            return hair_json_wrong(json, key, "in order of time");
-    return true;
+    return hair_scene_read_keys(json, key, value, motion->key, HAIR_MOTION_MAX_KEYS, &motion->count);
 }
 
 static bool read_camera(const place* json, const char* key, const json_t* value, void* out)
 {
-    static const entry entries[] = {NUMBERS("eye", AT(eye), 3, -FAR, FAR),
-                                    NUMBERS("target", AT(target), 3, -FAR, FAR),
-                                    NUMBERS("fov", AT(field_of_view), 1, 1, 150), END};
+    static const entry entries[] = {HAIR_NUMBERS("eye", AT(eye), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                                    HAIR_NUMBERS("target", AT(target), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                                    HAIR_NUMBERS("fov", AT(field_of_view), 1, 1, 150), HAIR_END};
     struct hair_scene* scene     = out;
     if (!hair_json_object(json, key, value, entries, out)) return false;
     bool eye = json_object_get(value, "eye"), target = json_object_get(value, "target");
@@ -185,29 +150,30 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
 
 // The whole -------------------------------------------------------------------------------------------------
 
-static const entry light[]      = {NUMBERS("to", AT(settings.view.light_to), 3, -FAR, FAR),
-                                   NUMBERS("color", AT(settings.view.light), 3, 0, FAR),
-                                   NUMBERS("ambient", AT(settings.view.ambient), 3, 0, FAR), END};
-static const entry background[] = {NUMBERS("centre", AT(background[0]), 3, 0, 100),
-                                   NUMBERS("edge", AT(background[1]), 3, 0, 100), END};
-static const entry whole[]      = {OTHER("style", read_style),
-                                   OTHER("groom", read_groom),
-                                   OTHER("fur", read_fur),
-                                   BOOLEAN("head", AT(head)),
-                                   OTHER("solids", read_solids),
-                                   OTHER("motion", read_motion),
-                                   NUMBERS("pivot", AT(motion.pivot), 3, -FAR, FAR),
-                                   OTHER("camera", read_camera),
-                                   OBJECT("light", light),
-                                   OBJECT("background", background),
-                                   NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
-                                   NUMBERS("settle", AT(settle), 1, 0, 60),
-                                   NUMBERS("fps", AT(fps), 1, 1, 1000),
-                                   COUNTS("frames", AT(frames), 1, 1, 1000000),
-                                   COUNTS("picture", AT(picture), 1, 0, 999999),
-                                   COUNTS("size", AT(width), 2, 1, 16384),
-                                   OTHER("settings", read_settings),
-                                   END};
+static const entry light[] = {
+    HAIR_NUMBERS("to", AT(settings.view.light_to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("color", AT(settings.view.light), 3, 0, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR), HAIR_END};
+static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
+                                   HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
+static const entry whole[]      = {HAIR_OTHER("style", read_style),
+                                   HAIR_OTHER("groom", read_groom),
+                                   HAIR_OTHER("fur", read_fur),
+                                   HAIR_BOOLEAN("head", AT(head)),
+                                   HAIR_OTHER("solids", read_solids),
+                                   HAIR_OTHER("motion", read_motion),
+                                   HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                                   HAIR_OTHER("camera", read_camera),
+                                   HAIR_OBJECT("light", light),
+                                   HAIR_OBJECT("background", background),
+                                   HAIR_NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
+                                   HAIR_NUMBERS("settle", AT(settle), 1, 0, 60),
+                                   HAIR_NUMBERS("fps", AT(fps), 1, 1, 1000),
+                                   HAIR_COUNTS("frames", AT(frames), 1, 1, 1000000),
+                                   HAIR_COUNTS("picture", AT(picture), 1, 0, 999999),
+                                   HAIR_COUNTS("size", AT(width), 2, 1, 16384),
+                                   HAIR_OTHER("settings", read_settings),
+                                   HAIR_END};
 
 static json_t* load(const char* tool, const char* path, const char* text, size_t size)
 {

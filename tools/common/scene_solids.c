@@ -5,23 +5,10 @@
 
 #include <string.h>
 
-#define FAR 1e6 // Of any coordinate, m.
-
 typedef struct hair_json       place;
 typedef struct hair_json_entry entry;
 
-#define NUMBERS(key, member, count, min, max)                                                                \
-    {                                                                                                        \
-        key, HAIR_JSON_NUMBERS, offsetof(struct hair_scene_solid, member), count, min, max, NULL, NULL       \
-    }
-#define OTHER(key, read)                                                                                     \
-    {                                                                                                        \
-        key, HAIR_JSON_OTHER, 0, 1, 0, 0, NULL, read                                                         \
-    }
-#define END                                                                                                  \
-    {                                                                                                        \
-        NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
-    }
+#define AT(member) offsetof(struct hair_scene_solid, member)
 
 static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
 {
@@ -37,40 +24,43 @@ static bool read_shape(const place* json, const char* key, const json_t* value, 
                            "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"cone\" or \"plane\"");
 }
 
-static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
+bool hair_scene_read_keys(const place* json, const char* key, const json_t* value, struct hair_key* keys,
+                          uint32_t most, uint32_t* count)
 {
     static const entry entries[] = {
-        {"time", HAIR_JSON_NUMBERS, offsetof(struct hair_key, time), 1, 0, FAR, NULL, NULL},
-        {"rotation", HAIR_JSON_NUMBERS, offsetof(struct hair_key, rotation), 3, -FAR, FAR, NULL, NULL},
-        {"position", HAIR_JSON_NUMBERS, offsetof(struct hair_key, position), 3, -FAR, FAR, NULL, NULL},
-        END};
-    struct hair_scene_solid* solid = out;
-    if (!hair_json_array(json, key, value, entries, solid->key, sizeof *solid->key, HAIR_SCENE_SOLID_KEYS,
-                         &solid->key_count))
-        return false;
-    for (uint32_t i = 1; i < solid->key_count; ++i)
-        if (solid->key[i].time <= solid->key[i - 1].time)
-            return hair_json_wrong(json, key, "in order of time");
+        HAIR_NUMBERS("time", offsetof(struct hair_key, time), 1, 0, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("rotation", offsetof(struct hair_key, rotation), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("position", offsetof(struct hair_key, position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+        HAIR_END};
+    if (!hair_json_array(json, key, value, entries, keys, sizeof *keys, most, count)) return false;
+    for (uint32_t i = 1; i < *count; ++i)
+        if (keys[i].time <= keys[i - 1].time) return hair_json_wrong(json, key, "in order of time");
     return true;
+}
+
+static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
+{
+    struct hair_scene_solid* solid = out;
+    return hair_scene_read_keys(json, key, value, solid->key, HAIR_SCENE_SOLID_KEYS, &solid->key_count);
 }
 
 bool hair_scene_read_solids(const place* json, const char* key, const json_t* value,
                             struct hair_scene_solid* solids, uint32_t most, uint32_t* count)
 {
     static const entry entries[] = {
-        OTHER("shape", read_shape),
-        NUMBERS("position", solid.position, 3, -FAR, FAR),
-        NUMBERS("rotation", solid.rotation, 4, -1, 1),
-        NUMBERS("radius", solid.size[0], 1, 0, FAR),
-        NUMBERS("half_length", solid.size[1], 1, 0, FAR),
-        NUMBERS("size", solid.size, 3, 0, FAR),
-        NUMBERS("rounding", solid.rounding, 1, 0, FAR),
-        NUMBERS("friction", solid.friction, 1, 0, 100),
-        NUMBERS("velocity", velocity, 3, -1e3, 1e3),
-        NUMBERS("spin", spin, 3, -1e5, 1e5),
-        OTHER("motion", read_motion),
-        {"stays", HAIR_JSON_BOOLEAN, offsetof(struct hair_scene_solid, stays), 1, 0, 0, NULL, NULL},
-        END};
+        HAIR_OTHER("shape", read_shape),
+        HAIR_NUMBERS("position", AT(solid.position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("rotation", AT(solid.rotation), 4, -1, 1),
+        HAIR_NUMBERS("radius", AT(solid.size[0]), 1, 0, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("half_length", AT(solid.size[1]), 1, 0, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("size", AT(solid.size), 3, 0, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("rounding", AT(solid.rounding), 1, 0, HAIR_SCENE_FAR),
+        HAIR_NUMBERS("friction", AT(solid.friction), 1, 0, 100),
+        HAIR_NUMBERS("velocity", AT(velocity), 3, -1e3, 1e3),
+        HAIR_NUMBERS("spin", AT(spin), 3, -1e5, 1e5),
+        HAIR_OTHER("motion", read_motion),
+        HAIR_BOOLEAN("stays", AT(stays)),
+        HAIR_END};
     for (uint32_t i = 0; i < most; ++i) {
         solids[i] = (struct hair_scene_solid){.solid = hair_solid_default()};
         for (int k = 0; k < 3; ++k) solids[i].solid.size[k] = 0.1f;

@@ -8,6 +8,7 @@
 #include "tools/common/motion.h"
 
 #define HAIR_SCENE_SOLID_KEYS 32
+#define HAIR_SCENE_FAR 1e6 // of any coordinate, m
 
 struct hair_scene_solid {
     hair_solid      solid;       // at time 0
@@ -18,6 +19,9 @@ struct hair_scene_solid {
     uint32_t        key_count;
 };
 
+// Of a motion, in order of time.
+bool hair_scene_read_keys(const struct hair_json* json, const char* key, const json_t* value,
+                          struct hair_key* keys, uint32_t most, uint32_t* count);
 bool hair_scene_read_solids(const struct hair_json* json, const char* key, const json_t* value,
                             struct hair_scene_solid* solids, uint32_t most, uint32_t* count);
 
