@@ -7,15 +7,6 @@
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
-static hair_physics loose(float friction)
-{
-    hair_physics physics = hair_physics_default();
-    physics.hold         = 0;
-    physics.pull_root = physics.pull_tip = 0;
-    physics.friction                     = friction;
-    return physics;
-}
-
 static hair_solid body(hair_shape shape, float x, float y, float z)
 {
     hair_solid solid  = hair_solid_default();
@@ -70,7 +61,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
     bodies[3].size[0] = 0.1f, bodies[3].size[1] = 0.1f;
     turn(&bodies[1], 2, 0.5);
     turn(&bodies[2], 0, 1.5707963);
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (size_t n = 0; n < sizeof bodies / sizeof *bodies; ++n)
         for (int solver = 0; solver < (n % 3 ? 1 : SOLVERS); ++solver) {
             struct hair_test_living  living;
@@ -97,7 +88,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
 // A plate of 30 mm, three segments of the strand, that moves 80 mm in a frame.
 static void a_plate_swept_through_hair_takes_it_along(void** state)
 {
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living  living;
         struct hair_test_strands strands;
@@ -126,7 +117,7 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
 
 static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 {
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living  living;
         struct hair_test_strands strands;
@@ -154,7 +145,7 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 static void a_solid_has_friction_of_its_own(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
-    hair_physics       physics   = loose(0.3f);
+    hair_physics       physics   = hair_test_loose(0.3f);
     physics.root                 = HAIR_ROOT_FREE;
     physics.damping              = 0;
     for (int n = 0; n < 3; ++n) {

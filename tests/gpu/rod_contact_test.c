@@ -6,15 +6,6 @@
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
-static hair_physics loose(float friction)
-{
-    hair_physics physics = hair_physics_default();
-    physics.hold         = 0;
-    physics.pull_root = physics.pull_tip = 0;
-    physics.friction                     = friction;
-    return physics;
-}
-
 static hair_solid sphere(double x, double y, double z, double radius)
 {
     return (hair_solid){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z},
@@ -77,7 +68,7 @@ static void lay(struct hair_test* test, hair_solver solver, const hair_physics* 
 
 static void a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep(void** state)
 {
-    hair_physics physics = loose(0.5f);
+    hair_physics physics = hair_test_loose(0.5f);
     physics.damping      = 10;
     for (int kind = 0; kind < 2; ++kind)
         for (int solver = 0; solver < 2; ++solver) {
@@ -98,7 +89,7 @@ static void a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep(void**
 
 static void without_friction_it_slides_off(void** state)
 {
-    hair_physics physics = loose(0);
+    hair_physics physics = hair_test_loose(0);
     for (int solver = 0; solver < 2; ++solver) {
         hair_solid              solid = sphere(0.02, 0, 0, 0.05);
         struct hair_test_living living;
@@ -116,7 +107,7 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
     for (int kind = 0; kind < 4 * SOLVERS; ++kind) {
         double       friction = mu[kind % 4], radius = friction > 0.55 ? 1 : 5, start = 0.5, a = start, w = 0;
         int          solver              = kind / 4;
-        hair_physics physics             = loose((float)friction);
+        hair_physics physics             = hair_test_loose((float)friction);
         physics.root                     = HAIR_ROOT_FREE;
         physics.damping                  = 0;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
@@ -148,7 +139,7 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
 
 static void solids_that_move_and_spin_carry_hair_along(void** state)
 {
-    hair_physics physics = loose(0.8f);
+    hair_physics physics = hair_test_loose(0.8f);
     physics.root         = HAIR_ROOT_FREE;
     physics.damping      = 0;
     for (int kind = 0; kind < 2 * SOLVERS; ++kind) {
@@ -195,7 +186,7 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
         double radius, speed;
         int    is_capsule, solvers;
     } cases[]            = {{0.05, 2, 0, 3}, {0.05, 5, 0, 3}, {0.02, 2, 1, 2}};
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
         for (int solver = 0; solver < cases[n].solvers; ++solver) {
             struct hair_test_strands strands =
@@ -222,7 +213,7 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
 
 static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
 {
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_strands strands =
             hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0.05f), 0.3f);
@@ -250,7 +241,7 @@ static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
 
 static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
 {
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     physics.root         = HAIR_ROOT_FREE;
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0.1f), 0.1f);
@@ -271,7 +262,7 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
 static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
 {
     hair_solid   solids[HAIR_STEP_SOLIDS];
-    hair_physics physics = loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) {
         double row = i / 8;
         solids[i]  = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,

@@ -262,6 +262,15 @@ hair_physics hair_test_bare(void)
     return physics;
 }
 
+hair_physics hair_test_loose(float friction)
+{
+    hair_physics physics = hair_physics_default();
+    physics.hold         = 0;
+    physics.pull_root = physics.pull_tip = 0;
+    physics.friction                     = friction;
+    return physics;
+}
+
 hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
                          const hair_physics* physics)
 {

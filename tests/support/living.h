@@ -23,6 +23,8 @@ void hair_test_die(struct hair_test_living* living);
 
 // Hair of 0.1 mm and 3 GPa, straight where nothing pulls at it, with nothing but gravity and a little drag.
 hair_physics hair_test_bare(void);
+// The defaults, but that nothing holds the groom's shape.
+hair_physics hair_test_loose(float friction);
 hair_desc    hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
                             const hair_physics* physics);
 
