@@ -93,8 +93,7 @@ static hair_result make(struct hair_sim* sim, int struck)
 static hair_result make_buffers(struct hair_sim* sim)
 {
     size_t      vertices = sim->guide_vertices;
-    hair_result result   = HAIR_OK;
-    result =
+    hair_result result =
         hair_gl_storage(sim->gl, "hair history", vertices * sizeof(struct hair_history), NULL, &sim->history);
     if (!result)
         result =
