@@ -1,0 +1,24 @@
+// patch.glsl - how many strands of a patch are drawn, and with how many segments: what every path of drawing asks.
+//
+// The number of strands falls continuously: the last one thins out before it goes.
+#include "draw_params.glsl"
+
+layout(binding = HAIR_UNIT_PATCH) uniform usamplerBuffer patch_texture;
+
+struct hair_patch_lines {
+    uint  first;    // follower
+    uint  strands;
+    uint  segments; // of a whole strand
+    float fading;   // share of its width that the last strand has
+};
+
+hair_patch_lines find_lines(uint number)
+{
+    uvec4 record = texelFetch(patch_texture, int(number)); // hair_patch
+    float wanted = float(record.y) * clamp(uintBitsToFloat(record.z), 0.0, 1.0) * draw.density;
+#ifdef HAIR_EVERY_FOLLOWER
+    wanted = float(record.y);
+#endif
+    uint strands = min(uint(ceil(wanted)), uint(HAIR_MAX_ISOLINES));
+    return hair_patch_lines(record.x, strands, draw.segments, 1.0 - (float(strands) - wanted));
+}

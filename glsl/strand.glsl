@@ -1,0 +1,31 @@
+// strand.glsl - a vertex of a drawn strand: where, how wide and, where colour is asked for, its colour. Shading runs
+// here and not for every sample of a pixel: along a strand light changes slowly, across it not at all.
+#include "evaluate.glsl"
+#include "shadow.glsl"
+#include "shade.glsl"
+
+struct strand_vertex {
+    vec4 position; // xyz: m, from the head's origin; w: radius, m
+    vec3 tangent;  // unit
+    vec3 color;
+};
+
+vec3 shade(hair_follower follower, hair_point point, float t)
+{
+    hair_fragment f;
+    f.tangent = point.tangent;
+    f.to_eye  = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - point.position : draw.eye.xyz);
+    f.t       = t;
+    f.random  = random(follower.seed + 7u);
+    f.light   = light_through(point.position, follower.seed);
+    return hair_shade(f);
+}
+
+// `width`: a share of its own.
+strand_vertex strand_at(uint number, float t, float width)
+{
+    hair_follower follower = fetch_follower(number);
+    hair_point    point    = evaluate(follower, number, t);
+    vec3          color    = draw.colored != 0u ? shade(follower, point, t) : vec3(0.0);
+    return strand_vertex(vec4(point.position, point.radius * width), point.tangent, color);
+}
