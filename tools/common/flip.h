@@ -1,0 +1,19 @@
+// flip.h - how different two pictures look to somebody who flips between them: 0 the same, 1 as unlike as can be.
+//
+// LDR-FLIP, from the equations of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A
+// Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020.
+#ifndef HAIR_TOOLS_COMMON_FLIP_H
+#define HAIR_TOOLS_COMMON_FLIP_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Pixels per degree of a display of 3,840 pixels over 0.7 m, seen from 0.7 m.
+#define HAIR_FLIP_DISPLAY 67.0206433f
+
+// Of pictures of RGB, sRGB in [0, 1], into one error in [0, 1] per pixel. At most 1,800 pixels per degree.
+// False: out of memory.
+bool hair_flip(const float* reference, const float* test, uint32_t width, uint32_t height,
+               float pixels_per_degree, float* out);
+
+#endif
