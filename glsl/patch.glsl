@@ -19,6 +19,6 @@ hair_patch_lines find_lines(uint number)
 #ifdef HAIR_EVERY_FOLLOWER
     wanted = float(record.y);
 #endif
-    uint strands = min(uint(ceil(wanted)), uint(HAIR_MAX_ISOLINES));
+    uint strands = uint(ceil(wanted));
     return hair_patch_lines(record.x, strands, draw.segments, 1.0 - (float(strands) - wanted));
 }

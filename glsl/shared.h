@@ -94,8 +94,8 @@ typedef uint32_t hair_uint;
 #define HAIR_MAX_GUIDES 262144       // of a groom
 #define HAIR_MAX_GUIDE_VERTICES 256  // one thread per vertex of a guide
 #define HAIR_MAX_SMOOTH_VERTICES 511 // two samples per segment of the longest guide
-#define HAIR_MAX_ISOLINES 64         // per patch, and
-#define HAIR_MAX_ISOLINE_SEGMENTS 64 // per isoline: what OpenGL promises
+#define HAIR_MAX_ISOLINES 64         // made at once of a patch, and
+#define HAIR_MAX_ISOLINE_SEGMENTS 64 // of an isoline: what OpenGL promises
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
@@ -264,7 +264,7 @@ struct hair_follower {
 };
 HAIR_SIZE(hair_follower, 96)
 
-// What one tessellation patch draws: followers, at most HAIR_MAX_ISOLINES, in an order fit to be cut short.
+// What is drawn together: followers, in an order fit to be cut short. Grooms make patches of HAIR_MAX_ISOLINES at most.
 struct hair_patch {
     hair_uint first; // follower
     hair_uint count;

@@ -1,4 +1,4 @@
-// patch.vert - the empty one-point patch: only its number, and that of the part of its segments.
+// patch.vert - the empty one-point patch: only its number, and that of the part of it.
 #version 450 core
 
 layout(location = 0) flat out uvec2 vertex_patch; // number, part

@@ -10,8 +10,10 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->smooth_vertices = sim->smooth_vertices;
     draw->followers       = groom->info.follower_count;
     draw->patches         = groom->info.patch_count;
-    hair_result result    = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
-                                           groom->followers, &draw->follower);
+    for (uint32_t i = 0; i < draw->patches; ++i)
+        if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
+    hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
+                                        groom->followers, &draw->follower);
     if (!result)
         result = hair_gl_buffer(gl, "hair patches", draw->patches * sizeof *groom->patches, groom->patches,
                                 &draw->patch);
@@ -61,6 +63,7 @@ void hair_draw_patches(struct hair_draw* draw)
     struct hair_gl* gl    = draw->gl;
     uint32_t        batch = batch_size(draw);
     uint32_t        parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
+    parts *= (draw->most_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
     for (uint32_t first = 0; first < draw->patches; first += batch) {
         uint32_t count = draw->patches - first < batch ? draw->patches - first : batch;

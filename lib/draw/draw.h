@@ -10,6 +10,7 @@ struct hair_draw {
     GLuint           follower, patch, params;         // buffers
     GLuint           follower_texture, patch_texture; // the first two, for stages without storage buffers
     uint32_t         followers, patches, smooth_vertices, guides;
+    uint32_t         most_isolines; // of a patch
     struct hair_hits hits;
 };
 

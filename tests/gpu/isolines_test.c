@@ -217,19 +217,19 @@ static void followers_that_meet_a_solid_are_drawn_where_they_are_read(void** sta
     }
 }
 
-static void every_count_of_segments_is_drawn_whole(void** state)
+static void every_count_of_isolines_and_of_segments_is_drawn_whole(void** state)
 {
-    static const uint32_t counts[] = {1, 2, 31, 32, 33, 63, 64, 65, 100, 127, 128, 129, 200, 256};
-    for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) check(*state, 150, 64, counts[i]);
+    static const uint32_t counts[] = {1, 2, 16, 31, 32, 33, 63, 64, 65, 200};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i)
+        for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k)
+            check(*state, 2 * counts[i] + counts[i] / 2 + 1, counts[i],
+                  counts[k]); // The last patch is not full.
 }
 
-static void every_count_of_isolines_is_drawn_whole(void** state)
+static void the_most_segments_are_drawn_whole(void** state)
 {
-    static const uint32_t counts[] = {1, 2, 31, 32, 33, 63, 64};
-    for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
-        check(*state, 3 * counts[i], counts[i], 32);         // full patches
-        check(*state, 5 * counts[i] / 2 + 1, counts[i], 65); // the last one is not full
-    }
+    static const uint32_t counts[] = {127, 128, 129, 255, 256};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) check(*state, 150, 64, counts[i]);
 }
 
 // As one draw these would be of just under, just over and twice 65,536 vertices.
@@ -314,8 +314,8 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_count_of_segments_is_drawn_whole),
-        HAIR_TEST(every_count_of_isolines_is_drawn_whole),
+        HAIR_TEST(every_count_of_isolines_and_of_segments_is_drawn_whole),
+        HAIR_TEST(the_most_segments_are_drawn_whole),
         HAIR_TEST(followers_that_meet_a_solid_are_drawn_where_they_are_read),
         HAIR_TEST(the_65536th_vertex_is_no_boundary),
         HAIR_TEST(a_driver_that_loses_strands_is_found_out),

@@ -11,7 +11,7 @@ struct hair_test_handmade {
     float           segment;      // m, on average
     float           turn;         // rad: greatest angle between segments
     uint32_t        followers;    // the i-th has 1 + i / 65536 of the look's radius
-    uint32_t        each;         // followers of a patch, [1, HAIR_MAX_ISOLINES]
+    uint32_t        each;         // followers of a patch
     float           density;      // of every patch
     uint32_t        seed;
 };
