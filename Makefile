@@ -39,7 +39,7 @@ EGL   := $(call objects,lib/egl/*.c)
 BUL   := $(call objects,lib/bullet/*.cpp)
 REF   := $(call objects,lib/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
-TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench
+TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/*_test.c tests/gpu/*_test.c tests/golden/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
 
@@ -58,12 +58,16 @@ BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--li
 
 all: libraries tools ## Libraries and tools, in build/$(config)
 libraries: $(LIBRARIES) ## libhair, libhair_egl and libhair_bullet, static and shared
-tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench
+tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
 	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 2 -o build/demo.png
 	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --set segments=18 -o build/demo.mp4
+
+gallery: setup ## build/gallery.png: what the library does, pictures with captions
+	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
+	$(B)/hair-gallery -o build/gallery.png
 
 test: setup ## Everything a change must pass
 	@$(MAKE) -j$(JOBS) all $(TESTS)
@@ -209,4 +213,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all libraries tools demo test setup run-tests glsl check rooms symbols consumer install install-tree format help clean
+.PHONY: all libraries tools demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean

@@ -1,0 +1,87 @@
+// gallery_test.c - hair-gallery as its users call it: a sheet of pictures, its rows, exit codes.
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-gallery"
+#define expect hair_test_shell_expect
+
+static void wrong_use_exits_with_2(void** state)
+{
+    (void)state;
+    static const char* const wrong[][2] = {
+        {"", "nothing to do"},
+        {"-o $D/a.png --size 0x3", "--size is 0x3, not WxH with both in [1, 4096]"},
+        {"-o $D/a.png --size 3x4097", "--size"},
+        {"-o $D/a.png --size 3", "--size"},
+        {"-o $D/a.png --jobs 0", "--jobs is 0, not a whole number in [1, 256]"},
+        {"-o $D/a.png --jobs 2x", "--jobs"},
+        {"-o $D/a.png --only nothing", "--only is nothing, a word of no row's title"},
+        {"-o $D/a.png more", "more is one argument too many"},
+        {"--dance", "dance"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[256];
+        snprintf(command, sizeof command, "$T %s", wrong[i][0]);
+        expect(2, command, wrong[i][1]);
+    }
+    expect(1, "test -e $D/a.png", "");
+    expect(0, "$T --help", "hair-gallery - ");
+    expect(0, "$T --version", "hair-gallery 0.");
+}
+
+// Every picture that is listed can at least be begun: hair-capture knows its arguments.
+static void every_row_has_arguments_that_hair_capture_takes(void** state)
+{
+    (void)state;
+    expect(0, // They all reach what is wrong here on purpose.
+           "$T --list | sed -n 's/^  .*: //p' | while read -r arguments; do eval " HAIR_BUILD_DIR
+           "/hair-capture $arguments --frames 0:0 -o $D/a.png >$D/said 2>&1; "
+           "if grep -v -- '--frames is 0:0' $D/said; then exit 1; fi; done",
+           "");
+}
+
+static void a_sheet_has_the_pictures_of_its_rows(void** state)
+{
+    (void)state;
+    expect(0, "mkdir $D/tmp; TMPDIR=$D/tmp $T --only 'followers and solids' --size 41x31 -o $D/a.png", "");
+    expect(0, "head -c 24 $D/a.png | tail -c 8 | od -An -tu1", "   0   0   0 204   0   0   0 126");
+    expect(0, "rmdir $D/tmp", "");
+}
+
+static void what_cannot_be_written_exits_with_1(void** state)
+{
+    (void)state;
+    expect(1, "$T --only 'followers and solids' --size 1x1 -o $D/none/a.png", "none/a.png");
+    expect(1, "cp $T $D/; $D/hair-gallery --only 'followers and solids' --size 1x1 -o $D/b.png",
+           "hair-capture failed");
+    expect(1, "test -e $D/b.png", "");
+}
+
+static int start(void** state)
+{
+    (void)state;
+    return hair_test_shell_start(TOOL);
+}
+
+static int finish(void** state)
+{
+    (void)state;
+    return hair_test_shell_finish();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wrong_use_exits_with_2),
+        cmocka_unit_test(every_row_has_arguments_that_hair_capture_takes),
+        cmocka_unit_test(a_sheet_has_the_pictures_of_its_rows),
+        cmocka_unit_test(what_cannot_be_written_exits_with_1),
+    };
+    return cmocka_run_group_tests(tests, start, finish);
+}
