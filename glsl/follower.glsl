@@ -1,19 +1,31 @@
 // follower.glsl - where a follower is (shared.h says how it is made of guides). Reads the smoothed guides and the
-// followers as textures. What draws evaluates followers by evaluate.glsl.
+// followers as textures; with HAIR_STORED as storage buffers, which a GPU reads several times as fast, but which stages
+// that draw are not promised. What draws evaluates followers by evaluate.glsl.
 #include "rotation.glsl"
 #include "random.glsl"
 #include "draw_params.glsl"
 
+#ifdef HAIR_STORED
+layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer { vec4 stored_position[]; };
+layout(std430, binding = HAIR_BIND_STORED_TANGENT) readonly restrict buffer tangent_buffer { vec4 stored_tangent[]; };
+layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer { vec4 stored_frame[]; };
+layout(std430, binding = HAIR_BIND_STORED_FOLLOWER) readonly restrict buffer follower_buffer {
+    hair_follower stored_follower[];
+};
+
+vec4          fetch_position(int at) { return stored_position[at]; }
+vec4          fetch_tangent(int at) { return stored_tangent[at]; }
+vec4          fetch_turn(int at) { return stored_frame[at]; }
+hair_follower fetch_follower(uint number) { return stored_follower[number]; }
+#else
 layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
 layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
 layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
 layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
 
-struct hair_point {
-    vec3  position; // m, from the head's origin
-    vec3  tangent;  // unit
-    float radius;   // m
-};
+vec4 fetch_position(int at) { return texelFetch(position_texture, at); }
+vec4 fetch_tangent(int at) { return texelFetch(tangent_texture, at); }
+vec4 fetch_turn(int at) { return texelFetch(frame_texture, at); }
 
 hair_follower fetch_follower(uint number)
 {
@@ -26,6 +38,13 @@ hair_follower fetch_follower(uint number)
     for (int i = 0; i < 4; ++i) follower.offset[i] = uintBitsToFloat(texelFetch(follower_texture, at + 2 + i));
     return follower;
 }
+#endif
+
+struct hair_point {
+    vec3  position; // m, from the head's origin
+    vec3  tangent;  // unit
+    float radius;   // m
+};
 
 struct guide_point {
     vec3  position, tangent;
@@ -48,10 +67,10 @@ guide_place find_place(uint number, float u)
 guide_point fetch_guide(uint number, float u, bool beyond)
 {
     guide_place place = find_place(number, u);
-    vec4        a     = texelFetch(position_texture, place.at);
-    vec4        b     = texelFetch(position_texture, place.at + 1);
-    vec3        ta    = texelFetch(tangent_texture, place.at).xyz;
-    vec3        tb    = texelFetch(tangent_texture, place.at + 1).xyz;
+    vec4        a     = fetch_position(place.at);
+    vec4        b     = fetch_position(place.at + 1);
+    vec3        ta    = fetch_tangent(place.at).xyz;
+    vec3        tb    = fetch_tangent(place.at + 1).xyz;
     vec4        p     = mix(a, b, place.share);
     vec3        t     = direction_or(mix(ta, tb, place.share), ta);
     float       more  = max(u - 1.0, 0.0) * b.w;
@@ -61,8 +80,8 @@ guide_point fetch_guide(uint number, float u, bool beyond)
 vec4 fetch_frame(uint number, float u)
 {
     guide_place place = find_place(number, u);
-    vec4        a     = texelFetch(frame_texture, place.at);
-    vec4        b     = texelFetch(frame_texture, place.at + 1);
+    vec4        a     = fetch_turn(place.at);
+    vec4        b     = fetch_turn(place.at + 1);
     return normalize(mix(a, dot(a, b) < 0.0 ? -b : b, place.share));
 }
 

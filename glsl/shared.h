@@ -59,6 +59,11 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HIT 3    // float[]     per follower: the first vertex inside, HAIR_NO_HIT if none is
 #define HAIR_BIND_REPAIR 4 // uvec2[]     per follower and control point of repair.glsl: four halves
 #define HAIR_BIND_LIST 5   // uint[]      two counts, in turn, and the followers that are to be repaired
+// The one with a work group per follower has no textures of guides and followers but, all never written:
+#define HAIR_BIND_STORED_POSITION 0 // hair_vec4[] per smooth vertex, as at HAIR_BIND_POSITION
+#define HAIR_BIND_STORED_TANGENT 1  // hair_vec4[] likewise
+#define HAIR_BIND_STORED_FRAME 2    // hair_vec4[] likewise
+#define HAIR_BIND_STORED_FOLLOWER 6 // hair_follower[]
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1

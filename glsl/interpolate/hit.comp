@@ -33,12 +33,16 @@ shared uint least;
 
 float find_first(uint number, hair_follower follower)
 {
-    uint found = HAIR_NO_SOLID;
+    uint found  = HAIR_NO_SOLID;
+    bool longer = follower.length_ratio > 1.0;
     if (gl_LocalInvocationID.x == 0u) least = found;
     for (uint from = 1u; from <= draw.segments && found == HAIR_NO_SOLID; from += HAIR_HIT_THREADS) {
         uint k = from + gl_LocalInvocationID.x;
         synchronise();
-        if (k <= draw.segments && is_inside(follower, k, true)) atomicMin(least, k);
+        bool inside = false;
+        if (k <= draw.segments && !longer) inside = is_inside(follower, k, false); // Without a read of tangents.
+        if (k <= draw.segments && longer) inside = is_inside(follower, k, true);
+        if (inside) atomicMin(least, k);
         synchronise();
         found = least;
     }

@@ -64,8 +64,12 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    hair_gl_pass pass   = pass_of(draw);
-    uint32_t     groups = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    hair_gl_pass pass = pass_of(draw);
+    if (pass == HAIR_GL_HIT_GROUP) {
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
+    }
+    uint32_t groups = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     hair_gl_run(gl, pass, pass == HAIR_GL_HIT_GROUP ? draw->followers : groups);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
         hair_gl_run(gl, HAIR_GL_REPAIR, (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);

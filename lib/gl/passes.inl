@@ -56,7 +56,7 @@ PASS(LINES_HITS, "draw/lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc
 PASS(DEPTH_RIBBONS_HITS, "draw/depth_ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
 PASS(DEPTH_LINES_HITS, "draw/depth_lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
 PASS(HIT, "interpolate/hit", "HAIR_FINDS_HITS=1 interpolate/hit.comp")
-PASS(HIT_GROUP, "interpolate/hit_group", "HAIR_FINDS_HITS=1 HAIR_GROUP_PER_FOLLOWER=1 interpolate/hit.comp")
+PASS(HIT_GROUP, "interpolate/hit_group", "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_GROUP_PER_FOLLOWER=1 interpolate/hit.comp")
 PASS(PREPASS, "interpolate/hit_prepass", "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
 PASS(PREPASS_HIT, "interpolate/hit_gather", "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 interpolate/hit.comp")
 PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
