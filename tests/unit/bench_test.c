@@ -50,6 +50,8 @@ static void wrong_use_exits_with_2(void** state)
         {"accuracy --strands 65536", "--strands is 65536"},
         {"accuracy --strands x", "--strands is x"},
         {"accuracy --device -1", "--device is -1"},
+        {"render --size 8", "--size is 8, not a whole number in [16, 4096]"},
+        {"render --case dance", "its cases are long"},
         {"stability --scene x", "--scene is x"},
         {"stability --scene 7-6", "--scene is 6, not a whole number in [7,"},
         {"stability --scene 7-", "--scene is ,"},
@@ -194,6 +196,40 @@ static void the_other_suites_run(void** state)
     expect(0, "$T collision --quick --case shoulders --method push --csv -", ",0,1,");
 }
 
+static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)
+{
+    size_t  i;
+    json_t* row;
+    json_array_foreach(rows, i,
+                       row) if (!strcmp(json_string_value(json_object_get(row, "primitive")), primitive) &&
+                                number(row, "lod") == 1 && number(row, "segments") == segments &&
+                                number(row, "samples") == samples) return row;
+    fail_msg("no row of %s, %d segments, %d samples", primitive, segments, samples);
+    return NULL;
+}
+
+static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** state)
+{
+    (void)state;
+    expect(0, "$T render --quick --case long --size 64 --strands 400 --json $D/r.json --csv /dev/null", "");
+    json_t* root = read_json("r.json");
+    json_t* rows = json_object_get(root, "rows");
+    json_t *one = find_row(rows, "ribbons", 32, 1), *many = find_row(rows, "ribbons", 32, 4);
+    json_t *lines  = find_row(rows, "lines", 32, 4), *row;
+    double  halves = number(one, "halves_differ");
+    assert_true(halves > 0 && halves < 0.01);
+    assert_true(number(many, "psnr") > number(one, "psnr") + 3);
+    assert_true(number(many, "flip") < number(one, "flip"));
+    assert_true(number(lines, "psnr") < number(many, "psnr") - 5);
+    assert_true(fabs(number(many, "coverage_error")) < 0.1);
+    assert_true(number(one, "ms_min") > 0 && number(one, "ms_min") <= number(one, "ms"));
+    size_t i;
+    json_array_foreach(rows, i, row) // No error that might as well be the reference's own.
+        if (!json_is_null(json_object_get(row, "flip"))) assert_true(number(row, "flip") >= 5 * halves);
+    json_decref(root);
+    expect(0, "rm $D/r.json", "");
+}
+
 // Arithmetic ------------------------------------------------------------------------------------------------
 
 static const char* const columns[] = {"case", "vertices", "ms", "rms_error", "front", "measured_by", NULL};
@@ -277,6 +313,7 @@ int main(void)
         cmocka_unit_test(the_standard_output_has_the_table_or_the_file_that_is_asked_for),
         cmocka_unit_test(a_row_says_what_was_measured_and_how),
         cmocka_unit_test(the_other_suites_run),
+        cmocka_unit_test(a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn),
         cmocka_unit_test(the_front_is_what_nothing_beats),
         cmocka_unit_test(what_csv_must_quote_is_quoted),
         cmocka_unit_test(the_frequency_of_a_swing_is_found),

@@ -21,6 +21,7 @@ struct bench_options {
     uint32_t                  strands; // 0: as the suite has it
     uint32_t                  scene;   // of random ones, the first, and
     uint32_t                  scenes;  // how many; 0: as the suite has it
+    uint32_t                  size;    // of pictures, pixels to each side; 0: as the suite has it
     int                       device;
     bool                      quick, quiet, verbose;
 };
@@ -49,7 +50,8 @@ struct bench_suite {
     void (*run)(struct bench* bench);
 };
 
-extern const struct bench_suite bench_accuracy, bench_collision, bench_field, bench_physics, bench_stability;
+extern const struct bench_suite bench_accuracy, bench_collision, bench_field, bench_physics, bench_render,
+    bench_stability;
 
 // Whether to make the row, or rows, of this case and method: it is asked for, this is no planning, and nobody
 // has interrupted. Shows progress.

@@ -210,12 +210,6 @@ static bool run_frames(struct bench_living* living, uint32_t frames,
     return true;
 }
 
-static int compare(const void* a, const void* b)
-{
-    double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
-
 static bool run_once(struct bench_living* living, uint32_t frames,
                      const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
@@ -228,15 +222,13 @@ static bool run_once(struct bench_living* living, uint32_t frames,
 bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_reference_rod_pose* heads,
                 double dt, struct bench_times* out)
 {
-    enum { ENOUGH_RUNS = 3, MOST_RUNS = 15 };
-    double   ms[MOST_RUNS], passed = 0, short_time = living->bench->options.quick ? 200 : 2000;
+    enum { MOST_RUNS = 15 };
+    double   ms[MOST_RUNS], passed = 0, enough = living->bench->options.quick ? 200 : 2000;
     uint32_t runs = 0;
-    for (double start = hair_now(); runs == 0 || (runs < MOST_RUNS && passed < short_time) ||
-                                    (runs < ENOUGH_RUNS && passed < 4 * short_time);
-         passed = hair_now() - start)
+    for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
+         passed       = hair_now() - start)
         if (!run_once(living, frames, heads, dt, &ms[runs++])) return false;
-    qsort(ms, runs, sizeof *ms, compare);
-    *out = (struct bench_times){ms[runs / 2], ms[0], ms[runs - 1], runs};
+    *out = bench_times_of(ms, runs);
     return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "tools/bench/bench.h"
 #include "tools/bench/scene.h"
+#include "tools/bench/timer.h"
 
 struct bench_living {
     struct bench*             bench;
@@ -41,11 +42,6 @@ bool bench_strands_are_alike(struct bench_living* living);
 double bench_stretch(const struct bench_living* living, const double* positions);
 
 bool bench_are_finite(const double* positions, uint32_t vertices);
-
-struct bench_times {
-    double   ms, ms_min, ms_max; // of a frame
-    uint32_t runs;
-};
 
 // `frames` frames, again and again from rest. heads[k]: the head at the end of frame k (NULL: it stays). All must be
 // warm: they have been run before.

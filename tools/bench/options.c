@@ -8,11 +8,25 @@
 #include <string.h>
 
 static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_collision, &bench_field,
-                                                   &bench_physics, &bench_stability};
+                                                   &bench_physics,  &bench_render,    &bench_stability};
 
 #define MOST_SCENE 999999999
 
-enum name { JSON = 256, CSV, QUICK, CASE, METHOD, MAPPING, STRANDS, SCENE, DEVICE, QUIET, VERBOSE, VERSION };
+enum name {
+    JSON = 256,
+    CSV,
+    QUICK,
+    CASE,
+    METHOD,
+    MAPPING,
+    STRANDS,
+    SCENE,
+    SIZE,
+    DEVICE,
+    QUIET,
+    VERBOSE,
+    VERSION
+};
 
 static const struct row {
     const char* name;
@@ -26,10 +40,11 @@ static const struct row {
     {"case", CASE, "NAME", "only this case of the suite"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
-     "                   none, switch, push, compute or prepass"},
+     "                   none, switch, push, compute or prepass; of render, only this path"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
-    {"strands", STRANDS, "N", "copies of the strand that are timed; 1000"},
+    {"strands", STRANDS, "N", "copies of the strand that are timed; 1000; of render, strands of the haircut"},
     {"scene", SCENE, "N", "of the case fuzz, only this random scene, or those of N-M"},
+    {"size", SIZE, "N", "pixels to each side of the pictures of render; 256"},
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
     {"quiet", QUIET, NULL, "no progress"},
     {"verbose", VERBOSE, NULL, "pass on all that the library logs"},
@@ -40,8 +55,8 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
-static const char* const methods[]  = {"direct", "accurate", "follow",  "redblack", "none",
-                                       "switch", "push",     "compute", "prepass",  NULL};
+static const char* const methods[]  = {"direct", "accurate", "follow",  "redblack",     "none", "switch",
+                                       "push",   "compute",  "prepass", "tessellation", NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)
@@ -119,6 +134,7 @@ static bool take(const struct row* row, const char* value, struct bench_options*
         out->mapping = (hair_mapping)number;
         return true;
     case STRANDS: return parse_count(row->name, value, 1, 65535, &out->strands);
+    case SIZE: return parse_count(row->name, value, 16, 4096, &out->size);
     case SCENE: return parse_range(row->name, value, out);
     case DEVICE:
         if (!parse_count(row->name, value, 0, 1000, &number)) return false;

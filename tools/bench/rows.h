@@ -25,8 +25,9 @@ void    bench_set_count(json_t* row, const char* key, uint64_t count);
 void    bench_set_flag(json_t* row, const char* key, bool flag);
 void    bench_set_null(json_t* row, const char* key);
 
-// Set "front" of the rows that are measured here ("measured_by": "here") and have both numbers `cost` and
-// `error`: true where no other row of the same "case" and "vertices" is as good in both and better in one.
+// Set "front" of the rows that are measured here ("measured_by": "here", if there is such a column) and have both
+// numbers `cost` and `error`: true where no other row of the same "case" and, if there are any, "vertices" is as good
+// in both and better in one.
 void bench_mark_front(json_t* rows, const char* cost, const char* error);
 
 // All to `file`; its stream holds whether that failed.

@@ -1,0 +1,257 @@
+// render.c - the suite `render`: run time against image error, over how hair is drawn and how finely.
+//
+// The reference is the same hair at its full detail and 1,024 samples a pixel, out of many pictures that are shifted by
+// parts of a pixel. Half of them make one picture, half another: what is not five times as far from the reference as
+// those are from each other has no error.
+#include "tools/bench/picture.h"
+#include "tools/bench/studio.h"
+#include "tools/common/file.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REFERENCE_SAMPLES 1024
+#define REFERENCE_SEGMENTS 64
+#define REFERENCE_PIXELS 2048 // to each side of what is drawn at once
+#define SIZE 256
+#define LEAST_RATIO 5 // of a reported error and that of the reference
+
+static const char* const columns[] = {"case",    "method", "primitive",      "lod",           "segments",
+                                      "samples", "msaa",   "supersample",    "size",          "strands",
+                                      "ms",      "ms_min", "ms_max",         "runs",          "flip",
+                                      "psnr",    "pixels", "coverage_error", "halves_differ", "front",
+                                      NULL};
+
+// A case: a scene from some distance.
+static const struct subject {
+    const char* name;
+    const char* scene;
+    float       away;
+    bool        quick;
+} subjects[] = {{"long", "still", 1, true}, {"long far", "still", 4, false}, {"curly", "curly", 1, false}};
+
+static const struct path {
+    const char* name;
+    hair_path   path;
+} paths[] = {{"tessellation", HAIR_PATH_TESSELLATION}};
+
+static const struct primitive {
+    const char*    name;
+    hair_primitive primitive;
+} primitives[] = {{"ribbons", HAIR_RIBBONS}, {"lines", HAIR_LINES}};
+
+// Fewer strands, and wider in the same measure.
+static const struct lod {
+    float share;
+    bool  quick;
+} lods[] = {{1, true}, {0.5f, false}, {0.25f, true}, {0.1f, false}};
+
+static const struct segments {
+    uint32_t count;
+    bool     quick;
+} segments[] = {{4, false}, {8, true}, {16, false}, {32, true}, {64, false}};
+
+// Of one pixel.
+static const struct samples {
+    uint32_t msaa, supersample;
+    bool     quick;
+} samples[] = {{1, 1, true}, {4, 1, true},  {8, 1, false}, {1, 2, false},
+               {4, 2, true}, {8, 2, false}, {4, 4, false}};
+
+#define COUNT(table) (sizeof(table) / sizeof *(table))
+
+// A subject brought to life, and its reference.
+struct scene {
+    struct bench*         bench;
+    const struct subject* subject;
+    struct bench_studio   studio;
+    bool                  alive, refused;
+    uint32_t              most_samples; // of OpenGL
+    struct bench_picture  truth;
+    double                halves_differ;
+    size_t                first_row;
+};
+
+static uint32_t size_of(const struct bench* bench)
+{
+    return bench->options.size ? bench->options.size : SIZE;
+}
+
+// The reference -------------------------------------------------------------------------------------------------
+
+// Even over the square, any number of them (Roberts 2018: multiples of powers of the plastic number), each followed by
+// its opposite: a picture that is shifted as a whole differs more than one that is a little noisy.
+static void jitter(uint32_t i, uint32_t supersample, float out[2])
+{
+    const double step[2] = {0.7548776662466927, 0.5698402909980532};
+    for (int k = 0; k < 2; ++k) {
+        double at = fmod(0.5 + step[k] * (i / 2 + 1), 1) - 0.5;
+        out[k]    = (float)((i % 2 ? -at : at) / supersample);
+    }
+}
+
+// Every second pair of the pictures.
+static bool take_half(struct scene* scene, uint32_t half, struct bench_shot* shot, uint32_t pictures,
+                      struct bench_picture* out)
+{
+    for (uint32_t i = 0; i < pictures; ++i) {
+        if (i / 2 % 2 != half) continue;
+        jitter(i, shot->supersample, shot->jitter);
+        if (!bench_studio_set(&scene->studio, shot) || !bench_studio_draw(&scene->studio, NULL) ||
+            !bench_studio_add(&scene->studio, out->rgba))
+            return false;
+    }
+    bench_picture_finish(out, pictures / 2, (double)scene->studio.scene.exposure);
+    return true;
+}
+
+static bool take_reference(struct scene* scene, struct bench_picture halves[2])
+{
+    struct bench_shot shot = bench_studio_shot(&scene->studio);
+    uint32_t          size = scene->studio.size, side = 1;
+    while (2 * side * size <= REFERENCE_PIXELS && side < 8) side *= 2;
+    shot.look.segments = REFERENCE_SEGMENTS;
+    shot.away          = scene->subject->away;
+    shot.samples       = scene->most_samples < 8 ? scene->most_samples : 8;
+    shot.supersample   = side;
+    uint32_t each = shot.samples * side * side, pictures = (REFERENCE_SAMPLES + each - 1) / each;
+    pictures = (pictures + 3) / 4 * 4;
+    return take_half(scene, 0, &shot, pictures, &halves[0]) &&
+           take_half(scene, 1, &shot, pictures, &halves[1]);
+}
+
+static bool find_truth(struct scene* scene)
+{
+    struct bench_picture    halves[2] = {{0}};
+    struct hair_image_error error;
+    uint32_t                size = scene->studio.size;
+    bool ok = bench_picture_make(size, &halves[0]) && bench_picture_make(size, &halves[1]) &&
+              bench_picture_make(size, &scene->truth) && take_reference(scene, halves);
+    if (ok) {
+        for (size_t i = 0; i < 4 * (size_t)size * size; ++i)
+            scene->truth.rgba[i] = halves[0].rgba[i] + halves[1].rgba[i];
+        bench_picture_finish(&scene->truth, 2, (double)scene->studio.scene.exposure);
+        ok = bench_picture_cover(&scene->truth) &&
+             bench_picture_compare(&scene->truth, &halves[0], &halves[1], &error);
+    }
+    if (ok) scene->halves_differ = error.flip;
+    bench_picture_free(&halves[0]);
+    bench_picture_free(&halves[1]);
+    return ok;
+}
+
+// Once: what cannot be made is refused row by row.
+static bool need(struct scene* scene)
+{
+    if (scene->alive || scene->refused) return scene->alive;
+    struct bench_studio_desc desc = {.scene     = scene->subject->scene,
+                                     .size      = size_of(scene->bench),
+                                     .followers = scene->bench->options.strands};
+    GLint                    most = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    scene->most_samples = (uint32_t)most;
+    scene->alive        = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
+    scene->refused      = !scene->alive;
+    return scene->alive;
+}
+
+// Rows ----------------------------------------------------------------------------------------------------------
+
+struct setting {
+    const struct path*      path;
+    const struct primitive* primitive;
+    const struct lod*       lod;
+    const struct segments*  segments;
+    const struct samples*   samples;
+};
+
+static void add_row(struct scene* scene, const struct setting* setting, const struct bench_times* times,
+                    const struct hair_image_error* error, double coverage)
+{
+    json_t*  row  = bench_rows_add(&scene->bench->rows);
+    uint32_t side = setting->samples->supersample;
+    bench_set_text(row, "case", scene->subject->name);
+    bench_set_text(row, "method", setting->path->name);
+    bench_set_text(row, "primitive", setting->primitive->name);
+    bench_set_number(row, "lod", (double)setting->lod->share);
+    bench_set_count(row, "segments", setting->segments->count);
+    bench_set_count(row, "samples", setting->samples->msaa * side * side);
+    bench_set_count(row, "msaa", setting->samples->msaa);
+    bench_set_count(row, "supersample", side);
+    bench_set_count(row, "size", scene->studio.size);
+    bench_set_count(row, "strands", scene->studio.info.follower_count);
+    bench_set_number(row, "ms", times->ms);
+    bench_set_number(row, "ms_min", times->ms_min);
+    bench_set_number(row, "ms_max", times->ms_max);
+    bench_set_count(row, "runs", times->runs);
+    bench_set_count(row, "pixels", error->pixels);
+    bench_set_number(row, "coverage_error", coverage);
+    bench_set_number(row, "halves_differ", scene->halves_differ);
+    if (error->flip < LEAST_RATIO * scene->halves_differ) return;
+    bench_set_number(row, "flip", error->flip);
+    bench_set_number(row, "psnr", error->psnr);
+}
+
+static bool look(struct scene* scene, const struct setting* setting)
+{
+    struct bench_shot       shot = bench_studio_shot(&scene->studio);
+    struct bench_picture    picture;
+    struct bench_times      times;
+    struct hair_image_error error;
+    shot.view.path      = setting->path->path;
+    shot.view.primitive = setting->primitive->primitive;
+    shot.look.segments  = setting->segments->count;
+    shot.look.density *= setting->lod->share;
+    shot.look.radius /= setting->lod->share;
+    shot.samples     = setting->samples->msaa;
+    shot.supersample = setting->samples->supersample;
+    shot.away        = scene->subject->away;
+    if (!bench_picture_make(scene->studio.size, &picture)) return false;
+    bool ok = bench_studio_set(&scene->studio, &shot) &&
+              bench_studio_time(&scene->studio, scene->bench->options.quick ? 50 : 300, &times) &&
+              bench_studio_add(&scene->studio, picture.rgba);
+    if (ok) bench_picture_finish(&picture, 1, (double)scene->studio.scene.exposure);
+    ok = ok && bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);
+    if (ok) add_row(scene, setting, &times, &error, picture.coverage / scene->truth.coverage - 1);
+    bench_picture_free(&picture);
+    return ok;
+}
+
+static void measure(struct scene* scene, const struct setting* setting)
+{
+    struct bench* bench = scene->bench;
+    bool          all   = !bench->options.quick;
+    if (!all && !(setting->lod->quick && setting->segments->quick && setting->samples->quick)) return;
+    if (!bench_begin(bench, scene->subject->name, setting->path->name)) return;
+    if (need(scene) && setting->samples->msaa > scene->most_samples) return; // OpenGL has fewer.
+    if (!scene->alive || !look(scene, setting))
+        bench_refuse(bench, scene->subject->name, setting->path->name);
+}
+
+static void measure_subject(struct bench* bench, const struct subject* subject)
+{
+    struct scene scene = {.bench = bench, .subject = subject};
+    for (size_t p = 0; p < COUNT(paths); ++p)
+        for (size_t k = 0; k < COUNT(primitives); ++k)
+            for (size_t l = 0; l < COUNT(lods); ++l)
+                for (size_t s = 0; s < COUNT(segments); ++s)
+                    for (size_t n = 0; n < COUNT(samples); ++n) {
+                        struct setting setting = {&paths[p], &primitives[k], &lods[l], &segments[s],
+                                                  &samples[n]};
+                        measure(&scene, &setting);
+                    }
+    bench_picture_free(&scene.truth);
+    if (scene.alive) bench_studio_free(&scene.studio);
+}
+
+static void run_suite(struct bench* bench)
+{
+    for (size_t i = 0; i < COUNT(subjects); ++i)
+        if (subjects[i].quick || !bench->options.quick) measure_subject(bench, &subjects[i]);
+    if (!bench->planning) bench_mark_front(bench->rows.rows, "ms", "flip");
+}
+
+const struct bench_suite bench_render = {"render", "run time against image error, over ways to draw", columns,
+                                         run_suite};

@@ -1,0 +1,308 @@
+// studio.c - a haircut on its head before a plain background.
+#include "tools/bench/studio.h"
+
+#include "tools/common/camera.h"
+#include "tools/common/file.h"
+#include "tools/common/shaders.h"
+#include "tools/common/stats.h"
+#include "tools/common/subject.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESH, DEPTH, AVERAGE };
+
+// GLSL keeps its own lines.
+// clang-format off
+static const char flat_frag[] =
+    "#version 450 core\n"
+    "layout(location = 0) out vec4 color;\n"
+    "void main() { color = vec4(0.22, 0.15, 0.12, 0.0); }\n";
+
+static const char average_frag[] =
+    "#version 450 core\n"
+    "layout(location = 14) uniform int supersample;\n" // HAIR_AT_SUPERSAMPLE
+    "layout(binding = 0) uniform sampler2D drawn;\n"
+    "layout(location = 1) out vec4 mean;\n"
+    "void main()\n"
+    "{\n"
+    "    ivec2 at  = supersample * ivec2(gl_FragCoord.xy);\n"
+    "    vec4  sum = vec4(0.0);\n"
+    "    for (int y = 0; y < supersample; ++y)\n"
+    "        for (int x = 0; x < supersample; ++x) sum += texelFetch(drawn, at + ivec2(x, y), 0);\n"
+    "    mean = sum / float(supersample * supersample);\n"
+    "}\n";
+// clang-format on
+
+// Making ----------------------------------------------------------------------------------------------------
+
+static bool make_programs(struct bench_studio* studio)
+{
+    studio->programs[MESH]    = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, flat_frag);
+    studio->programs[DEPTH]   = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, hair_nothing_frag);
+    studio->programs[AVERAGE] = hair_shaders_link(BENCH_TOOL, hair_whole_vert, average_frag);
+    return studio->programs[MESH] && studio->programs[DEPTH] && studio->programs[AVERAGE];
+}
+
+static bool make_head(struct bench_studio* studio)
+{
+    struct head_mesh         mesh;
+    const struct hair_scene* scene = &studio->scene;
+    glCreateVertexArrays(2, studio->arrays);
+    glCreateBuffers(2, studio->buffers);
+    if (!scene->head && scene->subject != HAIR_SUBJECT_FUR) return true;
+    if (scene->head ? head_mesh_create(&mesh) : hair_rig_ball(scene->ball_radius, &mesh)) return false;
+    studio->indices = 3 * mesh.triangle_count;
+    glNamedBufferStorage(studio->buffers[0], (GLsizeiptr)(mesh.vertex_count * 3 * sizeof(float)),
+                         mesh.positions, 0);
+    glNamedBufferStorage(studio->buffers[1], (GLsizeiptr)(studio->indices * sizeof(uint32_t)), mesh.triangles,
+                         0);
+    head_mesh_free(&mesh);
+    glVertexArrayVertexBuffer(studio->arrays[0], 0, studio->buffers[0], 0, 3 * sizeof(float));
+    glVertexArrayAttribFormat(studio->arrays[0], 0, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(studio->arrays[0], 0, 0);
+    glEnableVertexArrayAttrib(studio->arrays[0], 0);
+    glVertexArrayElementBuffer(studio->arrays[0], studio->buffers[1]);
+    return true;
+}
+
+static bool place(struct bench_studio* studio)
+{
+    hair_solid solids[HAIR_RIG_SOLIDS];
+    float      time = (float)studio->frame / STUDIO_FPS;
+    hair_motion_at(&studio->scene.motion, time, studio->transform);
+    if (!studio->hair) return true;
+    uint32_t count = hair_rig_solids(&studio->scene, time, studio->transform, solids);
+    return !hair_set_transform(studio->hair, studio->transform) &&
+           !hair_set_solids(studio->hair, solids, count, sizeof *solids);
+}
+
+static bool bring_to_life(struct bench_studio* studio, const struct bench_studio_desc* asked)
+{
+    struct hair_scene* scene = &studio->scene;
+    hair_desc          desc  = scene->settings.desc;
+    desc.solver              = asked->solver;
+    desc.substep             = (float)asked->substep;
+    desc.physics             = &scene->settings.physics;
+    desc.look                = &scene->settings.look;
+    place(studio);
+    memcpy(desc.transform, studio->transform, sizeof desc.transform);
+    if (hair_create(studio->bench->context, studio->groom, &desc, &studio->hair) || !place(studio))
+        return false;
+    for (float time = 0; time < scene->settle; time += 1.0f / STUDIO_FPS)
+        if (hair_step(studio->hair, 1.0f / STUDIO_FPS)) return false;
+    return true;
+}
+
+static bool set(struct bench_studio* studio, const char* key, uint32_t count)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%u", count);
+    return !count || hair_settings_set(BENCH_TOOL, &studio->scene.settings, key, text);
+}
+
+static bool make_subject(struct bench_studio* studio, const struct bench_studio_desc* desc)
+{
+    struct hair_scene* scene = &studio->scene;
+    hair_scene_default(scene);
+    if (!hair_scene_named(BENCH_TOOL, desc->scene, scene)) return false;
+    if (!set(studio, "guides", desc->guides) || !set(studio, "followers", desc->followers) ||
+        !set(studio, "segments", desc->segments))
+        return false;
+    scene->width = scene->height = studio->size;
+    if (hair_subject_load(BENCH_TOOL, &studio->bench->host, scene, &studio->groom)) return false;
+    studio->info = hair_groom_info_default();
+    if (hair_groom_describe(studio->groom, &studio->info)) return false;
+    struct hair_bounds bounds;
+    memcpy(bounds.lower, studio->info.lower, sizeof bounds.lower);
+    memcpy(bounds.upper, studio->info.upper, sizeof bounds.upper);
+    if (!scene->framed) hair_camera_frame(scene, &bounds);
+    studio->reach = 1.15f * hair_camera_reach(scene, &bounds);
+    return true;
+}
+
+bool bench_studio_make(struct bench* bench, const struct bench_studio_desc* desc, struct bench_studio* out)
+{
+    memset(out, 0, sizeof *out);
+    out->bench = bench;
+    out->size  = desc->size;
+    snprintf(bench->sentence, sizeof bench->sentence, "the scene could not be made");
+    bench_timer_make(&out->timer, bench->software);
+    if (make_programs(out) && make_subject(out, desc) && make_head(out) && bring_to_life(out, desc))
+        return true;
+    bench_studio_free(out);
+    return false;
+}
+
+void bench_studio_free(struct bench_studio* studio)
+{
+    hair_destroy(studio->hair);
+    hair_groom_destroy(studio->groom);
+    if (studio->shot.samples) hair_targets_delete(&studio->targets);
+    for (int i = 0; i < 3; ++i) glDeleteProgram(studio->programs[i]);
+    glDeleteVertexArrays(2, studio->arrays);
+    glDeleteBuffers(2, studio->buffers);
+    bench_timer_free(&studio->timer);
+    memset(studio, 0, sizeof *studio);
+}
+
+bool bench_studio_step(struct bench_studio* studio)
+{
+    ++studio->frame;
+    return place(studio) && !hair_step(studio->hair, 1.0f / STUDIO_FPS);
+}
+
+// Drawing ---------------------------------------------------------------------------------------------------
+
+struct bench_shot bench_studio_shot(const struct bench_studio* studio)
+{
+    const struct hair_settings* settings = &studio->scene.settings;
+    return (struct bench_shot){
+        .look = settings->look, .view = settings->view, .samples = 1, .supersample = 1, .away = 1};
+}
+
+bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot)
+{
+    struct bench_shot* last = &studio->shot;
+    if (hair_set_look(studio->hair, &shot->look)) return false;
+    if (last->samples != shot->samples || last->supersample != shot->supersample) {
+        if (last->samples) hair_targets_delete(&studio->targets);
+        last->samples = 0;
+        if (!hair_targets_make(&studio->targets, studio->size, studio->size, shot->supersample,
+                               shot->samples)) {
+            hair_targets_delete(&studio->targets);
+            snprintf(studio->bench->sentence, sizeof studio->bench->sentence,
+                     "OpenGL has no memory for %u x %u pixels of %u samples",
+                     studio->size * shot->supersample, studio->size * shot->supersample, shot->samples);
+            return false;
+        }
+    }
+    *last = *shot;
+    return true;
+}
+
+static void draw_head(const struct bench_studio* studio, unsigned program,
+                      const struct hair_matrices* matrices)
+{
+    bool whole = studio->scene.subject == HAIR_SUBJECT_FUR;
+    if (!studio->indices) return;
+    glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, studio->transform);
+    glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
+    glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
+    glProgramUniform2f(program, HAIR_AT_BEND, whole ? -1e9f : HAIR_RIG_MOVES, HAIR_RIG_RESTS);
+    glUseProgram(program);
+    glBindVertexArray(studio->arrays[0]);
+    glEnable(GL_CULL_FACE);
+    glDrawElements(GL_TRIANGLES, (GLsizei)studio->indices, GL_UNSIGNED_INT, NULL);
+    glDisable(GL_CULL_FACE);
+}
+
+static bool draw_hair(struct bench_studio* studio, hair_pass pass, const struct hair_matrices* matrices,
+                      const struct hair_matrices* light)
+{
+    hair_view view      = studio->shot.view;
+    view.pass           = pass;
+    view.shadow_texture = pass == HAIR_PASS_COLOR ? studio->targets.shadow : 0;
+    if (pass == HAIR_PASS_DEPTH)
+        view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
+    hair_light_clip(light, view.shadow_matrix);
+    memcpy(view.view, matrices->view, sizeof view.view);
+    memcpy(view.projection, matrices->projection, sizeof view.projection);
+    bench_timer_start(&studio->timer);
+    hair_result result = hair_draw(studio->hair, &view);
+    bench_timer_stop(&studio->timer);
+    return !result;
+}
+
+static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* light)
+{
+    static const float far         = 1;
+    unsigned           framebuffer = studio->targets.framebuffer[HAIR_TARGET_SHADOW];
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    glEnable(GL_DEPTH_TEST);
+    draw_head(studio, studio->programs[DEPTH], light);
+    return draw_hair(studio, HAIR_PASS_DEPTH, light, light);
+}
+
+// Of samples, then of pixels.
+static void average(struct bench_studio* studio)
+{
+    const unsigned* framebuffer = studio->targets.framebuffer;
+    GLsizei         size = (GLsizei)studio->size, all = size * (GLsizei)studio->shot.supersample;
+    bench_timer_start(&studio->timer);
+    glBlitNamedFramebuffer(framebuffer[HAIR_TARGET_DRAWN], framebuffer[HAIR_TARGET_RESOLVED], 0, 0, all, all,
+                           0, 0, all, all, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer[HAIR_TARGET_ENCODED]);
+    glViewport(0, 0, size, size);
+    glProgramUniform1i(studio->programs[AVERAGE], HAIR_AT_SUPERSAMPLE, (GLint)studio->shot.supersample);
+    glUseProgram(studio->programs[AVERAGE]);
+    glBindVertexArray(studio->arrays[1]);
+    glBindTextureUnit(0, studio->targets.resolved);
+    glDisable(GL_DEPTH_TEST);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    bench_timer_stop(&studio->timer);
+}
+
+static void aim(const struct bench_studio* studio, struct hair_matrices* out)
+{
+    struct hair_scene scene = studio->scene;
+    for (int i = 0; i < 3; ++i)
+        scene.eye[i] = scene.target[i] + studio->shot.away * (scene.eye[i] - scene.target[i]);
+    hair_camera_matrices(&scene, studio->transform, studio->reach, out);
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 2; ++i)
+            out->projection[4 * column + i] +=
+                2 * studio->shot.jitter[i] / (float)studio->size * out->projection[4 * column + 3];
+}
+
+bool bench_studio_draw(struct bench_studio* studio, double* ms)
+{
+    static const float   far = 1, background[4] = {0.04f, 0.042f, 0.048f, 0};
+    struct hair_matrices light, camera;
+    unsigned             framebuffer = studio->targets.framebuffer[HAIR_TARGET_DRAWN];
+    GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
+    hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
+    aim(studio, &camera);
+    if (!draw_shadow(studio, &light)) return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, size, size);
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background);
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    draw_head(studio, studio->programs[MESH], &camera);
+    if (!draw_hair(studio, HAIR_PASS_COLOR, &camera, &light)) return false;
+    average(studio);
+    double taken = bench_timer_take(&studio->timer);
+    if (ms) *ms = taken;
+    return !bench_was_interrupted();
+}
+
+bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out)
+{
+    enum { MOST_RUNS = 31 };
+    double   ms[MOST_RUNS], passed = 0;
+    uint32_t runs = 0;
+    if (!bench_studio_draw(studio, NULL)) return false; // It compiles what it needs.
+    for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
+         passed       = hair_now() - start)
+        if (!bench_studio_draw(studio, &ms[runs++])) return false;
+    *out = bench_times_of(ms, runs);
+    return true;
+}
+
+bool bench_studio_add(struct bench_studio* studio, double* rgba)
+{
+    size_t   values      = 4 * (size_t)studio->size * studio->size;
+    unsigned framebuffer = studio->targets.framebuffer[HAIR_TARGET_ENCODED];
+    GLsizei  size        = (GLsizei)studio->size;
+    float*   read        = malloc(values * sizeof *read);
+    if (!read) return false;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glNamedFramebufferReadBuffer(framebuffer, GL_COLOR_ATTACHMENT1);
+    glReadPixels(0, 0, size, size, GL_RGBA, GL_FLOAT, read);
+    for (size_t i = 0; i < values; ++i) rgba[i] += (double)read[i];
+    free(read);
+    return !glGetError();
+}
