@@ -31,7 +31,7 @@ MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 
 # The rooms of lib/, as data flows through them: a file includes from its own room and from those before it.
 # Beside them egl/, bullet/ and reference/, each a library of its own.
-ROOMS := base asset groom collide gl field wind sim interpolate draw api
+ROOMS := base asset collide groom gl field wind sim interpolate draw api
 
 objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o

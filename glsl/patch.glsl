@@ -10,15 +10,19 @@ struct hair_patch_lines {
     uint  strands;
     uint  segments; // of a whole strand
     float fading;   // share of its width that the last strand has
+    float thickness; // of all of them, as a share of their own
 };
 
 hair_patch_lines find_lines(uint number)
 {
-    uvec4 record = texelFetch(patch_texture, int(number)); // hair_patch
-    float wanted = float(record.y) * clamp(uintBitsToFloat(record.z), 0.0, 1.0) * draw.density;
+    int   at     = int(number) * HAIR_PATCH_TEXELS;
+    uvec4 record = texelFetch(patch_texture, at); // hair_patch
+    float mapped = dot(uintBitsToFloat(texelFetch(patch_texture, at + 1)), draw.map_weights);
+    float wanted = float(record.y) * clamp(uintBitsToFloat(record.z) * mapped, 0.0, 1.0) * draw.density;
 #ifdef HAIR_EVERY_FOLLOWER
     wanted = float(record.y);
 #endif
-    uint strands = uint(ceil(wanted));
-    return hair_patch_lines(record.x, strands, draw.segments, 1.0 - (float(strands) - wanted));
+    float thickness = dot(uintBitsToFloat(texelFetch(patch_texture, at + 2)), draw.map_weights);
+    uint  strands   = uint(ceil(wanted));
+    return hair_patch_lines(record.x, strands, draw.segments, 1.0 - (float(strands) - wanted), thickness);
 }

@@ -104,6 +104,8 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
+#define HAIR_PATCH_TEXELS 3
+#define HAIR_MAP_SETS 4 // of a groom, at most
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
 #define HAIR_SOLID_TEXELS 6
@@ -275,8 +277,10 @@ struct hair_patch {
     hair_uint count;
     float     density; // local, [0, 1]: the share of them that grows here
     hair_uint unused;
+    hair_vec4 map_density;   // share of that by each set of maps
+    hair_vec4 map_thickness; // of the followers' radius, likewise
 };
-HAIR_SIZE(hair_patch, 16)
+HAIR_SIZE(hair_patch, 48)
 
 // Where the field is, and what it counts as near.
 struct hair_field_params {
@@ -354,7 +358,8 @@ struct hair_draw_params {
     hair_uint collision; // hair_collision
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
+    hair_vec4 map_weights; // of the sets of maps: their sum is 1
 };
-HAIR_SIZE(hair_draw_params, 3 * 64 + 7 * 16 + 48)
+HAIR_SIZE(hair_draw_params, 3 * 64 + 8 * 16 + 48)
 
 #endif

@@ -4,7 +4,7 @@
 layout(isolines, equal_spacing) in;
 
 layout(location = 0) patch in uvec4 lines;
-layout(location = 1) patch in vec2  whole;
+layout(location = 1) patch in vec3  whole;
 
 layout(location = 0) out vec4 strand_position; // xyz from the head's origin; w: radius
 layout(location = 1) out vec3 strand_tangent;
@@ -16,7 +16,8 @@ void main()
     uint line    = uint(gl_TessCoord.y * float(lines.y) + 0.5);
     uint segment = lines.z + uint(gl_TessCoord.x * float(lines.w) + 0.5);
 
-    strand_vertex v = strand_at(lines.x + line, float(segment) / whole.x, line + 1u == lines.y ? whole.y : 1.0);
+    float         fading = line + 1u == lines.y ? whole.z : 1.0;
+    strand_vertex v      = strand_at(lines.x + line, float(segment) / whole.x, whole.y * fading);
     strand_position = v.position;
     strand_tangent  = v.tangent;
     strand_color    = v.color;

@@ -121,6 +121,28 @@ typedef enum hair_strands_are {
     HAIR_STRANDS_GUIDES   ///< Guides only: followers are grown on the scalp, or around guides without one.
 } hair_strands_are;
 
+typedef enum hair_map_of {
+    HAIR_MAP_NONE = 0, ///< 1 everywhere.
+    HAIR_MAP_IMAGE,    ///< Values of an image, by scalp_uvs, smoothly from one to the next.
+    HAIR_MAP_VERTICES, ///< A value per vertex of the scalp, linear between.
+    HAIR_MAP_TRIANGLES ///< A value per triangle of the scalp.
+} hair_map_of;
+
+/// Values all over a scalp.
+typedef struct hair_map {
+    hair_map_of  of;            ///< Default HAIR_MAP_NONE.
+    const float* values;        ///< Of an image row after row, the first row at v = 0. Required but for none.
+    uint32_t     width, height; ///< Of an image. [1, 16384] each.
+} hair_map;
+
+/// Which share of followers grows where, and how thick. A groom has up to four sets; what is drawn may lie between.
+typedef struct hair_map_set {
+    hair_made made;
+    hair_map  density;   ///< Share of the followers that are drawn. [0, 1].
+    hair_map  thickness; ///< Of a strand, as a multiple of the look's radius. [0, 4].
+} hair_map_set;
+HAIR_DESC(hair_map_set)
+
 typedef struct hair_groom_desc {
     hair_made          made;
     const hair_host*   host;      ///< NULL: the C library's allocator, no log.
@@ -139,6 +161,8 @@ typedef struct hair_groom_desc {
     uint32_t        scalp_vertex_count;   ///< [0, 4194304].
     uint32_t        scalp_triangle_count; ///< [0, 4194304].
     uint32_t        seed;                 ///< Of every random choice. Default 1.
+    const float*    scalp_uvs;            ///< uv per scalp vertex, for maps that are images. NULL: none.
+    const hair_map_set* map_sets[4];      ///< Maps on the scalp, up to the first NULL. NULL: none.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 
@@ -309,6 +333,7 @@ typedef struct hair_look {
     float     density;     ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t  segments;    ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
+    float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
 } hair_look;
 HAIR_DESC(hair_look)
 

@@ -8,7 +8,7 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.strand_vertices is NULL");
     if (!desc->scalp_positions) {
         if (desc->scalp_vertex_count || desc->scalp_triangle_count || desc->scalp_triangles ||
-            desc->scalp_density)
+            desc->scalp_density || desc->scalp_uvs)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.scalp_positions is NULL but other scalp fields are not");
         return HAIR_OK;
@@ -23,14 +23,34 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
     return HAIR_OK;
 }
 
+// Into `own`, which `desc` then points at.
+static hair_result take_maps(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
+{
+    hair_result result = HAIR_OK;
+    for (int i = 0; i < HAIR_MAP_SETS && !result; ++i) {
+        if (!desc->map_sets[i]) continue;
+        if (i && !desc->map_sets[i - 1])
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.map_sets[%d] is NULL but [%d] is not", i - 1, i);
+        if (!desc->scalp_positions)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_positions is NULL but map_sets[%d] is not", i);
+        result            = HAIR_TAKE(host, hair_map_set, desc->map_sets[i], &own[i]);
+        desc->map_sets[i] = &own[i];
+    }
+    return result;
+}
+
 hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
 {
     hair_host       host = HAIR_HOST_OF(desc);
     hair_groom_desc own;
     hair_import     import;
+    hair_map_set    maps[HAIR_MAP_SETS];
     hair_result     result = HAIR_TAKE(&host, hair_groom_desc, desc, &own);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
     if (!result) result = check_arrays(&host, &own);
+    if (!result) result = take_maps(&host, &own, maps);
     if (result) return result;
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     return hair_groom_build(&host, &own, &import, out);

@@ -11,6 +11,7 @@ struct hair_draw {
     GLuint           follower_texture, patch_texture; // the first two, for stages without storage buffers
     uint32_t         followers, patches, smooth_vertices, guides;
     uint32_t         most_isolines; // of a patch
+    uint32_t         map_sets;
     struct hair_hits hits;
 };
 

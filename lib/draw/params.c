@@ -65,6 +65,17 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     if (view->shadow_texture && view->pass == HAIR_PASS_COLOR) write_shadow(draw, head, view, out);
 }
 
+// Between a set and the next.
+static hair_vec4 weigh_sets(float set, uint32_t sets)
+{
+    float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
+    float at      = set < last ? set : last;
+    int   first   = (int)at;
+    weight[first] = 1 - (at - (float)first);
+    if (first + 1 < HAIR_MAP_SETS) weight[first + 1] = at - (float)first;
+    return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
+}
+
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out)
 {
@@ -85,4 +96,5 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->smooth_vertices = draw->smooth_vertices;
     out->followers       = draw->followers;
     out->collision       = look->collision;
+    out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
 }

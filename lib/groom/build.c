@@ -65,8 +65,11 @@ static hair_result build(struct hair_draft* draft)
     if (!result) result = hair_draft_guides(draft);
     if (!result) result = hair_draft_rest(draft);
     if (!result) result = count_sprouts(draft);
+    if (!result) result = hair_draft_spots(draft);
+    if (!result) result = hair_draft_maps(draft);
     if (!result) result = hair_draft_patches(draft);
     if (!result) result = make_followers(draft);
+    if (!result) hair_thicken(draft);
     if (!result) describe(draft);
     return result;
 }
@@ -86,6 +89,10 @@ static void free_draft(struct hair_draft* draft)
     hair_free(draft->host, draft->plot_centres);
     hair_free(draft->host, draft->strand_of);
     hair_free(draft->host, draft->place);
+    hair_free(draft->host, draft->spots);
+    hair_free(draft->host, draft->map_density);
+    hair_free(draft->host, draft->map_thickness);
+    hair_free(draft->host, draft->map_share);
 }
 
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,

@@ -9,6 +9,12 @@
 // Points of a strand that stand for its shape: at 0, 1/3, 2/3 and 1 of its length.
 #define HAIR_MARKS 4
 
+// Where on the scalp a root sits.
+struct hair_spot {
+    uint32_t triangle;
+    float    weight[3]; // of its corners
+};
+
 struct hair_draft {
     const hair_host*       host;
     const hair_groom_desc* desc;
@@ -36,6 +42,11 @@ struct hair_draft {
     uint32_t     sprout_count;
     uint32_t*    strand_of; // of each sprout, where all strands are given
     uint32_t*    place;     // of each sprout: its follower
+
+    struct hair_spot* spots;         // of each sprout, where there is a scalp that has a triangle. NULL: none
+    hair_vec4*        map_density;   // of each sprout, by each set of maps. NULL: there are no maps
+    float*            map_thickness; // of each sprout, the most of all sets
+    hair_vec4*        map_share;     // and of that, by each set
 };
 
 // The steps, in order. Each fails with one sentence and leaves what it has made in the draft.
@@ -49,10 +60,20 @@ hair_result hair_draft_rest(struct hair_draft* draft);
 hair_result hair_strand_sprouts(struct hair_draft* draft);
 hair_result hair_guide_sprouts(struct hair_draft* draft);
 hair_result hair_scalp_sprouts(struct hair_draft* draft);
+hair_result
+hair_draft_spots(struct hair_draft* draft);            // roots of all sprouts, but of scalp.c, which has them
+hair_result hair_draft_maps(struct hair_draft* draft); // what maps say of all sprouts
+void        hair_thicken(struct hair_draft* draft);    // followers, by maps
 hair_result hair_draft_patches(struct hair_draft* draft);
 hair_result hair_strand_followers(struct hair_draft* draft);
 hair_result hair_guide_followers(struct hair_draft* draft);
 hair_result hair_scalp_followers(struct hair_draft* draft);
+
+// sorts.c: what maps make of the sprouts that `queue` names, neighbours. Split: reorder them so that those in front
+// are to be in another patch than those behind; returns how many are in front, 0: all may be in one. Patch: put what
+// is one in the order in which it is cut short, and fill in what its maps say.
+uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_t count);
+void     hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair_patch* patch);
 
 // Plots without sprouts (plots.c); and once these are counted, the first of each.
 hair_result hair_guide_plots(struct hair_draft* draft);

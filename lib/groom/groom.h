@@ -13,6 +13,7 @@ struct hair_groom {
     struct hair_follower* followers;     // info.follower_count
     struct hair_patch*    patches;       // info.patch_count
     uint32_t              most_vertices; // of a guide
+    uint32_t              map_sets;
 };
 
 // `desc` is whole and has been checked, but for what its arrays hold. On failure *out is untouched.

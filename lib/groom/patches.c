@@ -51,6 +51,32 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 }
 
 // Into one patch, or when they are more than it holds into the fewest of even size.
+static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
+{
+    shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
+    uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
+    for (uint32_t i = 0; i < parts; ++i) {
+        uint32_t          begin = (uint32_t)((uint64_t)total * i / parts);
+        uint32_t          end   = (uint32_t)((uint64_t)total * (i + 1) / parts);
+        struct hair_patch patch = {.first = first + begin, .count = end - begin, .density = density};
+        hair_map_patch(layout->draft, layout->queue + patch.first, &patch);
+        layout->patches[layout->patch_count++] = patch;
+    }
+}
+
+// Where maps differ too much among sprouts for one patch, by what differs most.
+static void part(struct layout* layout, uint32_t first, uint32_t total, float density)
+{
+    for (;;) {
+        uint32_t front = hair_map_split(layout->draft, layout->queue + first, total);
+        if (front == 0) break;
+        part(layout, first, front, density);
+        first += front;
+        total -= front;
+    }
+    make_patches(layout, first, total, density);
+}
+
 static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
 {
     const struct hair_draft* draft = layout->draft;
@@ -63,14 +89,7 @@ static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
         sum += (double)density_of(layout, order[i]) * sprouts;
     }
     uint32_t total = layout->queued - first;
-    shuffle(layout->queue + first, total, draft->desc->seed ^ hair_hash(first));
-    uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
-    for (uint32_t i = 0; i < parts; ++i) {
-        uint32_t begin                         = (uint32_t)((uint64_t)total * i / parts);
-        uint32_t end                           = (uint32_t)((uint64_t)total * (i + 1) / parts);
-        layout->patches[layout->patch_count++] = (struct hair_patch){
-            .first = first + begin, .count = end - begin, .density = (float)(sum / total)};
-    }
+    part(layout, first, total, (float)(sum / total));
 }
 
 static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
@@ -103,8 +122,9 @@ static uint32_t list_plots(const struct hair_draft* draft, uint32_t* order)
 
 hair_result hair_draft_patches(struct hair_draft* draft)
 {
-    // No more patches than plots, but for plots of more than one patch.
-    uint32_t           most   = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
+    // No more patches than plots, but for plots of more than one patch; and where there are maps, for any number.
+    uint32_t most = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
+    if (draft->map_density) most = draft->sprout_count;
     struct hair_groom* groom  = draft->groom;
     uint32_t*          order  = hair_alloc(draft->host, draft->plot_count, sizeof *order);
     uint32_t*          queue  = hair_alloc(draft->host, draft->sprout_count, sizeof *queue);

@@ -15,6 +15,32 @@ static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
     return 0.5 * (double)hair_length(hair_cross(b, c));
 }
 
+// The i-th point of a triangle as barycentric coordinates: the R2 sequence (Roberts 2018, "The unreasonable
+// effectiveness of quasirandom sequences"), with what falls beyond the diagonal of the square folded back.
+static void scatter(uint32_t i, double start_u, double start_v, float out[3])
+{
+    double u = start_u + 0.7548776662466927 * i, v = start_v + 0.5698402909980532 * i;
+    u -= floor(u), v -= floor(v);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    out[0] = (float)(1 - u - v), out[1] = (float)u, out[2] = (float)v;
+}
+
+static hair_result scatter_sprouts(struct hair_draft* draft)
+{
+    draft->spots = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->spots);
+    if (!draft->spots) return hair_fail_memory(draft->host, "the roots of followers");
+    for (uint32_t triangle = 0; triangle < draft->plot_count; ++triangle) {
+        uint32_t starts  = hair_sprout_random(draft, triangle);
+        double   start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
+        for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
+            struct hair_spot* spot = &draft->spots[draft->plot_first[triangle] + i];
+            spot->triangle         = triangle;
+            scatter(i, start_u, start_v, spot->weight);
+        }
+    }
+    return HAIR_OK;
+}
+
 // Triangle after triangle takes whole sprouts off the running sum of areas: none is more than one off its
 // share, and small triangles are not starved together.
 hair_result hair_scalp_sprouts(struct hair_draft* draft)
@@ -37,7 +63,7 @@ hair_result hair_scalp_sprouts(struct hair_draft* draft)
         before                 = after;
     }
     hair_number_sprouts(draft);
-    return HAIR_OK;
+    return scatter_sprouts(draft);
 }
 
 struct scalp {
@@ -192,16 +218,6 @@ static struct hair_follower grow(const struct hair_groom* groom, const struct tr
     return follower;
 }
 
-// The i-th point of a triangle as barycentric coordinates: the R2 sequence (Roberts 2018, "The unreasonable
-// effectiveness of quasirandom sequences"), with what falls beyond the diagonal of the square folded back.
-static void scatter(uint32_t i, double start_u, double start_v, float out[3])
-{
-    double u = start_u + 0.7548776662466927 * i, v = start_v + 0.5698402909980532 * i;
-    u -= floor(u), v -= floor(v);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    out[0] = (float)(1 - u - v), out[1] = (float)u, out[2] = (float)v;
-}
-
 static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
 {
     struct hair_draft* draft   = scalp->draft;
@@ -210,14 +226,11 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
                .guide = {scalp->guide_at[vertex[0]], scalp->guide_at[vertex[1]], scalp->guide_at[vertex[2]]}};
     bool rooted = corners.guide[0] != NONE && corners.guide[1] != NONE && corners.guide[2] != NONE;
 
-    uint32_t starts  = hair_sprout_random(draft, triangle);
-    double   start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
     for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
-        uint32_t  sprout = draft->plot_first[triangle] + i;
-        uint32_t  random = hair_sprout_random(draft, sprout);
-        float     weight[3];
-        hair_vec3 root = {0};
-        scatter(i, start_u, start_v, weight);
+        uint32_t     sprout = draft->plot_first[triangle] + i;
+        uint32_t     random = hair_sprout_random(draft, sprout);
+        const float* weight = draft->spots[sprout].weight;
+        hair_vec3    root   = {0};
         for (uint32_t k = 0; k < 3; ++k)
             root = hair_add(root, hair_scale(hair_scalp_corner(draft, triangle, k), weight[k]));
 

@@ -310,6 +310,41 @@ static void a_patch_of_no_density_draws_nothing(void** state)
     hair_groom_destroy(groom);
 }
 
+// Two sets: of one the first patch grows, of the other the second, twice as thick.
+static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
+{
+    struct hair_test*         test   = *state;
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    wanted.followers                 = 64;
+    wanted.each                      = 32;
+    hair_groom*    groom             = hair_test_groom(&test->host.host, wanted);
+    hair_look      look              = look_of(4);
+    hair_desc      desc              = hair_desc_default();
+    hair_instance* hair              = NULL;
+    groom->map_sets                  = 2;
+    groom->patches[0].map_density    = (hair_vec4){1, 0, 0, 0};
+    groom->patches[1].map_density    = (hair_vec4){0, 1, 1, 1};
+    groom->patches[1].map_thickness  = (hair_vec4){1, 2, 2, 2};
+    desc.look                        = &look;
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
+    for (int i = 0; i <= 6; ++i) {
+        float set = 0.25f * (float)i, blend = fminf(set, 1); // Beyond the last set there is no other.
+        look.map_set = set;
+        hair_test_ok(test, hair_set_look(hair, &look));
+        struct drawn drawn = draw(test, hair, (size_t)64 * 4, 0);
+        size_t       first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
+        assert_int_equal(drawn.segments, 4 * (first + second));
+        for (size_t k = 0; k < drawn.segments; ++k) {
+            double radius = (double)drawn.vertices[2 * k].radius / 0.001;
+            double own    = 1 + (double)(k / 4 < first ? k / 4 : 32 + k / 4 - first) / 65536;
+            hair_test_near("radius", k, radius, (k / 4 < first ? 1 : 1 + (double)blend) * own, 1e-5);
+        }
+        free(drawn.vertices);
+    }
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -322,6 +357,7 @@ int main(void)
         HAIR_TEST(a_density_of_0_draws_nothing),
         HAIR_TEST(density_is_the_share_of_followers_drawn),
         HAIR_TEST(a_patch_of_no_density_draws_nothing),
+        HAIR_TEST(sets_of_maps_are_blended_in_density_and_thickness),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

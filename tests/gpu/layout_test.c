@@ -122,6 +122,8 @@ static const struct member members[] = {
     UINT(hair_patch, count),
     FLOAT(hair_patch, density),
     UINT(hair_patch, unused),
+    VEC4(hair_patch, map_density),
+    VEC4(hair_patch, map_thickness),
     VEC4(hair_field_params, rotation),
     VEC4(hair_field_params, lower),
     VEC4(hair_field_params, inverse),
@@ -163,6 +165,7 @@ static const struct member members[] = {
     UINT(hair_draw_params, collision),
     UINT(hair_draw_params, turn),
     FLOAT(hair_draw_params, margin),
+    VEC4(hair_draw_params, map_weights),
 };
 
 static const struct {

@@ -98,10 +98,11 @@ static void place_follower(struct hair_follower* follower, uint32_t number, uint
 
 static void place_patch(struct hair_patch* patch, uint32_t first, const struct hair_test_handmade* wanted)
 {
-    uint32_t left  = wanted->followers - first;
-    patch->first   = first;
-    patch->count   = left < wanted->each ? left : wanted->each;
-    patch->density = wanted->density;
+    uint32_t left      = wanted->followers - first;
+    patch->first       = first;
+    patch->count       = left < wanted->each ? left : wanted->each;
+    patch->density     = wanted->density;
+    patch->map_density = patch->map_thickness = (hair_vec4){1, 1, 1, 1};
 }
 
 static uint32_t count_vertices(const struct hair_test_handmade* wanted, uint32_t guide)

@@ -1,0 +1,95 @@
+// sorts.c - which followers may share a patch where there are maps, and in which order it is cut short.
+//
+// The k-th follower of a patch of n, in an order by chance, is to be drawn as soon as the share L that is asked for
+// makes L d n > k, with d the density at its own root. That is so from L = k / (n d) on: so followers are put in the
+// order of k / d, and cutting off the end leaves each place the density that it should have, at every L. As d is the
+// mean of all sets, blending sets changes no strand's place in that order.
+#include "lib/groom/draft.h"
+
+#include <float.h>
+
+// Ranges that patches may span.
+#define DENSITIES 0.25f
+#define SHARES 0.125f
+
+#define VALUES (2 * HAIR_MAP_SETS)
+
+static float value_of(const struct hair_draft* draft, uint32_t sprout, uint32_t which)
+{
+    const hair_vec4* v = which < HAIR_MAP_SETS ? &draft->map_density[sprout] : &draft->map_share[sprout];
+    switch (which % HAIR_MAP_SETS) {
+    case 0: return v->x;
+    case 1: return v->y;
+    case 2: return v->z;
+    }
+    return v->w;
+}
+
+// Where nothing grows there are patches of nothing else.
+static float find_cut(const struct hair_draft* draft, const uint32_t* queue, uint32_t count, uint32_t which,
+                      float* excess)
+{
+    float least = FLT_MAX, most = 0, limit = which < HAIR_MAP_SETS ? DENSITIES : SHARES;
+    for (uint32_t i = 0; i < count; ++i) {
+        float value = value_of(draft, queue[i], which);
+        least       = fminf(least, value);
+        most        = fmaxf(most, value);
+    }
+    *excess = (most - least) / limit;
+    if (which < HAIR_MAP_SETS && least == 0 && most > 0) {
+        *excess = FLT_MAX;
+        return 0;
+    }
+    return 0.5f * (least + most);
+}
+
+uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
+{
+    if (!draft->map_density) return 0;
+    float    most = 1, cut = 0;
+    uint32_t by = VALUES, front = 0;
+    for (uint32_t which = 0; which < VALUES; ++which) {
+        float excess, at = find_cut(draft, queue, count, which, &excess);
+        if (excess > most) most = excess, cut = at, by = which;
+    }
+    if (by == VALUES) return 0;
+    for (uint32_t i = 0; i < count; ++i)
+        if (value_of(draft, queue[i], by) <= cut) {
+            uint32_t was   = queue[front];
+            queue[front++] = queue[i];
+            queue[i]       = was;
+        }
+    return front;
+}
+
+static void sort(uint32_t* queue, float* from, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; ++i) {
+        uint32_t own = queue[i], k = i;
+        float    at = from[i];
+        for (; k > 0 && from[k - 1] > at; --k) queue[k] = queue[k - 1], from[k] = from[k - 1];
+        queue[k] = own;
+        from[k]  = at;
+    }
+}
+
+void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair_patch* patch)
+{
+    patch->map_density = patch->map_thickness = (hair_vec4){1, 1, 1, 1};
+    if (!draft->map_density) return;
+    float  from[HAIR_MAX_ISOLINES];
+    double sum[VALUES] = {0};
+    for (uint32_t i = 0; i < patch->count; ++i) {
+        double density = 0;
+        for (uint32_t k = 0; k < VALUES; ++k) {
+            double value = (double)value_of(draft, queue[i], k);
+            sum[k] += value;
+            if (k < draft->groom->map_sets) density += value;
+        }
+        from[i] = density > 0 ? (float)((i + 0.5) / density) : FLT_MAX;
+    }
+    sort(queue, from, patch->count);
+    for (uint32_t k = 0; k < VALUES; ++k) sum[k] /= patch->count;
+    patch->map_density   = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
+    patch->map_thickness = (hair_vec4){(float)sum[4], (float)sum[5], (float)sum[6], (float)sum[7]};
+}

@@ -1,0 +1,22 @@
+// surface.h - the scalp as triangles that are searched for the one nearest to a root.
+#ifndef HAIR_GROOM_SURFACE_H
+#define HAIR_GROOM_SURFACE_H
+
+#include "lib/collide/triangles.h"
+#include "lib/groom/draft.h"
+
+struct hair_surface {
+    const struct hair_draft* draft;
+    float*                   corners; // xyz, three per triangle, so that a corner tells its triangle
+    uint32_t*                indices;
+    struct hair_triangles    triangles; // a count of 0: all are degenerate
+};
+
+// To be freed also where it has failed.
+hair_result hair_surface_build(const struct hair_draft* draft, struct hair_surface* out);
+void        hair_surface_free(struct hair_surface* surface);
+
+// There is a triangle.
+struct hair_spot hair_surface_spot(struct hair_surface* surface, hair_vec3 root);
+
+#endif
