@@ -140,6 +140,7 @@ void bench_studio_free(struct bench_studio* studio)
     hair_destroy(studio->hair);
     hair_groom_destroy(studio->groom);
     if (studio->shot.samples) hair_targets_delete(&studio->targets);
+    glUseProgram(0); // A program that is deleted while current is gone as soon as another is.
     for (int i = 0; i < 3; ++i) glDeleteProgram(studio->programs[i]);
     glDeleteVertexArrays(2, studio->arrays);
     glDeleteBuffers(2, studio->buffers);
@@ -147,10 +148,15 @@ void bench_studio_free(struct bench_studio* studio)
     memset(studio, 0, sizeof *studio);
 }
 
-bool bench_studio_step(struct bench_studio* studio)
+bool bench_studio_step(struct bench_studio* studio, double* ms)
 {
     ++studio->frame;
-    return place(studio) && !hair_step(studio->hair, 1.0f / STUDIO_FPS);
+    if (!place(studio)) return false;
+    if (ms) bench_timer_start(&studio->timer);
+    hair_result result = hair_step(studio->hair, 1.0f / STUDIO_FPS);
+    if (ms) bench_timer_stop(&studio->timer);
+    if (ms) *ms = bench_timer_take(&studio->timer);
+    return !result && !bench_was_interrupted();
 }
 
 // Drawing ---------------------------------------------------------------------------------------------------
@@ -186,7 +192,7 @@ static void draw_head(const struct bench_studio* studio, unsigned program,
                       const struct hair_matrices* matrices)
 {
     bool whole = studio->scene.subject == HAIR_SUBJECT_FUR;
-    if (!studio->indices) return;
+    if (!studio->indices || studio->bare) return;
     glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, studio->transform);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
@@ -209,9 +215,9 @@ static bool draw_hair(struct bench_studio* studio, hair_pass pass, const struct 
     hair_light_clip(light, view.shadow_matrix);
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
-    bench_timer_start(&studio->timer);
+    if (studio->timed) bench_timer_start(&studio->timer);
     hair_result result = hair_draw(studio->hair, &view);
-    bench_timer_stop(&studio->timer);
+    if (studio->timed) bench_timer_stop(&studio->timer);
     return !result;
 }
 
@@ -232,7 +238,7 @@ static void average(struct bench_studio* studio)
 {
     const unsigned* framebuffer = studio->targets.framebuffer;
     GLsizei         size = (GLsizei)studio->size, all = size * (GLsizei)studio->shot.supersample;
-    bench_timer_start(&studio->timer);
+    if (studio->timed) bench_timer_start(&studio->timer);
     glBlitNamedFramebuffer(framebuffer[HAIR_TARGET_DRAWN], framebuffer[HAIR_TARGET_RESOLVED], 0, 0, all, all,
                            0, 0, all, all, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer[HAIR_TARGET_ENCODED]);
@@ -243,7 +249,7 @@ static void average(struct bench_studio* studio)
     glBindTextureUnit(0, studio->targets.resolved);
     glDisable(GL_DEPTH_TEST);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    bench_timer_stop(&studio->timer);
+    if (studio->timed) bench_timer_stop(&studio->timer);
 }
 
 static void aim(const struct bench_studio* studio, struct hair_matrices* out)
@@ -264,6 +270,7 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     struct hair_matrices light, camera;
     unsigned             framebuffer = studio->targets.framebuffer[HAIR_TARGET_DRAWN];
     GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
+    studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
     aim(studio, &camera);
     if (!draw_shadow(studio, &light)) return false;
@@ -274,8 +281,7 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     draw_head(studio, studio->programs[MESH], &camera);
     if (!draw_hair(studio, HAIR_PASS_COLOR, &camera, &light)) return false;
     average(studio);
-    double taken = bench_timer_take(&studio->timer);
-    if (ms) *ms = taken;
+    if (ms) *ms = bench_timer_take(&studio->timer);
     return !bench_was_interrupted();
 }
 

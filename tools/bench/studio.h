@@ -29,7 +29,9 @@ struct bench_studio {
     uint32_t            size; // of a picture, pixels to each side
     float               transform[16], reach;
     uint32_t            frame;
-    struct bench_shot   shot; // the last that was set
+    bool                bare;  // the head is not drawn
+    bool                timed; // what is under way is
+    struct bench_shot   shot;  // the last that was set
     struct bench_timer  timer;
     struct hair_targets targets;
     unsigned            programs[3], arrays[2], buffers[2];
@@ -50,8 +52,8 @@ void bench_studio_free(struct bench_studio* studio);
 
 struct bench_shot bench_studio_shot(const struct bench_studio* studio); // as the scene has it: one sample
 
-// To the next frame. False: the library refused.
-bool bench_studio_step(struct bench_studio* studio);
+// To the next frame. `ms`, which may be NULL: of the simulation. False: the library refused.
+bool bench_studio_step(struct bench_studio* studio, double* ms);
 
 // What is drawn next. False: refused, or OpenGL has no memory for it.
 bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot);

@@ -1,0 +1,148 @@
+// table.c - the suite `table`: the eight cells of the performance table of Tariq 2010, beside its figures, which are those
+// of a GTX 480 in 2010. Frames are timed as a viewer would see them: from the first call to glFinish, many at a time.
+#include "tools/bench/scene.h"
+#include "tools/bench/studio.h"
+#include "tools/common/stats.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+#define SIZE 720
+#define SIZE_OF_SOFTWARE 256
+#define AWAY 8  // times the near distance
+#define WIND 2  // m/s
+#define RATE 60 // frames per second of the hair's own time
+
+static const char* const columns[] = {
+    "case", "method", "solver", "path",   "strands", "guides",    "size",    "samples",       "frames",
+    "runs", "ms",     "ms_min", "ms_max", "fps",     "paper_fps", "to_near", "paper_to_near", NULL};
+
+// A column of the table, and one more for how hair is simulated and drawn when nobody asks for anything else.
+static const struct way {
+    const char* name;
+    hair_solver solver;
+    hair_path   path;
+    double      paper[4]; // fps, by cell; 0: it has none
+} ways[] = {
+    {"tessellation, compute", HAIR_SOLVER_REDBLACK, HAIR_PATH_TESSELLATION, {57, 77, 720, 930}},
+    {"default", HAIR_SOLVER_DIRECT, HAIR_PATH_TESSELLATION, {0, 0, 0, 0}},
+};
+
+// A row of the table.
+static const struct cell {
+    const char* name;
+    bool        simulates, draws, is_far;
+} cells[] = {
+    {"simulated with wind, drawn", true, true, false},
+    {"drawn", false, true, false},
+    {"simulated with wind", true, false, false},
+    {"simulated with wind, drawn, far away", true, true, true},
+};
+
+enum { CELLS = sizeof cells / sizeof *cells };
+
+struct column {
+    const struct way*   way;
+    struct bench_studio studio;
+    bool                alive, refused;
+    double              near_fps; // 0: not measured
+};
+
+static bool need(struct bench* bench, struct column* column)
+{
+    if (column->alive || column->refused) return column->alive;
+    uint32_t                 size = bench->software ? SIZE_OF_SOFTWARE : SIZE;
+    struct bench_studio_desc desc = {.scene     = "demo",
+                                     .size      = bench->options.size ? bench->options.size : size,
+                                     .followers = bench->options.strands,
+                                     .solver    = column->way->solver,
+                                     .substep = column->way->solver == HAIR_SOLVER_REDBLACK ? 1.0 / RATE : 0};
+    column->alive                 = bench_studio_make(bench, &desc, &column->studio);
+    column->refused               = !column->alive;
+    if (!column->alive) return false;
+    column->studio.bare                   = true;
+    hair_physics physics                  = column->studio.scene.settings.physics;
+    physics.wind[0]                       = WIND;
+    physics.iterations                    = 20;
+    column->studio.scene.settings.physics = physics;
+    return !hair_set_physics(column->studio.hair, &physics);
+}
+
+static bool run_frames(struct bench_studio* studio, const struct cell* cell, uint32_t frames, double* ms)
+{
+    glFinish();
+    double start = hair_now();
+    for (uint32_t i = 0; i < frames; ++i) {
+        if (cell->simulates && !bench_studio_step(studio, NULL)) return false;
+        if (cell->draws && !bench_studio_draw(studio, NULL)) return false;
+    }
+    glFinish();
+    *ms = (hair_now() - start) / frames;
+    return true;
+}
+
+static void add_row(struct column* column, const struct cell* cell, uint32_t frames,
+                    const struct bench_times* times)
+{
+    static const char* const   paths[] = {"tessellation"};
+    const struct bench_studio* studio  = &column->studio;
+    const double*              paper   = column->way->paper;
+    size_t                     number  = (size_t)(cell - cells);
+    double                     fps     = 1000 / times->ms;
+    json_t*                    row     = bench_rows_add(&studio->bench->rows);
+    if (number == 0) column->near_fps = fps;
+    bench_set_text(row, "case", cell->name);
+    bench_set_text(row, "method", column->way->name);
+    bench_set_text(row, "solver", bench_solver_name(column->way->solver));
+    bench_set_text(row, "path", paths[column->way->path]);
+    bench_set_count(row, "strands", studio->info.follower_count);
+    bench_set_count(row, "guides", studio->info.guide_count);
+    bench_set_count(row, "size", studio->size);
+    bench_set_count(row, "samples", studio->shot.samples);
+    bench_set_count(row, "frames", frames);
+    bench_set_count(row, "runs", times->runs);
+    bench_set_number(row, "ms", times->ms);
+    bench_set_number(row, "ms_min", times->ms_min);
+    bench_set_number(row, "ms_max", times->ms_max);
+    bench_set_number(row, "fps", fps);
+    if (paper[0] > 0) bench_set_number(row, "paper_fps", paper[number]);
+    if (!cell->is_far) return;
+    if (column->near_fps > 0) bench_set_number(row, "to_near", fps / column->near_fps);
+    if (paper[0] > 0) bench_set_number(row, "paper_to_near", paper[number] / paper[0]);
+}
+
+static bool run_cell(struct bench* bench, struct column* column, const struct cell* cell)
+{
+    enum { MOST_RUNS = 9 };
+    double             ms[MOST_RUNS], passed = 0, enough = bench->options.quick ? 100 : 1500;
+    uint32_t           runs = 0, frames = bench->software ? (cell->draws ? 2 : 20) : 60;
+    struct bench_times times;
+    if (!need(bench, column)) return false;
+    struct bench_shot shot = bench_studio_shot(&column->studio);
+    shot.samples           = 4;
+    shot.view.path         = column->way->path;
+    shot.away              = cell->is_far ? AWAY : 1;
+    if (!bench_studio_set(&column->studio, &shot)) return false;
+    if (!run_frames(&column->studio, cell, 2, &ms[0])) return false; // They compile what they need.
+    for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
+         passed       = hair_now() - start)
+        if (!run_frames(&column->studio, cell, frames, &ms[runs++])) return false;
+    times = bench_times_of(ms, runs);
+    add_row(column, cell, frames, &times);
+    return true;
+}
+
+static void run_suite(struct bench* bench)
+{
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
+        struct column column = {.way = &ways[i]};
+        for (size_t k = 0; k < CELLS; ++k)
+            if (bench_begin(bench, cells[k].name, ways[i].name) && !run_cell(bench, &column, &cells[k]))
+                bench_refuse(bench, cells[k].name, ways[i].name);
+        if (column.alive) bench_studio_free(&column.studio);
+    }
+}
+
+const struct bench_suite bench_table = {"table", "the performance table of Tariq 2010, measured here",
+                                        columns, run_suite};
