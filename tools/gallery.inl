@@ -9,3 +9,9 @@ PICTURE("Pushed out, smoothly (collision=push, the default)",
         "tools/scenes/ball.json --show hair,head,solids --set collision=push")
 PICTURE("The guides, and a slice of the field: blue outside, red inside",
         "tools/scenes/ball.json --show guides,solids --set slice=x --set slice_at=0.72")
+
+ROW("Maps on the scalp: where hair grows, and how thick it is, in sets that are blended")
+PICTURE("The first set: all of it", "tools/scenes/maps.json")
+PICTURE("On the way to the second (map_set=0.6)", "tools/scenes/maps.json --set map_set=0.6")
+PICTURE("The second: a middle, a few on the sides, none between", "tools/scenes/maps.json --set map_set=1")
+PICTURE("The third: strands of a third and of twice the thickness", "tools/scenes/maps.json --set map_set=2")

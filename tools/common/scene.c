@@ -102,6 +102,12 @@ static bool read_solids(const place* json, const char* key, const json_t* value,
     return hair_scene_read_solids(json, key, value, scene->solids, HAIR_SCENE_SOLIDS, &scene->solid_count);
 }
 
+static bool read_maps(const place* json, const char* key, const json_t* value, void* out)
+{
+    struct hair_scene* scene = out;
+    return hair_scene_read_maps(json, key, value, &scene->maps);
+}
+
 // Motion, camera, settings ----------------------------------------------------------------------------------
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
@@ -161,6 +167,7 @@ static const entry whole[]      = {HAIR_OTHER("style", read_style),
                                    HAIR_OTHER("fur", read_fur),
                                    HAIR_BOOLEAN("head", AT(head)),
                                    HAIR_OTHER("solids", read_solids),
+                                   HAIR_OTHER("maps", read_maps),
                                    HAIR_OTHER("motion", read_motion),
                                    HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                                    HAIR_OTHER("camera", read_camera),

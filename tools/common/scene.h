@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "tools/common/motion.h"
+#include "tools/common/scene_maps.h"
 #include "tools/common/scene_solids.h"
 #include "tools/common/settings.h"
 
@@ -34,6 +35,7 @@ struct hair_scene {
     struct hair_motion      motion;
     uint32_t                solid_count;
     struct hair_scene_solid solids[HAIR_SCENE_SOLIDS];
+    struct hair_scene_maps  maps;
     float                   settle; // s of hanging still before frame 0
     float                   fps;
     uint32_t                frames;  // of the whole scene

@@ -115,6 +115,7 @@ static const struct row rows[] = {
      COUNT,
      {AT(look.collision)},
      {"push", "switch", "none"}},
+    {"map_set", "of the scene's maps, from 0; between two a blend", FLOAT, {AT(look.map_set)}, {0}},
     {"light_to.x", "from the hair towards the light", FLOAT, {AT(view.light_to[0])}, {0}},
     {"light_to.y", "", FLOAT, {AT(view.light_to[1])}, {0}},
     {"light_to.z", "", FLOAT, {AT(view.light_to[2])}, {0}},

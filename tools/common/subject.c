@@ -21,10 +21,20 @@ int hair_exit_for(hair_result result)
 
 static int build(const hair_host* host, const struct hair_scene* scene, hair_asset* asset, hair_groom** out)
 {
+    hair_map_set    sets[HAIR_SCENE_SETS];
+    float*          uvs  = NULL;
     hair_groom_desc desc = scene->settings.groom;
     desc.host            = host;
     hair_result result   = hair_asset_fill(asset, &desc);
+    if (!result && scene->maps.count && desc.scalp_positions) {
+        uvs = malloc(2 * (size_t)desc.scalp_vertex_count * sizeof *uvs);
+        if (uvs)
+            hair_scene_put_maps(&scene->maps, sets, uvs, &desc);
+        else
+            result = HAIR_ERROR_MEMORY;
+    }
     if (!result) result = hair_groom_create(&desc, out);
+    free(uvs);
     hair_asset_destroy(asset);
     return hair_exit_for(result);
 }

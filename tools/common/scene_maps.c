@@ -1,0 +1,81 @@
+// scene_maps.c - digits to images, and from above onto the scalp.
+#include "tools/common/scene_maps.h"
+
+#include <string.h>
+
+static bool read_rows(const struct hair_json* json, const char* key, const json_t* value, float one,
+                      struct hair_scene_map* map)
+{
+    static const char must[] = "rows of digits, all as long, at most 64 by 64";
+    size_t            rows   = json_array_size(value);
+    if (rows < 1 || rows > HAIR_SCENE_MAP) return hair_json_wrong(json, key, must);
+    for (size_t y = 0; y < rows; ++y) {
+        const char* row   = json_string_value(json_array_get(value, y));
+        size_t      width = row ? strlen(row) : 0;
+        if (width < 1 || width > HAIR_SCENE_MAP || (y && width != map->width) ||
+            strspn(row, "0123456789") != width)
+            return hair_json_wrong(json, key, must);
+        map->width = (uint32_t)width;
+        for (size_t x = 0; x < width; ++x) map->value[y * width + x] = (float)(row[x] - '0') / one;
+    }
+    map->height = (uint32_t)rows;
+    return true;
+}
+
+static bool read_density(const struct hair_json* json, const char* key, const json_t* value, void* out)
+{
+    return read_rows(json, key, value, 9, out);
+}
+
+static bool read_thickness(const struct hair_json* json, const char* key, const json_t* value, void* out)
+{
+    struct hair_scene_map* density = out; // Beside which it is.
+    return read_rows(json, key, value, 3, density + 1);
+}
+
+bool hair_scene_read_maps(const struct hair_json* json, const char* key, const json_t* value,
+                          struct hair_scene_maps* maps)
+{
+    static const struct hair_json_entry entries[] = {HAIR_OTHER("density", read_density),
+                                                     HAIR_OTHER("thickness", read_thickness), HAIR_END};
+    memset(maps, 0, sizeof *maps);
+    return hair_json_array(json, key, value, entries, maps->set, sizeof *maps->set, HAIR_SCENE_SETS,
+                           &maps->count);
+}
+
+// Seen from above; the face looks along +z.
+static void look_from_above(const hair_groom_desc* desc, float* uvs)
+{
+    float lower[3], upper[3];
+    for (uint32_t i = 0; i < desc->scalp_vertex_count; ++i)
+        for (uint32_t k = 0; k < 3; ++k) {
+            float at = desc->scalp_positions[3 * i + k];
+            lower[k] = i && lower[k] < at ? lower[k] : at;
+            upper[k] = i && upper[k] > at ? upper[k] : at;
+        }
+    for (uint32_t i = 0; i < desc->scalp_vertex_count; ++i)
+        for (uint32_t k = 0; k < 2; ++k) {
+            uint32_t axis  = 2 * k;
+            float    width = upper[axis] - lower[axis];
+            uvs[2 * i + k] = width > 0 ? (desc->scalp_positions[3 * i + axis] - lower[axis]) / width : 0;
+        }
+}
+
+static hair_map map_of(const struct hair_scene_map* map)
+{
+    if (!map->height) return (hair_map){HAIR_MAP_NONE, NULL, 0, 0};
+    return (hair_map){HAIR_MAP_IMAGE, map->value, map->width, map->height};
+}
+
+void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[HAIR_SCENE_SETS], float* uvs,
+                         hair_groom_desc* desc)
+{
+    look_from_above(desc, uvs);
+    desc->scalp_uvs = uvs;
+    for (uint32_t i = 0; i < maps->count; ++i) {
+        sets[i]           = hair_map_set_default();
+        sets[i].density   = map_of(&maps->set[i].density);
+        sets[i].thickness = map_of(&maps->set[i].thickness);
+        desc->map_sets[i] = &sets[i];
+    }
+}
