@@ -111,6 +111,10 @@ $(B)/tools/%.c.o: tools/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(C) $(TOOL_CFLAGS) -c $< -o $@
+$(B)/tools/%.cpp.o: tools/%.cpp
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CPP) $(BULLET_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
 $(B)/tests/%.cpp.o: tests/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -146,6 +150,11 @@ COMMON := $(call objects,tools/common/*.c)
 $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+# What of Bullet's is in a scene.
+WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/none.c.o,$(B)/tools/bullet/world.cpp.o $(B)/libhair_bullet.a)
+$(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
 $(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include <hair/hair_egl.h>
 
+#include "tools/bullet/world.h"
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
 #include "tools/common/render.h"
@@ -13,6 +14,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -28,6 +30,9 @@ struct capture {
     hair_egl*                   egl;
     hair_context*               context;
     hair_instance*              hair;
+    struct hair_world*          world; // NULL: nothing of Bullet's is in the scene
+    hair_solid*                 solids;
+    uint32_t                    solid_room;
     struct hair_render*         render;
     struct hair_sink            sink;
     struct hair_stats           stats;
@@ -119,11 +124,33 @@ static int make_render(struct capture* capture)
     return code ? code : make_mesh(capture);
 }
 
+static bool reserve_solids(struct capture* capture, uint32_t count)
+{
+    if (count <= capture->solid_room) return true;
+    hair_solid* more = realloc(capture->solids, count * sizeof *more);
+    if (!more) return false;
+    capture->solids     = more;
+    capture->solid_room = count;
+    return true;
+}
+
+// The scene's own, and of Bullet's objects those that the hair can reach.
 static hair_result set_solids(struct capture* capture, float time, const float transform[16])
 {
-    hair_solid solids[HAIR_RIG_SOLIDS];
-    uint32_t   count = hair_rig_solids(&capture->options.scene, time, transform, solids);
-    return hair_set_solids(capture->hair, solids, count, sizeof *solids);
+    const hair_solid* others      = NULL;
+    uint32_t          other_count = 0;
+    float             lower[3], upper[3];
+    hair_result       result = hair_get_reach(capture->hair, lower, upper);
+    if (!result)
+        result = hair_world_solids(capture->world, time, transform, lower, upper, &others, &other_count);
+    if (result) return result;
+    if (!reserve_solids(capture, HAIR_RIG_SOLIDS + other_count)) {
+        hair_complain(TOOL, "out of memory for %u solids", other_count);
+        return HAIR_ERROR_MEMORY;
+    }
+    uint32_t count = hair_rig_solids(&capture->options.scene, time, transform, capture->solids);
+    if (other_count) memcpy(capture->solids + count, others, other_count * sizeof *others);
+    return hair_set_solids(capture->hair, capture->solids, count + other_count, sizeof *capture->solids);
 }
 
 static int make_hair(struct capture* capture)
@@ -252,6 +279,9 @@ static int make(struct capture* capture)
     int code = make_groom(capture);
     if (!code) code = make_opengl(capture);
     if (!code) code = make_render(capture);
+    if (!code)
+        code = hair_world_create(TOOL, capture->options.name, &capture->options.scene, &capture->host,
+                                 &capture->world);
     if (!code) code = make_hair(capture);
     if (!code) code = make_hashes(capture);
     return code;
@@ -305,6 +335,7 @@ static int run(struct capture* capture)
 static void destroy(struct capture* capture)
 {
     hair_destroy(capture->hair);
+    hair_world_destroy(capture->world);
     if (capture->render) hair_render_destroy(capture->render);
     hair_context_destroy(capture->context);
     hair_egl_destroy(capture->egl);
@@ -313,6 +344,8 @@ static void destroy(struct capture* capture)
     XXH3_freeState(capture->strands);
     XXH3_freeState(capture->pixels);
     free(capture->vertices);
+    free(capture->solids);
+    hair_scene_free(&capture->options.scene);
     free(capture);
 }
 

@@ -15,3 +15,7 @@ PICTURE("The first set: all of it", "tools/scenes/maps.json")
 PICTURE("On the way to the second (map_set=0.6)", "tools/scenes/maps.json --set map_set=0.6")
 PICTURE("The second: a middle, a few on the sides, none between", "tools/scenes/maps.json --set map_set=1")
 PICTURE("The third: strands of a third and of twice the thickness", "tools/scenes/maps.json --set map_set=2")
+
+ROW("Solids from a Bullet world")
+PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
+        "tools/scenes/bullet.json --show hair,head,solids")

@@ -111,3 +111,14 @@ bool hair_json_array(const struct hair_json* json, const char* name, const json_
     *count = (uint32_t)length;
     return true;
 }
+
+bool hair_json_path(const struct hair_json* json, const char* key, const json_t* value, char* path,
+                    size_t size)
+{
+    const char* name = json_string_value(value);
+    if (!name || !*name) return hair_json_wrong(json, key, "the name of a file");
+    const char* slash  = strrchr(json->path, '/');
+    int         folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
+    int         length = snprintf(path, size, "%.*s%s", folder, json->path, name);
+    return (size_t)length < size || hair_json_wrong(json, key, "a shorter name");
+}

@@ -68,6 +68,10 @@ bool hair_json_array(const struct hair_json* json, const char* name, const json_
                      const struct hair_json_entry* entries, void* out, size_t size, uint32_t most,
                      uint32_t* count);
 
+// The path of a file that is named from the folder of the JSON's.
+bool hair_json_path(const struct hair_json* json, const char* key, const json_t* value, char* path,
+                    size_t size);
+
 // "PATH: PLACE.KEY must be MUST". Returns false.
 bool hair_json_wrong(const struct hair_json* json, const char* key, const char* must);
 

@@ -34,6 +34,11 @@ void hair_scene_default(struct hair_scene* scene)
     scene->settings                      = hair_settings_default();
 }
 
+void hair_scene_free(struct hair_scene* scene)
+{
+    hair_scene_free_bullet(&scene->bullet);
+}
+
 void hair_scene_set_groom(const char* path, struct hair_scene* scene)
 {
     scene->subject = HAIR_SUBJECT_FILE;
@@ -65,16 +70,10 @@ bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene*
 
 // Subject ---------------------------------------------------------------------------------------------------
 
-// Relative names start at the scene's folder.
 static bool read_groom(const place* json, const char* key, const json_t* value, void* out)
 {
-    const char* name = json_string_value(value);
-    if (!name || !*name) return hair_json_wrong(json, key, "the name of a file");
-    const char* slash  = strrchr(json->path, '/');
-    int         folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
-    char        path[HAIR_SCENE_PATH];
-    int         length = snprintf(path, sizeof path, "%.*s%s", folder, json->path, name);
-    if (length >= HAIR_SCENE_PATH) return hair_json_wrong(json, key, "a shorter name");
+    char path[HAIR_SCENE_PATH];
+    if (!hair_json_path(json, key, value, path, sizeof path)) return false;
     hair_scene_set_groom(path, out);
     return true;
 }
@@ -106,6 +105,11 @@ static bool read_maps(const place* json, const char* key, const json_t* value, v
 {
     struct hair_scene* scene = out;
     return hair_scene_read_maps(json, key, value, &scene->maps);
+}
+
+static bool read_bullet(const place* json, const char* key, const json_t* value, void* out)
+{
+    return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
 }
 
 // Motion, camera, settings ----------------------------------------------------------------------------------
@@ -167,6 +171,7 @@ static const entry whole[]      = {HAIR_OTHER("style", read_style),
                                    HAIR_OTHER("fur", read_fur),
                                    HAIR_BOOLEAN("head", AT(head)),
                                    HAIR_OTHER("solids", read_solids),
+                                   HAIR_OTHER("bullet", read_bullet),
                                    HAIR_OTHER("maps", read_maps),
                                    HAIR_OTHER("motion", read_motion),
                                    HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),

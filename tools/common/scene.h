@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "tools/common/motion.h"
+#include "tools/common/scene_bullet.h"
 #include "tools/common/scene_maps.h"
 #include "tools/common/scene_solids.h"
 #include "tools/common/settings.h"
@@ -35,6 +36,7 @@ struct hair_scene {
     struct hair_motion      motion;
     uint32_t                solid_count;
     struct hair_scene_solid solids[HAIR_SCENE_SOLIDS];
+    struct hair_bullet_list bullet;
     struct hair_scene_maps  maps;
     float                   settle; // s of hanging still before frame 0
     float                   fps;
@@ -47,6 +49,9 @@ struct hair_scene {
 
 // A scene with nothing said: the first style, seen from a distance that fits.
 void hair_scene_default(struct hair_scene* scene);
+
+// What a scene that was read holds, also where that failed. One of zeros holds nothing.
+void hair_scene_free(struct hair_scene* scene);
 
 // False: `tool` has complained. `path` names the scene in that, and is where relative groom paths start.
 bool hair_scene_parse(const char* tool, const char* path, const char* text, size_t size,
