@@ -18,7 +18,7 @@ vec4          fetch_tangent(int at) { return stored_tangent[at]; }
 vec4          fetch_turn(int at) { return stored_frame[at]; }
 hair_follower fetch_follower(uint number) { return stored_follower[number]; }
 #else
-layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
+#include "position_texture.glsl"
 layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
 layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
 layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;

@@ -104,7 +104,7 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
-#define HAIR_PATCH_TEXELS 3
+#define HAIR_PATCH_TEXELS 4
 #define HAIR_MAP_SETS 4 // of a groom, at most
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
@@ -275,12 +275,16 @@ HAIR_SIZE(hair_follower, 96)
 struct hair_patch {
     hair_uint first; // follower
     hair_uint count;
-    float     density; // local, [0, 1]: the share of them that grows here
-    hair_uint unused;
+    float     density;    // local, [0, 1]: the share of them that grows here
+    hair_uint guide;      // from whose root its reach is
     hair_vec4 map_density;   // share of that by each set of maps
     hair_vec4 map_thickness; // of the followers' radius, likewise
+    float     reach;         // m: no follower gets farther from there
+    float     length;        // m: of its longest follower
+    float     importance;    // as a multiple
+    hair_uint unused;
 };
-HAIR_SIZE(hair_patch, 48)
+HAIR_SIZE(hair_patch, 64)
 
 // Where the field is, and what it counts as near.
 struct hair_field_params {
@@ -359,7 +363,18 @@ struct hair_draw_params {
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
+    // Of the level of detail.
+    hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m
+    hair_vec4 skull;           // xyz: centre of a ball that hides what is behind it, w: radius, m; 0: there is none
+    float     strand_share;    // of the strands, at most
+    float     segment_share;   // of the segments, at most
+    float     width_power;     // strands are by this power of 1 / share as wide
+    float     pixels_per_unit; // where w of clip space is 1; 0: it does not matter how large strands appear
+    float     strand_pixels;   // wanted
+    float     segment_pixels;  // wanted
+    float     least_share;
+    float     hidden_share; // as a multiple, of strands behind the skull
 };
-HAIR_SIZE(hair_draw_params, 3 * 64 + 8 * 16 + 48)
+HAIR_SIZE(hair_draw_params, 4 * 64 + 9 * 16 + 80)
 
 #endif

@@ -21,6 +21,9 @@ vec3 shade(hair_follower follower, hair_point point, float t)
     return hair_shade(f);
 }
 
+// The k-th vertex of a strand of so many segments, of which there may be a share: t.
+float place_of(uint k, float segments) { return min(float(k) / segments, 1.0); }
+
 // `width`: a share of its own.
 strand_vertex strand_at(uint number, float t, float width)
 {

@@ -17,7 +17,7 @@ void main()
     uint segment = lines.z + uint(gl_TessCoord.x * float(lines.w) + 0.5);
 
     float         fading = line + 1u == lines.y ? whole.z : 1.0;
-    strand_vertex v      = strand_at(lines.x + line, float(segment) / whole.x, whole.y * fading);
+    strand_vertex v      = strand_at(lines.x + line, place_of(segment, whole.x), whole.y * fading);
     strand_position = v.position;
     strand_tangent  = v.tangent;
     strand_color    = v.color;

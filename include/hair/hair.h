@@ -458,6 +458,25 @@ typedef enum hair_primitive {
 /// Blue is outside, red inside, white the surface; a line for every voxel from it.
 typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
 
+/// Level of detail: how much of the hair is drawn. Of the strands that are left out those that are drawn make up the
+/// width, so that they cover as much; lines, which have no width, cannot. All changes continuously.
+typedef struct hair_lod {
+    hair_made made;
+    float     strands;  ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.
+    float     segments; ///< Share of hair_look.segments that they have, at most. [0, 1]. Default 1.
+    float     width;    ///< Strands are 1 / share to this power as wide. [0, 2]. Default 0.97.
+    uint32_t  dynamic;  ///< 1: by patch, as follows. 0: alike everywhere, as above. [0, 1]. Default 1.
+    /// Strands that would be thinner on the screen than this are drawn so wide, and as many fewer. Pixels.
+    float strand_pixels;  ///< [0.01, 100]. Default 0.25.
+    float segment_pixels; ///< Length of a segment on the screen, likewise. [0.1, 1000]. Default 4.
+    float least;      ///< Share of the strands of a patch that is left, at least. [0.001, 1]. Default 0.05.
+    float importance; ///< Hair is taken for as many times as large as it appears. [0, 1000]. Default 1.
+    /// The same for hair that a head hides whose place is told from its roots. Below 1 what the head is certain to hide
+    /// is not drawn: then the head must be. What is not in view never is.
+    float hidden; ///< [0, 1]. Default 1.
+} hair_lod;
+HAIR_DESC(hair_lod)
+
 typedef struct hair_view {
     hair_made      made;
     hair_pass      pass;           ///< Default HAIR_PASS_COLOR.
@@ -472,6 +491,7 @@ typedef struct hair_view {
     float      shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
     hair_slice slice;             ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
     float      slice_at;          ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
+    const hair_lod* lod;          ///< NULL: all is drawn.
 } hair_view;
 HAIR_DESC(hair_view)
 

@@ -70,7 +70,12 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_view     own;
+    hair_lod      lod;
     hair_result   result = HAIR_TAKE(&context->host, hair_view, view, &own);
+    if (!result && own.lod) {
+        result  = HAIR_TAKE(&context->host, hair_lod, own.lod, &lod);
+        own.lod = &lod;
+    }
     if (!result) result = check_view(hair, &own);
     if (!result) result = hair_check_current(context);
     if (!result) result = check_shadow(hair, &own);
@@ -82,6 +87,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     } else {
         hair_smooth_need(&hair->smooth, &hair->sim);
         if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
+        hair->draw.bounded = hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods;
         if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
     }
     hair_gl_leave(&context->gl);

@@ -11,6 +11,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->followers       = groom->info.follower_count;
     draw->patches         = groom->info.patch_count;
     draw->map_sets        = groom->map_sets;
+    draw->skull           = groom->skull;
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,

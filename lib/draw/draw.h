@@ -12,6 +12,8 @@ struct hair_draw {
     uint32_t         followers, patches, smooth_vertices, guides;
     uint32_t         most_isolines; // of a patch
     uint32_t         map_sets;
+    hair_vec4        skull;   // of the groom
+    int              bounded; // roots are held: no strand leaves its patch's reach
     struct hair_hits hits;
 };
 

@@ -97,4 +97,5 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->followers       = draw->followers;
     out->collision       = look->collision;
     out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
+    hair_draw_write_detail(draw, head, view, out);
 }

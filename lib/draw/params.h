@@ -8,4 +8,8 @@
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
 
+// detail.c: of them what is about the level of detail. Those about the view are there.
+void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                            struct hair_draw_params* out);
+
 #endif

@@ -69,9 +69,12 @@ static hair_result build(struct hair_draft* draft)
     if (!result) result = hair_draft_maps(draft);
     if (!result) result = hair_draft_patches(draft);
     if (!result) result = make_followers(draft);
-    if (!result) hair_thicken(draft);
-    if (!result) describe(draft);
-    return result;
+    if (result) return result;
+    hair_thicken(draft);
+    hair_measure_patches(draft->groom);
+    draft->groom->skull = hair_find_skull(draft->groom);
+    describe(draft);
+    return HAIR_OK;
 }
 
 static void free_draft(struct hair_draft* draft)

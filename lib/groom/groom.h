@@ -12,6 +12,7 @@ struct hair_groom {
     struct hair_rest*     rest;          // info.guide_vertex_count
     struct hair_follower* followers;     // info.follower_count
     struct hair_patch*    patches;       // info.patch_count
+    hair_vec4             skull;         // a ball under the hair: xyz: m; w: radius, m, 0 where there is none
     uint32_t              most_vertices; // of a guide
     uint32_t              map_sets;
 };
@@ -20,5 +21,9 @@ struct hair_groom {
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              hair_groom** out);
 void        hair_groom_free(hair_groom* groom);
+
+// extent.c, once there are followers: how far each patch gets; and the ball under the hair.
+void      hair_measure_patches(struct hair_groom* groom);
+hair_vec4 hair_find_skull(const struct hair_groom* groom);
 
 #endif

@@ -124,6 +124,12 @@ static hair_result use_hair_view(struct user* user, void* desc)
 {
     return hair_draw(user->hair, desc);
 }
+static hair_result use_hair_lod(struct user* user, void* desc)
+{
+    hair_view view = hair_view_default();
+    view.lod       = desc;
+    return hair_draw(user->hair, &view);
+}
 static hair_result use_hair_context_desc(struct user* user, void* given)
 {
     hair_context_desc* desc    = given;
@@ -181,6 +187,7 @@ SUBJECT(hair_physics)
 SUBJECT(hair_look)
 SUBJECT(hair_desc)
 SUBJECT(hair_view)
+SUBJECT(hair_lod)
 SUBJECT(hair_context_desc)
 SUBJECT(hair_groom_desc)
 SUBJECT(hair_import)
@@ -232,9 +239,9 @@ static void check_field(struct user* user, const struct subject* subject, const 
 static void check_subjects(void** state, void (*check)(struct user*, const struct subject*))
 {
     struct user    user       = {.test = *state};
-    struct subject subjects[] = {SUBJECT(hair_physics), SUBJECT(hair_look),         SUBJECT(hair_desc),
-                                 SUBJECT(hair_view),    SUBJECT(hair_context_desc), SUBJECT(hair_groom_desc),
-                                 SUBJECT(hair_import),  SUBJECT(hair_style_desc)};
+    struct subject subjects[] = {SUBJECT(hair_physics),    SUBJECT(hair_look),   SUBJECT(hair_desc),
+                                 SUBJECT(hair_view),       SUBJECT(hair_lod),    SUBJECT(hair_context_desc),
+                                 SUBJECT(hair_groom_desc), SUBJECT(hair_import), SUBJECT(hair_style_desc)};
     user.hair                 = make(user.test, &user.groom);
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) check(&user, &subjects[i]);
     drop(user.hair, user.groom);

@@ -139,6 +139,8 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.guide_vertex_count = vertices;
     groom->info.follower_count     = wanted.followers;
     groom->info.patch_count        = patches;
+    hair_measure_patches(groom);
+    groom->skull = hair_find_skull(groom);
     return groom;
 }
 

@@ -190,8 +190,9 @@ static hair_result draw_hair(const struct frame* frame, const struct hair_matric
 {
     hair_view view      = frame->scene->settings.view;
     view.pass           = pass;
+    view.lod            = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
     view.shadow_texture = shadow;
-    if (pass == HAIR_PASS_DEPTH)
+    if (pass == HAIR_PASS_DEPTH && !view.lod)
         view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
     hair_light_clip(&frame->light, view.shadow_matrix);
     memcpy(view.view, matrices->view, sizeof view.view);

@@ -89,6 +89,16 @@ static const struct row rows[] = {
 
     {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
+    {"lod", "level of detail", COUNT, {AT(has_lod)}, {"off", "on"}},
+    {"lod.strands", "share of the strands drawn, at most", FLOAT, {AT(lod.strands)}, {0}},
+    {"lod.segments", "share of their segments, at most", FLOAT, {AT(lod.segments)}, {0}},
+    {"lod.width", "power of 1 / share that strands are wider by", FLOAT, {AT(lod.width)}, {0}},
+    {"lod.dynamic", "by how large each patch appears", COUNT, {AT(lod.dynamic)}, {0}},
+    {"lod.strand_pixels", "dynamic: least width of a strand", FLOAT, {AT(lod.strand_pixels)}, {0}},
+    {"lod.segment_pixels", "dynamic: least length of a segment", FLOAT, {AT(lod.segment_pixels)}, {0}},
+    {"lod.least", "dynamic: least share of strands", FLOAT, {AT(lod.least)}, {0}},
+    {"lod.importance", "dynamic: factor of how large hair appears", FLOAT, {AT(lod.importance)}, {0}},
+    {"lod.hidden", "dynamic: the same for hair behind the head", FLOAT, {AT(lod.hidden)}, {0}},
     {"slice", "of the field, with --show solids", COUNT, {AT(view.slice)}, {"none", "x", "y", "z"}},
     {"slice_at", "where, as a share of the field's box", FLOAT, {AT(view.slice_at)}, {0}},
     {"field_voxel", "side of a voxel of the field, m", FLOAT, {AT(desc.field_voxel)}, {0}},
@@ -137,7 +147,8 @@ struct hair_settings hair_settings_default(void)
                                      .physics = hair_physics_default(),
                                      .look    = hair_look_default(),
                                      .desc    = hair_desc_default(),
-                                     .view    = hair_view_default()};
+                                     .view    = hair_view_default(),
+                                     .lod     = hair_lod_default()};
     settings.import.scale         = HAIR_SCALE_GUESSED;
     return settings;
 }

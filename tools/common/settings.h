@@ -20,6 +20,8 @@ struct hair_settings {
     hair_look       look;
     hair_desc       desc;
     hair_view       view;
+    hair_lod        lod;
+    uint32_t        has_lod; // 1: views have it
 };
 
 struct hair_settings hair_settings_default(void);

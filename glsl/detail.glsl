@@ -1,0 +1,70 @@
+// detail.glsl - the level of detail: with what share of its strands a patch is drawn, and with how many segments.
+#include "position_texture.glsl"
+
+#define FEWEST_SEGMENTS 2.0
+#define GIVE 1.1     // hair may stretch, and stray from its guides
+#define STRAYS 3.6   // times frizz, as a share of their length: deviation() of follower.glsl
+#define HIDDEN_BY 0.3 // radii of the skull between the eye and what is hidden
+
+struct hair_detail {
+    float strands;   // share
+    float segments;
+    float thickness; // that makes up for the strands left out
+};
+
+vec3 guide_at(uint guide, uint sample_) { return texelFetch(position_texture, int(guide * draw.smooth_vertices + sample_)).xyz; }
+
+float pixels_per_metre(vec3 position)
+{
+    float w = (draw.view_to_clip * (draw.view * vec4(position, 1.0))).w;
+    return draw.pixels_per_unit / max(w, 1e-6);
+}
+
+bool is_in_view(vec3 center, float radius)
+{
+    vec4 p     = vec4(center, 1.0);
+    vec4 sides = vec4(dot(draw.sides[0], p), dot(draw.sides[1], p), dot(draw.sides[2], p), dot(draw.sides[3], p));
+    return all(greaterThan(sides, vec4(-radius)));
+}
+
+// How far the way from the eye to a point leads through the skull: 0 none, 1 half its radius deep.
+float hidden_at(vec3 eye, vec3 position)
+{
+    vec3  way  = position - eye;
+    float near = clamp(dot(draw.skull.xyz - eye, way) / dot(way, way), 0.0, 1.0);
+    float past = distance(eye + near * way, draw.skull.xyz);
+    return smoothstep(0.0, HIDDEN_BY, 1.0 - past / draw.skull.w);
+}
+
+// Whether a ball is wholly in the cone of what the skull hides.
+bool is_hidden(vec3 eye, vec3 center, float radius)
+{
+    vec3  to_skull = draw.skull.xyz - eye, to_ball = center - eye;
+    float a = length(to_skull), b = length(to_ball);
+    if (a <= draw.skull.w || b - radius < a) return false;
+    float skull = asin(draw.skull.w / a), between = acos(clamp(dot(to_skull, to_ball) / (a * b), -1.0, 1.0));
+    return between + asin(min(radius / b, 1.0)) < skull;
+}
+
+// `patch_`: reach, length, importance of hair_patch.
+hair_detail find_detail(uint guide, vec4 patch_)
+{
+    float most   = float(draw.segments) * draw.segment_share;
+    float share  = draw.strand_share, segments = max(most, 1.0);
+    if (draw.pixels_per_unit > 0.0) {
+        vec3  root  = guide_at(guide, 0u);
+        float reach = GIVE * patch_.x + STRAYS * draw.frizz * patch_.y;
+        float scale = max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
+                                                      pixels_per_metre(guide_at(guide, draw.smooth_vertices - 1u))));
+        float size  = scale * patch_.z;
+        if (!is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
+        if (draw.skull.w > 0.0) {
+            vec3 eye = draw.eye.w > 0.0 ? draw.eye.xyz : draw.skull.xyz + 1000.0 * draw.skull.w * draw.eye.xyz;
+            if (is_hidden(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0);
+            size *= mix(1.0, draw.hidden_share, hidden_at(eye, root));
+        }
+        share *= clamp(2.0 * draw.radius * size / draw.strand_pixels, draw.least_share, 1.0);
+        segments = clamp(patch_.y * size / draw.segment_pixels, min(FEWEST_SEGMENTS, segments), segments);
+    }
+    return hair_detail(share, segments, pow(max(share, 1e-6), -draw.width_power));
+}

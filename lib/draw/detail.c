@@ -1,0 +1,58 @@
+// detail.c - the level of detail, from what the application asks for to what detail.glsl weighs for each patch.
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+#define EVERYWHERE 1e30f // m: a plane so far behind everything cuts nothing off
+
+// The half space { p : w(p) + sign row(p) >= 0 } of clip space, with a unit normal.
+static hair_vec4 find_side(const float clip[16], int row, float sign)
+{
+    float     p[4];
+    hair_vec4 plane = {0, 0, 0, EVERYWHERE};
+    for (int i = 0; i < 4; ++i) p[i] = clip[4 * i + 3] + sign * clip[4 * i + row];
+    float length = hair_length(hair_v3(p[0], p[1], p[2]));
+    if (!(length > 0 && length < EVERYWHERE)) return plane;
+    plane = (hair_vec4){p[0] / length, p[1] / length, p[2] / length, p[3] / length};
+    return plane;
+}
+
+// Where roots are held, no strand leaves its patch's reach; where they are free there is no saying.
+static void write_sides(int bounded, struct hair_draw_params* out)
+{
+    float view[16], projection[16], clip[16];
+    memcpy(view, &out->view, sizeof view);
+    memcpy(projection, &out->view_to_clip, sizeof projection);
+    hair_mat4_multiply(projection, view, clip);
+    for (int i = 0; i < 4; ++i)
+        out->sides.column[i] =
+            bounded ? find_side(clip, i / 2, i % 2 ? -1 : 1) : (hair_vec4){0, 0, 0, EVERYWHERE};
+}
+
+// How many pixels a step along the view's y axis crosses, where w of clip space is 1.
+static float find_scale(const struct hair_draw* draw, const float projection[16])
+{
+    GLfloat viewport[4] = {0};
+    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
+}
+
+void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                            struct hair_draw_params* out)
+{
+    const hair_lod* lod = view ? view->lod : NULL;
+    out->strand_share   = lod ? lod->strands : 1;
+    out->segment_share  = lod ? lod->segments : 1;
+    out->width_power    = lod ? lod->width : 0;
+    if (!lod || !lod->dynamic) return;
+    out->pixels_per_unit = find_scale(draw, view->projection);
+    out->strand_pixels   = lod->strand_pixels / fmaxf(lod->importance, 1e-6f);
+    out->segment_pixels  = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
+    out->least_share     = lod->least;
+    out->hidden_share    = lod->hidden;
+    write_sides(draw->bounded, out);
+    if (lod->hidden < 1 && draw->bounded) {
+        hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->skull.x, draw->skull.y, draw->skull.z));
+        out->skull   = (hair_vec4){at.x, at.y, at.z, draw->skull.w};
+    }
+}

@@ -1,0 +1,318 @@
+// lod_test.c - less is drawn of what appears small or is not seen at all, and nobody notices.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <hair/hair_asset.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+
+// Tools are not linked into tests.
+#include "tools/common/flip.c"
+#include "tools/common/image_error.c"
+
+enum { SIDE = 128, PIXELS = SIDE * SIDE };
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+// A built-in haircut of few strands, each as wide as several.
+static struct fixture start(void** state, hair_style style, uint32_t followers, float radius)
+{
+    struct fixture  f     = {.test = *state};
+    hair_asset*     asset = NULL;
+    hair_style_desc of    = hair_style_desc_default();
+    hair_groom_desc desc  = hair_groom_desc_default();
+    hair_desc       how   = hair_desc_default();
+    hair_look       look  = hair_look_default();
+    of.host = desc.host = &f.test->host.host;
+    of.style            = style;
+    look.radius         = radius;
+    look.segments       = 24;
+    how.look            = &look;
+    hair_test_ok(f.test, hair_asset_generate(&of, &asset));
+    hair_test_ok(f.test, hair_asset_fill(asset, &desc));
+    desc.follower_count = followers;
+    hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
+    hair_asset_destroy(asset);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+// From in front of the head, or from `turn` radians to the side of that, at a distance; as wide as high.
+static hair_view view_from(float distance, float turn)
+{
+    static const float target[3] = {0, 1.55f, 0};
+    hair_view          view      = hair_view_default();
+    float              s = sinf(turn), c = cosf(turn);
+    const float        rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    for (int i = 0; i < 3; ++i) {
+        view.view[12 + i] = i == 2 ? -distance : 0;
+        for (int k = 0; k < 3; ++k) {
+            view.view[4 * k + i] = rows[i][k];
+            view.view[12 + i] -= rows[i][k] * target[k];
+        }
+    }
+    view.projection[0] = view.projection[5] = 4; // 28 degrees
+    view.projection[10] = -1, view.projection[14] = -0.02f;
+    view.projection[11] = -1, view.projection[15] = 0;
+    return view;
+}
+
+struct picture {
+    float    pixels[4 * PIXELS];
+    uint64_t primitives; // triangles, two a segment
+};
+
+static void draw(struct fixture* f, const hair_view* view, const hair_view* before, struct picture* out)
+{
+    struct hair_test_frame frame;
+    GLuint                 query;
+    GLuint64               count = 0;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 4);
+    if (before) hair_test_ok(f->test, hair_draw(f->hair, before));
+    glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &query);
+    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &count);
+    glDeleteQueries(1, &query);
+    hair_test_frame_read(&frame, out->pixels);
+    hair_test_frame_free(&frame);
+    out->primitives = count;
+}
+
+// Strands all of one colour and light: how much of each pixel they cover.
+static double coverage_of(struct fixture* f, float distance, const hair_lod* lod)
+{
+    static struct picture picture;
+    double                sum = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+        hair_view view = view_from(distance, 2.0f * (float)turn);
+        view.lod       = lod;
+        draw(f, &view, NULL, &picture);
+        for (int i = 0; i < PIXELS; ++i) sum += (double)picture.pixels[4 * i + 3];
+    }
+    return sum / (2 * PIXELS);
+}
+
+static void fewer_strands_cover_as_much(void** state)
+{
+    static const hair_style styles[] = {HAIR_STYLE_LONG, HAIR_STYLE_SHORT, HAIR_STYLE_AFRO};
+    for (int i = 0; i < 3; ++i) {
+        struct fixture f    = start(state, styles[i], 18000, 1.5e-4f);
+        hair_lod       lod  = hair_lod_default();
+        double         full = coverage_of(&f, 1.4f, NULL);
+        assert_true(full > 0.03);
+        lod.dynamic = 0;
+        for (int k = 0; k < 4; ++k) {
+            static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
+            lod.strands                 = shares[k];
+            double covered              = coverage_of(&f, 1.4f, &lod);
+            print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n",
+                          hair_style_name(styles[i]), 100.0 * (double)shares[k], covered / full);
+            hair_test_near("coverage", (size_t)k, covered / full, 1, 0.02);
+        }
+        finish(&f);
+    }
+}
+
+static float encode(float linear)
+{
+    float x = fminf(fmaxf(linear, 0), 1);
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+}
+
+// Four pixels of a picture become one.
+static void develop(const struct picture* picture, float* rgb, unsigned char* mask)
+{
+    for (int y = 0; y < SIDE / 2; ++y)
+        for (int x = 0; x < SIDE / 2; ++x) {
+            float sum[4] = {0};
+            for (int i = 0; i < 4; ++i)
+                for (int k = 0; k < 4; ++k)
+                    sum[k] += picture->pixels[4 * ((2 * y + i / 2) * SIDE + 2 * x + i % 2) + k] / 4;
+            int at = y * SIDE / 2 + x;
+            for (int k = 0; k < 3; ++k) rgb[3 * at + k] = encode(sum[k]);
+            mask[at] |= sum[3] > 0;
+        }
+}
+
+// FLIP over what hair covers in either and 8 pixels around.
+static double flip_between(const struct picture* a, const struct picture* b)
+{
+    static float            rgb[2][3 * PIXELS / 4];
+    unsigned char           mask[PIXELS / 4] = {0};
+    struct hair_image_error error;
+    develop(a, rgb[0], mask);
+    develop(b, rgb[1], mask);
+    assert_true(hair_mask_dilate(mask, SIDE / 2, SIDE / 2, 8));
+    assert_true(hair_image_error(rgb[0], rgb[1], mask, SIDE / 2, SIDE / 2, &error));
+    return error.flip;
+}
+
+// Of 300 frames on the way from 0.9 m to 27 m every tenth, and the one after it.
+static void walking_away_shows_no_step(void** state)
+{
+    enum { FRAMES = 300, EVERY = 10 };
+    static struct picture full[2], low[2];
+    struct fixture        f    = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
+    hair_lod              lod  = hair_lod_default();
+    double                most = -1, far = 0;
+    uint64_t              first = 0;
+    for (int i = 0; i < FRAMES; i += EVERY) {
+        for (int k = 0; k < 2; ++k) {
+            hair_view view = view_from(0.9f * powf(30, (float)(i + k) / FRAMES), 0.5f);
+            draw(&f, &view, NULL, &full[k]);
+            view.lod = &lod;
+            draw(&f, &view, NULL, &low[k]);
+        }
+        if (i == 0) first = low[0].primitives;
+        double more = flip_between(&low[0], &low[1]) - flip_between(&full[0], &full[1]);
+        if (more > most) most = more;
+        far = flip_between(&full[1], &low[1]);
+    }
+    print_message("    %u segments become %u, a frame's FLIP at most %.4f more, the last one's %.4f\n",
+                  (unsigned)(first / 2), (unsigned)(low[1].primitives / 2), most, far);
+    assert_true(most <= 0.005);
+    assert_true(10 * low[1].primitives <= first);
+    assert_true(far <= 0.03);
+    finish(&f);
+}
+
+// A segment more or less, and a strand: on either side of that the pictures are the same but for a millionth.
+static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
+{
+    static struct picture picture[2];
+    struct fixture        f    = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    hair_view             view = view_from(1.2f, 0);
+    hair_lod              lod  = hair_lod_default();
+    view.lod                   = &lod;
+    lod.dynamic                = 0;
+    for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < 2; ++i) {
+            float share = 0.5f + (i ? 1e-6f : -1e-6f);
+            if (k == 0) lod.segments = share;
+            if (k == 1) lod.segments = 1, lod.strands = share;
+            draw(&f, &view, NULL, &picture[i]);
+            if (i == 0) continue;
+            assert_true(picture[0].primitives != picture[1].primitives);
+            double sum = 0;
+            for (int j = 0; j < 4 * PIXELS; ++j)
+                sum += (double)fabsf(picture[0].pixels[j] - picture[1].pixels[j]);
+            print_message("    %s: %.2g of a pixel's value\n", k ? "strands" : "segments",
+                          sum / (4 * PIXELS));
+            assert_true(sum / (4 * PIXELS) < 1e-4);
+        }
+    finish(&f);
+}
+
+static int differ(const struct picture* a, const struct picture* b)
+{
+    return memcmp(a->pixels, b->pixels, sizeof a->pixels) != 0;
+}
+
+// As large as it appears, nothing need be left out.
+static hair_lod only_culling(void)
+{
+    hair_lod lod       = hair_lod_default();
+    lod.strand_pixels  = 0.01f;
+    lod.segment_pixels = 0.1f;
+    lod.importance     = 1000;
+    return lod;
+}
+
+// The view passes over the head while that shakes, so that hair is where it is not at rest.
+static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** state)
+{
+    static struct picture full, culled;
+    struct fixture        f   = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
+    hair_lod              lod = only_culling();
+    uint64_t              all = 0, left = 0;
+    for (int i = -8; i <= 8; ++i) {
+        hair_view view = view_from(0.7f, 0.4f);
+        float     s    = sinf(0.9f * (float)i);
+        view.view[12] += 0.12f * (float)i;
+        view.view[13] += 0.05f * (float)i;
+        float head[16] = {cosf(s), 0, -sinf(s), 0, 0, 1, 0, 0, sinf(s), 0, cosf(s), 0, 0, 0, 0, 1};
+        hair_test_ok(f.test, hair_set_transform(f.hair, head));
+        hair_test_ok(f.test, hair_step(f.hair, 0.1f));
+        draw(&f, &view, NULL, &full);
+        view.lod = &lod;
+        draw(&f, &view, NULL, &culled);
+        assert_false(differ(&full, &culled));
+        all += full.primitives, left += culled.primitives;
+    }
+    print_message("    %.2f of the segments left\n", (double)left / (double)all);
+    assert_true(left < 0.75 * all);
+
+    hair_view away = view_from(-3, 0);
+    away.lod       = &lod;
+    draw(&f, &away, NULL, &culled);
+    assert_int_equal(culled.primitives, 0);
+
+    hair_physics physics = hair_physics_default();
+    physics.root         = HAIR_ROOT_FREE; // Then there is no telling where it is.
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    draw(&f, &away, NULL, &culled);
+    assert_int_equal(culled.primitives, full.primitives);
+    finish(&f);
+}
+
+// With the head in front of it, drawn as a solid, what is behind is not missed.
+static void what_the_head_hides_is_not_drawn(void** state)
+{
+    static struct picture full, culled;
+    struct fixture        f     = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
+    hair_lod              lod   = only_culling();
+    hair_solid            solid = hair_solid_default();
+    hair_vec4             skull = f.groom->skull;
+    double                least = 1;
+    print_message("    a skull of %.3f m at (%.3f, %.3f, %.3f)\n", (double)skull.w, (double)skull.x,
+                  (double)skull.y, (double)skull.z);
+    assert_true(skull.w > 0.05f && skull.w < 0.1f);
+    solid.position[0] = skull.x, solid.position[1] = skull.y, solid.position[2] = skull.z;
+    solid.size[0] = skull.w;
+    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    for (int i = 0; i < 4; ++i) {
+        hair_view view = view_from(0.9f, 1.5f * (float)i), before = view;
+        before.pass = HAIR_PASS_SOLIDS;
+        view.lod    = &lod;
+        lod.hidden  = 1;
+        draw(&f, &view, &before, &full);
+        lod.hidden = 0;
+        draw(&f, &view, &before, &culled);
+        double error = flip_between(&full, &culled),
+               left  = (double)culled.primitives / (double)full.primitives;
+        print_message("    %.2f of the segments left, FLIP %.4f\n", left, error);
+        assert_true(error < 0.01);
+        if (left < least) least = left;
+    }
+    assert_true(least < 0.85); // From behind nothing is hidden.
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(fewer_strands_cover_as_much),
+        HAIR_TEST(walking_away_shows_no_step),
+        HAIR_TEST(nothing_pops_where_segments_or_strands_become_fewer),
+        HAIR_TEST(what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing),
+        HAIR_TEST(what_the_head_hides_is_not_drawn),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
