@@ -68,6 +68,7 @@ typedef uint32_t hair_uint;
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2
+#define HAIR_HEALTH_TAUT 3
 #define HAIR_HEALTH_COUNT 4
 
 // Uniform buffers.
@@ -85,6 +86,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
+#define HAIR_UNIT_TIE 2      // hair_held[], of the same, where guides are tied
 #define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
@@ -153,8 +155,8 @@ struct hair_rod {
     // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2; w: of a first vertex, how
     // accurate takes it: 0 explicitly, 1 by BDF2, 2 by implicit Euler, for a heavy tip pulls it taut
     hair_vec4 segment;
-    // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method; and
-    // of implicit Euler, to which it falls back
+    // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method, w: the
+    // number of the first tie beyond this vertex, from 1, or 0; and of implicit Euler, to which it falls back
     hair_vec4 factor;
     hair_vec4 factor_euler;
 };
@@ -169,6 +171,16 @@ struct hair_state {
     hair_vec4 displacement; // xyz: m, over the last substep, in the world
 };
 HAIR_SIZE(hair_state, 32)
+
+// What holds a vertex of a guide, beside the scalp. In the order of guides and their vertices.
+struct hair_held {
+    // xyz: where it is to be at the end of the step, m; w: 0: in groom space; -1: in the world, from the head's origin
+    hair_vec4 place;
+    // Of what it ends: x, y: the held vertices before and after, counted from the guide's root; z: length between them
+    // at rest, m; 0 where nothing holds it before; w: 1: the next in the list is the same guide's
+    hair_vec4 span;
+};
+HAIR_SIZE(hair_held, 32)
 
 // What BDF2 knows of a guide vertex beside its state: displacements per substep that its velocities stand for.
 struct hair_history {

@@ -52,7 +52,7 @@ void find_solids(vec3 head_moved)
     if (!SOLIDS) return;
     uvec2 near    = uvec2(0u);
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
-    if (root_is_free) longest = 2.0 * FARTHEST; // A root that nothing holds may be anywhere.
+    if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
     for (uint k = lane; k < params.solids; k += lanes) {
         capsule solid = solid_at(k, share_now);
         if (length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid))

@@ -6,12 +6,14 @@
 // do: by M^-1 alone the shape at rest would depend on the substep. The first steps correct them so, the others, of
 // what is left, by M^-1, which is exact sooner.
 #include "sim/contact.glsl"
+#ifdef HAIR_TIED
+#include "sim/tie.glsl"
+#endif
 
 OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
 
 #define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // steps by A^-1: the bias at rest is a tenth with each
 #define MOST_STEPS 8u
-#define HEAVY_ROUNDS 6u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
 // Which displacement is allowed of what is wanted; and how long that leaves the segments.
@@ -27,6 +29,7 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
         }
     }
     MEET;
+    give_length();
     measure(tolerance);
 }
 
@@ -70,6 +73,9 @@ void correct_lengths(bool of_start, bool stiffly)
         own(hinge_along) = own(strain).w * max(params.ratio.x, params.ratio.z) * turned;
         own(row).y += after.x;
         own(row).z = i + 1u < segments ? after.y : 0.0;
+#ifdef HAIR_TIED
+        own(row).y *= 1.0 + own(gives);
+#endif
         if (own(row).y == 0.0) own(row) = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
     }
     solve_rows(segments);
@@ -98,52 +104,5 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
         if ((n > 0u && !loose) || n == MOST_STEPS) return !broken;
         correct_lengths(of_start, own_method != SHAKE && method == BACK && n < STIFFLY);
-    }
-}
-
-// Vertex k at its length from the one it follows, in the direction that it has from there.
-void draw_along(uint k, uint leader, float len, inout vec3 last)
-{
-    vec3  moved_leader = GET_AT(moved, leader), between = GET_AT(place, k) - GET_AT(place, leader);
-    vec3  to = between + (GET_AT(moved, k) - moved_leader);
-    float l  = length(to);
-    if (bits_of(l) < 0x7f800000u && l > 1e-3 * len) last = to / l;
-    PUT_AT(moved, k, moved_leader - between + len * last);
-}
-
-float length_of(uint k) { return rod[guide_first + k].segment.x; }
-
-// Each segment drawn after the one above it (Müller et al. 2012), whose place is right already. A tip that outweighs
-// its strand is not to be thrown about by it: first the strand is drawn after both ends in turn (Aristidou and Lasenby
-// 2011).
-void draw_strand()
-{
-    uint tip  = guide_count - 1u, rounds = heavy ? HEAVY_ROUNDS : 0u;
-    vec3 goal = GET_AT(moved, tip), last = rotate(scalp, vec3(0.0, 1.0, 0.0));
-    for (uint n = 0u;; ++n) {
-        for (uint k = 1u; k <= tip; ++k) draw_along(k, k - 1u, length_of(k - 1u), last);
-        if (n == rounds) break;
-        PUT_AT(moved, tip, goal);
-        for (uint k = tip; k-- > 1u;) draw_along(k, k + 1u, length_of(k), last);
-    }
-}
-
-// What that draws into solids is turned out of them, once.
-void follow_leader(vec3 head_moved)
-{
-    find_solids(head_moved);
-    for (uint n = 0u; n < (SOLIDS ? 2u : 1u); ++n) {
-        EACH(guide_count) {
-            vec4 freedom = vec4(0.0);
-            if (n == 0u) PUT(moved, own(wanted));
-            if (SOLIDS) {
-                if ((own(reachable).x | own(reachable).y) != 0u)
-                    PUT(moved, allowed(i, GET(moved), own(reachable), uvec2(0u), head_moved, freedom, own(met)));
-                own(touch) = vec4(0.0);
-            }
-        }
-        MEET;
-        ONCE { draw_strand(); }
-        MEET;
     }
 }

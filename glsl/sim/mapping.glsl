@@ -25,6 +25,11 @@
 #else
 #define SOLIDS false
 #endif
+#ifdef HAIR_TIED
+#define TIED true
+#else
+#define TIED false
+#endif
 
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 

@@ -33,7 +33,7 @@ vec4      turn_then; // turn_now, of the substep before
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
-    if (own(slack) == 0.0) return method != SHAKE ? root_moved : vec3(0.0);
+    if (own(slack) == 0.0) return method != SHAKE ? held_move(i) : vec3(0.0);
     return method == BACK ? last / 3.0 : vec3(0.0);
 }
 
@@ -67,6 +67,7 @@ void predict(int method)
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
     MEET;
+    give_length();
     measure(1.0);
     find_bending();
 
@@ -75,7 +76,7 @@ void predict(int method)
         float share  = heavy && i > 0u && i + 1u < guide_count
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
         vec3 wind    = share * params.gravity.w * params.wind.xyz;
-        own(wanted)  = root_moved;
+        own(wanted)  = held_move(i);
         vec3 bending = by_segments(i);
         vec3 force   = share * params.gravity.xyz;
         if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved) : vec3(0.0)) - GET(place));

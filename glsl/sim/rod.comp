@@ -15,6 +15,7 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
+#include "sim/leader.glsl"
 
 #define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
 
@@ -22,7 +23,7 @@ layout(local_size_x = GROUP_THREADS) in;
 // the method of its solver fails again, for ever.
 #define LEADER_KEEPS (HAIR_SOLVER == LEADER ? 1.0 : 0.5)
 
-vec3 root_at_rest, root_then;
+vec3 root_at_rest;
 
 vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
 
@@ -32,7 +33,8 @@ void load()
     bool  pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
     known         = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
     root_is_free  = rod[guide_first].segment.y > 0.0;
-    heavy         = rod[guide_first + guide_count - 1u].segment.y * guide_length < 1.0;
+    float tip     = rod[guide_first + guide_count - 1u].segment.y;
+    heavy         = tip > 0.0 && tip * guide_length < 1.0;
 #ifdef HAIR_STIFF
     float taken = rod[guide_first].segment.w;
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
@@ -40,13 +42,16 @@ void load()
     EACH(guide_count) {
         uint at      = guide_first + min(i, guide_count - 1u);
         vec4 segment = i < guide_count ? rod[at].segment : vec4(0.0);
-        // What is held is where the scalp has it, wherever it was when it was not.
-        PUT(place, segment.y > 0.0 ? state[at].position.xyz - root_then : vec3(0.0));
+        // A root that is held is where the scalp has it, wherever it was when it was not.
+        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? state[at].position.xyz - root_then : vec3(0.0));
         own(displacement) = state[at].displacement.xyz * rescale;
         own(rest_length)  = segment.x;
         own(slack)        = segment.y;
         own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
         own(strain)       = rod[at].strain;
+#ifdef HAIR_TIED
+        load_tie(i);
+#endif
         if (CURVED) seen(section) = material[at];
 #ifdef HAIR_CROWD
         own(push) = texelFetch(push_texture, int(at)).xyz;
@@ -104,7 +109,7 @@ void accept(int method, vec3 head_moved)
         if (method == LEADER) { // What was drawn along may not keep that speed.
             vec3  relative = d - root_d;
             float speed    = length(relative);
-            float keeps    = heavy && i + 1u == guide_count ? 1.0 : LEADER_KEEPS;
+            float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
@@ -148,6 +153,9 @@ void main()
     root_then    = rotate(turn_now, root_at_rest);
     root_now     = root_then;
     share_now    = params.share_start;
+#ifdef HAIR_TIED
+    head_now     = turn_now;
+#endif
     load();
 
     for (uint s = 0u; s < params.substeps; ++s) {
@@ -159,6 +167,10 @@ void main()
         root_moved      = root_now - root_then + head_moved;
         share_then      = share_now;
         share_now       = params.substep[s].displacement.w;
+#ifdef HAIR_TIED
+        head_then       = head_now;
+        head_now        = params.substep[s].rotation;
+#endif
 
         int method = own_method == BACK && known < 2.0 ? EULER : own_method;
         for (;; ++method) {
@@ -171,6 +183,9 @@ void main()
             if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
+#ifdef HAIR_TIED
+        if (any_of(bvec2(taut, false)).x) count_in(HAIR_HEALTH_TAUT);
+#endif
         accept(method, head_moved);
     }
     store();

@@ -14,7 +14,7 @@ SHARED_VEC3(edge);       // unit, of segment i, where `moved` leads
 SHARED_VEC3(lever);      // bending: what a hinge does; then: directions in which lengths are corrected
 SHARED_VEC3(handed);     // to the neighbours, of forces: see there
 OWN(float, rest_length); // of segment i; 0 for the tip
-OWN(float, slack);       // 1 / mass; 0: held
+OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a tie
 OWN(vec3, wanted);       // displacement if no solid were in the way
 OWN(vec3, displacement); // over the last substep
 OWN(float, excess);      // of length, of segment i
@@ -23,12 +23,21 @@ OWN(float, excess);      // of length, of segment i
 uint  guide_number, guide_first, guide_count;
 float guide_length;
 bool  heavy; // its tip outweighs the rest of it
-vec3 root_now;   // from the head's origin, at the end of the substep
+vec3 root_then;  // from the head's origin, at the start of the substep,
+vec3 root_now;   // and at its end
 vec3 root_moved; // over it
 vec4 turn_now;   // of the head
 vec4 scalp;      // frame that clamps the first segment
 bool root_is_free;
 bool loose, broken; // what measure() finds
+
+#ifdef HAIR_TIED // See tie.glsl; without ties nothing but the root is held.
+vec3 held_move(uint i);
+void give_length();
+#else
+#define held_move(i) root_moved
+#define give_length()
+#endif
 
 // By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
 uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }

@@ -411,6 +411,31 @@ static inline hair_solid hair_solid_default(void)
 HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count,
                                      size_t stride);
 
+typedef enum hair_tie_to {
+    HAIR_TIE_HEAD = 0, ///< The head: hair that is tied back, a clip.
+    HAIR_TIE_WORLD     ///< The world: a hand, a hook.
+} hair_tie_to;
+
+/// A vertex of a guide that is held in place, free to turn. Start from hair_tie_default.
+typedef struct hair_tie {
+    uint32_t    guide;       ///< As hair_read has them, from 0. Default 0.
+    uint32_t    vertex;      ///< Of the guide, from 1; beyond its last: its tip. Default 4294967295.
+    hair_tie_to to;          ///< What holds it. Default HAIR_TIE_HEAD.
+    float       position[3]; ///< In groom space, or in the world. m. [-1e9, 1e9]. Default 0.
+} hair_tie;
+
+static inline hair_tie hair_tie_default(void)
+{
+    hair_tie tie = {0, UINT32_MAX, HAIR_TIE_HEAD, {0, 0, 0}};
+    return tie;
+}
+
+/// Replace the ties; `stride` is sizeof(hair_tie). count in [0, 1048576], of different vertices; redblack has none.
+/// The next step carries each vertex from where it is to its place, evenly over its substeps; one whose tie is gone
+/// goes on as it moved. A guide that is tied farther off than it is long is stretched, see hair_health.taut.
+/// hair_teleport takes ties in the world along.
+HAIR_API hair_result hair_set_ties(hair_instance* hair, const hair_tie* ties, uint32_t count, size_t stride);
+
 /// A box in the world that no strand leaves on the way from the last step to where the head is, unless its root is
 /// free: what is outside need not be among the solids.
 HAIR_API hair_result hair_get_reach(const hair_instance* hair, float lower[3], float upper[3]);
@@ -426,7 +451,7 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 /// Move the head without moving the hair against it: shape and motion go along, nothing swings.
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
-/// Write all that the coming motion depends on but settings (physics, look): strands, head, solids, the time
+/// Write all that the coming motion depends on but settings (physics, look): strands, head, solids, ties, the time
 /// since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
 /// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
@@ -520,6 +545,7 @@ typedef struct hair_health {
     uint32_t  stiffened; ///< Guides that could not hold their groom against gravity, as `hold` asks.
     float     stiffest;  ///< Greatest multiple of their stiffness that they were given.
     float     substep;   ///< Length of a substep. s.
+    uint32_t  taut;      ///< Times that a guide was stretched in a substep: what holds it was too far apart.
 } hair_health;
 HAIR_DESC(hair_health)
 

@@ -18,15 +18,16 @@ struct hair_instance {
     double                  max_dt;       // s
     int                     has_slowed;   // dt was beyond max_dt, and the log has said so
     int                     has_left_out; // guides pass through some solids, and the log has said so
-    hair_vec3               reach[2];     // bounds of where hair can be, in the head's frame
+    hair_vec3               reach[2];     // bounds of where hair can be, in the head's frame, but for ties
+    float                   longest;      // strand, as far as it may stretch. m
     struct hair_sim         sim;
     struct hair_smooth      smooth;
     struct hair_draw        draw;
     struct hair_solid_field field;
 };
 
-// Bounds of where strands of a groom can be, in its space.
-void hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2]);
+// Bounds of where strands of a groom can be, in its space. Returns how long they may become.
+float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2]);
 
 // HAIR_ERROR_OPENGL unless a context is current: OpenGL without one does nothing, or worse.
 hair_result hair_check_current(const hair_context* context);

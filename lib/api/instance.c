@@ -54,7 +54,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
-    hair_find_reach(groom, hair->reach);
+    hair->longest = hair_find_reach(groom, hair->reach);
     hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);

@@ -10,9 +10,9 @@
     PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
     PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
 
-// A solver of rods is 24 such passes, for hair with and without what it can do without: solids, and among them bodies,
-// those that are no capsules; curved or flat strands; the crowd of other hair; and by a work group or a thread per
-// guide.
+// A solver of rods is 48 such passes, for hair with and without what it can do without: solids, and among them bodies,
+// those that are no capsules; curved or flat strands; the crowd of other hair; ties; and by a work group or a thread
+// per guide.
 #define ROD_PASS_OF(name, label, defines) \
     GUIDE_PASS(name, label, defines "sim/rod.comp") \
     GUIDE_PASS(name##_SOLIDS, label "_solids", defines "HAIR_SOLIDS=1 sim/rod.comp") \
@@ -23,9 +23,12 @@
 #define ROD_PASS_BY(name, label, defines) \
     ROD_PASS_OF(name, label, defines) \
     ROD_PASS_OF(name##_THREAD, label "_thread", "HAIR_THREAD_PER_GUIDE=1 " defines)
-#define ROD_PASS(name, label, defines) \
+#define ROD_PASS_IN(name, label, defines) \
     ROD_PASS_BY(name, label, defines) \
     ROD_PASS_BY(name##_CROWD, label "_crowd", "HAIR_CROWD=1 " defines)
+#define ROD_PASS(name, label, defines) \
+    ROD_PASS_IN(name, label, defines) \
+    ROD_PASS_IN(name##_TIED, label "_tied", "HAIR_TIED=1 " defines)
 
 PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
 PASS(VOXELISE_FORMS, "field/voxelise_forms", "HAIR_FORMS=1 field/voxelise.comp")
@@ -63,6 +66,7 @@ PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
 #undef ROD_PASS
+#undef ROD_PASS_IN
 #undef ROD_PASS_BY
 #undef ROD_PASS_OF
 #undef GUIDE_PASS

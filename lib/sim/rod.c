@@ -6,6 +6,7 @@
 //
 //   b = 2/3 h of BDF2, h of implicit Euler   A_i = 1 + c b + w_i^2 b^2   of damping c and pull w_i
 #include "lib/sim/rod_shape.h"
+#include "lib/sim/ties.h"
 
 #define TWO_PI 6.283185307179586
 #define FRAME (1.0 / 60)  // s
@@ -21,6 +22,11 @@
 struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
     double x, y, z;
 };
+
+static int is_fixed(const struct hair_rod_shape* s, uint32_t i)
+{
+    return (i == 0 && s->held) || s->tied[i];
+}
 
 static double implicit_ratio(const struct hair_rod_shape* s)
 {
@@ -61,8 +67,13 @@ static void find_bands(const struct hair_rod_shape* s, const double* stiffness, 
     double ratio = implicit_ratio(s);
     for (uint32_t i = 0; i < s->count; ++i) k[i] = (struct band){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) add_row(k, i, row_of(s, i), ratio * stiffness[i]);
-    // A root that is held moves by no force: what it does is known.
-    if (s->held) k[0] = (struct band){0, 0, 0};
+    // What is held moves by no force: what it does is known.
+    for (uint32_t i = 0; i < s->count; ++i) {
+        if (!is_fixed(s, i)) continue;
+        k[i] = (struct band){0, 0, 0};
+        if (i > 0) k[i - 1].y = 0;
+        if (i > 1) k[i - 2].z = 0;
+    }
 }
 
 // The highest frequency of bending, squared, is at most this: the greatest sum of a row of m^(-1/2) K m^(-1/2).
@@ -147,7 +158,7 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
 
     struct rows own = {0}, euler = {0};
     for (uint32_t i = 0; i < s->count; ++i) {
-        int    fixed = i == 0 && s->held;
+        int    fixed = is_fixed(s, i);
         double pull  = pull_squared(physics, (double)i / (s->count - 1)) * hair_rod_weight_share(s, i);
         double of_b  = fixed ? 1 : s->mass[i] * (1 + damping * b + pull * b * b);
         double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
@@ -157,6 +168,8 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
+    for (uint32_t i = s->count - 1, next = s->tied[i]; i-- > 0; next = s->tied[i] ? s->tied[i] : next)
+        out[i].factor.w = (float)next;
 }
 
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
@@ -172,6 +185,23 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
         if (stiffen > 1) ++report->stiffened;
         if (stiffen > (double)report->stiffest) report->stiffest = (float)stiffen;
         write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guides[i].first);
+    }
+}
+
+void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
+                   const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
+                   hair_solver solver, double substep, struct hair_rod* out)
+{
+    for (uint32_t i = 0; i < count;) {
+        const struct hair_guide* guide = guides + knot[i].guide;
+        struct hair_rod_shape    shape;
+        hair_rod_shape_of(guide, rest + guide->first, physics, &shape);
+        double stiffen = hair_rod_stiffen(&shape); // As it was before.
+        for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
+            shape.tied[knot[i].vertex] = i + 1;
+        double tautness = hair_rod_tautness(&shape);
+        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
+        write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guide->first);
     }
 }
 

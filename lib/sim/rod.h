@@ -12,6 +12,8 @@
 
 #include "glsl/shared.h"
 
+struct hair_knot;
+
 // R: bending about the frame's x, twist, bending about its z, all relative to bending of a round section of like
 // area. The section's long axis is x: about it it bends easily.
 void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
@@ -30,6 +32,11 @@ struct hair_rods_report {
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                      const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
                      struct hair_rods_report* report);
+
+// Write again those guides that ties hold, whose knots are in the order of guides and their vertices.
+void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
+                   const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
+                   hair_solver solver, double substep, struct hair_rod* out);
 
 // The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
 // shorter as bending needs to be stable without being implicit, down to 1/6000; guides that need still shorter ones

@@ -114,6 +114,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     out->count   = guide->count;
     out->clamped = physics->root == HAIR_ROOT_CLAMPED;
     out->held    = physics->root != HAIR_ROOT_FREE;
+    for (uint32_t i = 0; i < out->count; ++i) out->tied[i] = 0;
     find_masses(out, rest, physics);
     find_turns(out, guide, rest);
     find_stress(out, physics);

@@ -59,6 +59,7 @@ struct hair_rod_shape {
     double     ratio[3];
     uint32_t   count;                           // of vertices
     int        clamped, held;                   // at the root
+    uint32_t   tied[HAIR_MAX_GUIDE_VERTICES];   // by the tie of this number, from 1; 0: not
     double     gravity;                         // m/s^2
     double     weight;                          // of all but the root vertex
     double     length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip

@@ -10,7 +10,8 @@ struct hair_rods {
     struct hair_rods_report report;
     int                     curved;
     int                     stiff;  // for SHAKE, some
-    int                     struck; // made for: sim->struck
+    int                     struck; // made for: sim->struck,
+    uint32_t                tied;   // and sim->ties.which
 };
 
 // Below this, radians at a vertex, a strand is straight: what rounding leaves of one in any direction.
@@ -69,6 +70,8 @@ static hair_result make(struct hair_sim* sim, int struck)
     }
     hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
                     &rods->report);
+    hair_rods_tie(rods->guides, rods->rest, sim->ties.knot, sim->ties.count, &sim->physics, sim->solver,
+                  substep, rod);
     GLuint      buffer = 0, reduction = 0;
     hair_result result = make_reduction(sim, rod, &reduction);
     if (!result)
@@ -82,6 +85,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         sim->reduction = reduction;
         rods->made_for = sim->physics;
         rods->struck   = struck;
+        rods->tied     = sim->ties.which;
         rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
         rods->stiff    = is_stiff(sim, rod);
         sim->substep   = substep;
@@ -117,6 +121,12 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     return result ? result : hair_sim_need_crowd(sim);
 }
 
+const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
+{
+    if (rest) *rest = sim->rods ? sim->rods->rest : NULL;
+    return sim->rods ? sim->rods->guides : NULL;
+}
+
 hair_result hair_sim_need_crowd(struct hair_sim* sim)
 {
     return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
@@ -128,6 +138,7 @@ hair_result hair_sim_renew_rods(struct hair_sim* sim)
     if (!rods) return HAIR_OK;
     int struck = sim->struck || hair_sim_contacts(sim) > 0;
     int other  = sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != rods->struck;
+    other |= sim->ties.which != rods->tied;
     hair_result result =
         other || hair_rods_differ(&rods->made_for, &sim->physics) ? make(sim, struck) : HAIR_OK;
     if (!result) sim->struck = struck;
@@ -192,6 +203,7 @@ void hair_sim_health(struct hair_sim* sim, hair_health* health)
     health->euler    = count[HAIR_HEALTH_EULER];
     health->follow   = count[HAIR_HEALTH_FOLLOW];
     health->reset    = count[HAIR_HEALTH_RESET];
+    health->taut     = count[HAIR_HEALTH_TAUT];
     health->stiffest = hair_sim_stiffest(sim, &health->stiffened);
     health->substep  = (float)sim->substep;
 }

@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 5 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 6 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -33,6 +33,13 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
 #define MOST_BUFFERS 5 // that walk() lists
 #define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
+#define KNOT_BYTES 36
+
+// And ties.
+struct loaded_ties {
+    struct hair_knot* knot;
+    uint32_t          count;
+};
 
 // Solids that are read, before they are checked and their forms are held.
 struct loaded_solids {
@@ -49,6 +56,7 @@ struct cursor {
     unsigned char*       own;   // as many; what is read of buffers, in the machine's order
     size_t               at, end;
     struct loaded_solids now, before; // what is read of them
+    struct loaded_ties   ties;        // likewise
     hair_result          result;      // the first failure's; nothing is read after it
     uint32_t             buffers;
     struct {
@@ -198,6 +206,35 @@ static void walk_solids(struct cursor* c, const char* name, struct hair_solids* 
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_solid(c, there, &solid[i]);
 }
 
+static void walk_knot(struct cursor* c, struct hair_knot* knot)
+{
+    walk_uint(c, "guide of a tie", &knot->guide, UINT32_MAX);
+    walk_uint(c, "vertex of a tie", &knot->vertex, UINT32_MAX);
+    walk_flag(c, "whether a tie is in the world", &knot->world);
+    for (int k = 0; k < 3; ++k) walk_double(c, "place of a tie", &knot->place[k], -MOST_PAST, MOST_PAST);
+}
+
+// Into c->ties, as solids are.
+static void walk_ties(struct cursor* c, struct hair_ties* ties)
+{
+    struct hair_knot* knot  = ties->knot;
+    uint32_t          count = ties->count;
+    walk_uint(c, "number of ties", &count, HAIR_MOST_TIES);
+    if (c->read && !c->result) {
+        if (count > (c->end - c->at) / KNOT_BYTES) {
+            c->result =
+                hair_fail(c->host, HAIR_ERROR_FILE,
+                          "the number of ties before byte %zu of the saved state is %u, more than it holds",
+                          c->at, count);
+            return;
+        }
+        knot = c->ties.knot = hair_alloc(c->host, count, sizeof *knot);
+        c->ties.count       = count;
+        if (!knot) c->result = hair_fail_memory(c->host, "the ties to load");
+    }
+    for (uint32_t i = 0; i < count && !c->result; ++i) walk_knot(c, &knot[i]);
+}
+
 // Floats, whatever they are to a solver. A buffer that the instance has no use for is 0.
 static void walk_buffer(struct cursor* c, const char* name, GLuint buffer, size_t size)
 {
@@ -258,6 +295,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_pose(c, "head", &sim->head, MOST_PLACE);
     walk_solids(c, "number of solids", &sim->solids, &sim->solids.now, &c->now);
     walk_solids(c, "number of solids at the last step", &sim->solids, &sim->solids.before, &c->before);
+    walk_ties(c, &sim->ties);
     walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
     walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
     walk_buffer(c, "rates of guide vertices", sim->history,
@@ -319,6 +357,7 @@ static hair_result read(struct cursor* c, struct hair_sim* sim, struct hair_soli
         c->result =
             hair_fail(c->host, HAIR_ERROR_FILE,
                       "the fields of the saved state end at byte %zu, not at byte %zu", c->at, c->end);
+    if (!c->result) c->result = hair_ties_check(sim, c->ties.knot, c->ties.count);
     if (c->result) return c->result;
     return hair_solids_restore(c->host, solids, c->now.solid, c->now.count, c->before.solid, c->before.count);
 }
@@ -354,12 +393,14 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     hair_free(host, c.now.solid);
     hair_free(host, c.before.solid);
     if (result) {
+        hair_free(host, c.ties.knot);
         hair_solids_free(host, &solids);
         return result;
     }
     hair_solids_free(host, &sim->solids);
     *sim        = loaded;
     sim->solids = solids;
+    hair_ties_take(sim, c.ties.knot, c.ties.count);
     if (!sim->crowd.push) sim->crowd.beat = 0;
     hair_sim_show(sim);
     return HAIR_OK;

@@ -24,8 +24,9 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
              others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
     uint32_t met    = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    if (by_thread) return (sim->most_vertices + 1) * (250 + met) + 3 * (solids + 1);
-    return 740 + 40 * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+    uint32_t drawn = sim->ties.count ? 40 : 0; // By ties, more often.
+    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + 3 * (solids + 1);
+    return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + 3 * (solids + 1);
 }
 
 // Where a thread would have too much to do, it is a work group's.
@@ -41,7 +42,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids and with bodies, curved, by thread, in a crowd.
+// In the order of passes.inl: four sizes, with solids and with bodies, curved, by thread, in a crowd, tied.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -52,7 +53,8 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     };
     hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
     int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
-    int kind = met + 3 * hair_sim_is_curved(sim) + 6 * is_by_thread(sim) + 12 * hair_crowd_is_on(sim);
+    int kind = met + 3 * hair_sim_is_curved(sim) + 6 * is_by_thread(sim) + 12 * hair_crowd_is_on(sim) +
+               24 * (sim->ties.count > 0);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
@@ -95,6 +97,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->state);
     hair_gl_free_buffer(sim->gl, &sim->health);
     hair_gl_free_buffer(sim->gl, &sim->step);
+    hair_ties_free(sim);
     hair_sim_free_rods(sim);
 }
 
@@ -201,6 +204,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     hair_result             result = hair_sim_renew_rods(sim);
     hair_gl_pass            pass   = solver_pass(sim);
     int                     crowd  = hair_crowd_is_on(sim);
+    if (!result) result = hair_ties_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
     if (!result) result = hair_gl_need(sim->gl, pass);
     if (result) return result;
@@ -228,6 +232,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         uint32_t groups =
             is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
         if (crowd) hair_crowd_bind(sim);
+        if (sim->ties.count) hair_ties_bind(sim);
         hair_gl_run(sim->gl, pass, groups);
         if (crowd) hair_crowd_count(sim, count);
         done += count;
@@ -288,6 +293,7 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[1] = to->position[1] + (double)arm.y;
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
+    hair_ties_teleport(sim, &from, to);
     sim->crowd.beat = 0;              // What other hair does was found for how the head was turned.
     hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
     write_physics(sim, &params);

@@ -8,6 +8,7 @@
 #include "lib/groom/groom.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
+#include "lib/sim/ties.h"
 
 struct hair_sim {
     struct hair_gl*    gl;
@@ -31,6 +32,7 @@ struct hair_sim {
     struct hair_pose   head;          // where it is to be at the next
     struct hair_solids solids;
     struct hair_crowd  crowd;
+    struct hair_ties   ties;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
@@ -46,7 +48,8 @@ void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the gui
 
 // rods.c: what the solvers of rods need beside the state. `write` fills in their share of the parameters.
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
-hair_result hair_sim_renew_rods(struct hair_sim* sim); // if the physics have changed so
+hair_result hair_sim_renew_rods(struct hair_sim* sim); // if physics or what ties hold have changed so
+const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
 hair_result hair_sim_need_crowd(struct hair_sim* sim); // what physics with cohesion or volume take
 void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);

@@ -16,7 +16,8 @@ static int is_heavy(const struct hair_rod_shape* s)
 {
     double length = 0;
     for (uint32_t i = 0; i < s->count; ++i) length += s->length[i];
-    return s->held && s->mass[s->count - 1] > length; // As glsl/sim/rod.comp has it.
+    return s->held && !s->tied[s->count - 1] &&
+           s->mass[s->count - 1] > length; // As glsl/sim/rod.comp has it.
 }
 
 // Crosswise stiffness at vertices 1 to count - 2, times 2.

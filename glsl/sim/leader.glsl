@@ -1,0 +1,103 @@
+// leader.glsl - follow the leader: what always finds lengths, though not by the laws of motion.
+#define HEAVY_ROUNDS 6u
+#define TIED_ROUNDS 8u
+
+// Vertex k at its length from the one it follows, in the direction that it has from there.
+void draw_along(uint k, uint leader, float len, inout vec3 last)
+{
+    vec3  moved_leader = GET_AT(moved, leader), between = GET_AT(place, k) - GET_AT(place, leader);
+    vec3  to = between + (GET_AT(moved, k) - moved_leader);
+    float l  = length(to);
+    if (bits_of(l) < 0x7f800000u && l > 1e-3 * len) last = to / l;
+    PUT_AT(moved, k, moved_leader - between + len * last);
+}
+
+float length_of(uint k) { return rod[guide_first + k].segment.x; }
+
+// From one vertex on, whose place is right already, to another: each segment drawn after the one before it (Müller et
+// al. 2012).
+void draw_on(uint from, uint to, float more, inout vec3 last)
+{
+    for (uint k = from + 1u; k <= to; ++k) draw_along(k, k - 1u, more * length_of(k - 1u), last);
+}
+
+void draw_back(uint from, uint to, float more, inout vec3 last)
+{
+    for (uint k = from; k-- > to;) draw_along(k, k + 1u, more * length_of(k), last);
+}
+
+#ifdef HAIR_TIED
+
+// Both ends are where they are held: drawn after them in turn (Aristidou and Lasenby 2011); what then is left to the
+// far one is shared out along the span.
+void draw_span(vec4 span, inout vec3 last)
+{
+    uint  from = uint(span.x), to = uint(span.y);
+    vec3  goal = GET_AT(moved, to);
+    float more = given(span, (GET_AT(place, to) - GET_AT(place, from)) + (goal - GET_AT(moved, from))), done = 0.0;
+    for (uint n = 0u; n < TIED_ROUNDS; ++n) {
+        draw_on(from, to, more, last);
+        PUT_AT(moved, to, goal);
+        draw_back(to, from + 1u, more, last);
+    }
+    draw_on(from, to, more, last);
+    vec3 lacks = goal - GET_AT(moved, to);
+    for (uint k = from + 1u; k <= to; ++k) {
+        done += length_of(k - 1u);
+        vec3 at = GET_AT(moved, k) + (done / span.z) * lacks;
+        PUT_AT(moved, k, k == to ? goal : at);
+    }
+}
+
+void draw_strand()
+{
+    float number = rod[guide_first].factor.w;
+    vec3  last   = rotate(scalp, vec3(0.0, 1.0, 0.0));
+    uint  from   = 0u;
+    for (bool more = number > 0.0; more; number += 1.0) {
+        vec4 span = tie_span(number);
+        if (span.z > 0.0) draw_span(span, last);
+        else draw_back(uint(span.y), 0u, 1.0, last); // The root is free.
+        from = uint(span.y);
+        more = span.w > 0.0;
+    }
+    draw_on(from, guide_count - 1u, 1.0, last);
+}
+
+#else
+
+// A tip that outweighs its strand is not to be thrown about by it: first the strand is drawn after both ends in turn
+// (Aristidou and Lasenby 2011).
+void draw_strand()
+{
+    uint tip  = guide_count - 1u, rounds = heavy ? HEAVY_ROUNDS : 0u;
+    vec3 goal = GET_AT(moved, tip), last = rotate(scalp, vec3(0.0, 1.0, 0.0));
+    for (uint n = 0u;; ++n) {
+        draw_on(0u, tip, 1.0, last);
+        if (n == rounds) break;
+        PUT_AT(moved, tip, goal);
+        draw_back(tip, 1u, 1.0, last);
+    }
+}
+
+#endif
+
+// What that draws into solids is turned out of them, once.
+void follow_leader(vec3 head_moved)
+{
+    find_solids(head_moved);
+    for (uint n = 0u; n < (SOLIDS ? 2u : 1u); ++n) {
+        EACH(guide_count) {
+            vec4 freedom = vec4(0.0);
+            if (n == 0u) PUT(moved, own(wanted));
+            if (SOLIDS) {
+                if ((own(reachable).x | own(reachable).y) != 0u)
+                    PUT(moved, allowed(i, GET(moved), own(reachable), uvec2(0u), head_moved, freedom, own(met)));
+                own(touch) = vec4(0.0);
+            }
+        }
+        MEET;
+        ONCE { draw_strand(); }
+        MEET;
+    }
+}
