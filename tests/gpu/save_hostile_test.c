@@ -20,7 +20,8 @@ enum {
     POSES       = 80,
     HEAD        = POSES + 3 * 40,
     SOLIDS      = POSES + 4 * 40,
-    SOLID_BYTES = 72
+    SOLID_BYTES = 72,
+    TIE_BYTES   = 36
 };
 
 // As the library hashes, so that what is harmful looks undamaged.
@@ -34,7 +35,7 @@ static void seal(struct hair_test_blob* blob)
 
 #define CROWD 3 // the way in which hair feels the hair around it, and is saved within a block
 
-// Small, on its way, with two solids.
+// Small, on its way, with two solids; and with a tie where there is a crowd.
 static hair_instance* make_small(struct hair_test* test, int way)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -44,6 +45,8 @@ static hair_instance* make_small(struct hair_test* test, int way)
     subject.groom.followers = 8;
     if (way == CROWD) subject.physics.cohesion = 5, subject.physics.volume = 0.2f;
     hair_instance* hair = hair_test_subject_make(test, &subject);
+    hair_tie       tie  = {1, 2, HAIR_TIE_WORLD, {0.1f, 0.2f, 0.1f}};
+    if (way == CROWD) hair_test_ok(test, hair_set_ties(hair, &tie, 1, sizeof tie));
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_move(test, hair, &subject, 4);
     assert_int_equal(hair->sim.solids.now.count, 2);
@@ -129,10 +132,10 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     struct hair_test*            test = *state;
     hair_instance*               hair = make_small(test, 0);
     struct hair_test_blob        good = hair_test_save(test, hair);
-    // Solids now and before; then of every vertex its state, then its frame, and then its rates.
+    // Solids now and before, and no ties; then of every vertex its state, then its frame, and then its rates.
     size_t vertices = hair->sim.guide_vertices,
-           states   = SOLIDS + 8 + SOLID_BYTES * (hair->sim.solids.now.count + hair->sim.solids.before.count),
-           tip      = states + 32 * (vertices - 1);
+           states = SOLIDS + 12 + SOLID_BYTES * (hair->sim.solids.now.count + hair->sim.solids.before.count),
+           tip    = states + 32 * (vertices - 1);
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     assert_int_equal(rates + 32 * vertices + 4 + 8, good.size); // and where in the crowd's block it is
 
@@ -290,11 +293,12 @@ static void load_the_farthest(struct hair_test* test, int way)
     struct hair_test_blob blob   = hair_test_save(test, hair);
     size_t                pushes = hair->sim.crowd.beat ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
     size_t                beat   = blob.size - 8 - pushes - 4;
+    size_t                ties   = 4 + hair->sim.ties.count * TIE_BYTES;
     for (int sign = -1; sign <= 1; sign += 2) {
         for (int p = 0; p < 4; ++p)
             for (int k = 0; k < 3; ++k)
                 hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
-        for (size_t at = SOLIDS + 4 + 2 * (4 + 2 * SOLID_BYTES); at < blob.size - 8; at += 4)
+        for (size_t at = SOLIDS + 2 * (4 + 2 * SOLID_BYTES) + ties; at < blob.size - 8; at += 4)
             if (at != beat) hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
         assert_true(survives(test, hair, blob));
     }

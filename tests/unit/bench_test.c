@@ -59,7 +59,7 @@ static void wrong_use_exits_with_2(void** state)
         {"accuracy --json - --csv -", "standard output"},
         {"accuracy --json", "--help"},
         {"--dance", "--help"},
-        {"physics --quick --case energy", "under --quick are cantilever, pendulum"},
+        {"physics --quick --case energy", "under --quick are cantilever, catenary, pendulum"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[256];

@@ -1,5 +1,4 @@
-// physics.c - the suite `physics`: hair at rest and in motion against what is known of rods and chains. A catenary
-// is not among the cases: it needs both ends held, and the library holds roots only.
+// physics.c - the suite `physics`: hair at rest and in motion against what is known of rods and chains.
 #include "tools/bench/physics.h"
 
 #include <math.h>
@@ -34,6 +33,7 @@ json_t* bench_physics_row(struct bench_living* living, const char* name, double 
 static void run_suite(struct bench* bench)
 {
     bench_cantilever(bench);
+    bench_catenary(bench);
     bench_bend_twist(bench);
     bench_lateral_buckling(bench);
     bench_chain_modes(bench);

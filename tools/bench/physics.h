@@ -17,6 +17,7 @@ json_t* bench_physics_row(struct bench_living* living, const char* name, double 
 
 // physics_rest.c, physics_swing.c, physics_order.c, physics_same.c: the cases.
 void bench_cantilever(struct bench* bench);
+void bench_catenary(struct bench* bench);
 void bench_bend_twist(struct bench* bench);
 void bench_lateral_buckling(struct bench* bench);
 void bench_chain_modes(struct bench* bench);

@@ -1,4 +1,4 @@
-// physics_rest.c - hair at rest: the heavy cantilever; rods that leave their plane.
+// physics_rest.c - hair at rest: the heavy cantilever; the catenary; rods that leave their plane.
 #include "lib/reference/continuum.h"
 #include "tools/bench/physics.h"
 
@@ -59,6 +59,59 @@ void bench_cantilever(struct bench* bench)
             for (size_t i = 0; i < (quick ? 0 : ARRAY_SIZE(inclined) * ARRAY_SIZE(angles)); ++i)
                 measure_cantilever(bench, bench_rod_solvers[s], vertices, inclined[i / 2], angles[i % 2]);
         }
+}
+
+// Sag of a chain of length 1 between two ends at one height, `span` apart. With x half the span over the catenary's
+// parameter a, sinh(x) / x = 1 / span.
+static double catenary_sag(double span)
+{
+    double low = 1e-6, high = 700;
+    for (int i = 0; i < 200; ++i) {
+        double x = (low + high) / 2;
+        if (sinh(x) * span < x)
+            low = x;
+        else
+            high = x;
+    }
+    return span / (2 * low) * (cosh(low) - 1);
+}
+
+// A chain, hinged at its root and tied at its tip.
+static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t vertices, double span)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "catenary", method)) return;
+    const double        length = 0.3, along[3]                     = {sqrt(0.5), -sqrt(0.5), 0};
+    double              positions[3 * BENCH_MOST_VERTICES], lowest = 0;
+    struct bench_living living;
+    struct bench_scene  scene = bench_scene_default();
+    hair_tie            tie   = hair_tie_default();
+    bench_scene_straight(&scene, vertices, length, nowhere, along);
+    scene.solver          = solver;
+    scene.mapping         = bench->options.mapping;
+    scene.physics.damping = 6;
+    scene.physics.young   = 0;
+    scene.physics.root    = HAIR_ROOT_HINGED;
+    tie.position[0]       = (float)(span * length);
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "catenary", method);
+        return;
+    }
+    if (!hair_set_ties(living.hair, &tie, 1, sizeof tie) && bench_settle(&living, positions)) {
+        for (uint32_t i = 0; i < vertices; ++i) lowest = fmin(lowest, positions[3 * i + 1]);
+        bench_physics_row(&living, "catenary", catenary_sag(span), -lowest / length, 0.005,
+                          span < 0.6 ? "catenary of span 0.5, sag/L" : "catenary of span 0.8, sag/L");
+    } else
+        bench_refuse(bench, "catenary", method);
+    bench_die(&living);
+}
+
+void bench_catenary(struct bench* bench)
+{
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t vertices = 32; vertices <= (bench->options.quick ? 32 : 64); vertices *= 2)
+            for (int i = 0; i < 2; ++i)
+                measure_catenary(bench, bench_rod_solvers[s], vertices, i ? 0.8 : 0.5);
 }
 
 // Out of the plane ------------------------------------------------------------------------------------------
