@@ -82,18 +82,20 @@ hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* sh
 
 namespace
 {
+// How many triangles there are.
+struct counter : btTriangleCallback {
+    uint64_t count = 0;
+
+    void processTriangle(btVector3*, int, int) override { ++count; }
+};
+
 // Every triangle with vertices of its own.
 struct gatherer : btTriangleCallback {
-    hair_mesh* mesh   = nullptr;
-    uint32_t   passed = 0; // that there was no room for
+    hair_mesh* mesh = nullptr;
 
     void processTriangle(btVector3* triangle, int, int) override
     {
         const uint32_t first = mesh->vertex_count;
-        if (mesh->triangle_count >= MOST_TRIANGLES / 3) {
-            ++passed;
-            return;
-        }
         for (int k = 0; k < 3; ++k) mesh->add_vertex(triangle[k]);
         mesh->add_triangle(first, first + 1, first + 2);
     }
@@ -156,21 +158,33 @@ static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, co
     return print > 1 ? print : 2;
 }
 
+// The shape is remembered as one that makes no form, so that its triangles are not counted again.
+static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
+                          uint64_t print, uint64_t count)
+{
+    const hair_result result = hair_bullet_keep(bullet, shape, print, nullptr);
+    if (result) return result;
+    hair_log(&bullet->host, taking.is_quiet ? HAIR_LOG_WARNING : HAIR_LOG_ERROR,
+             "Bullet's shape %s of type %d has %llu triangles, more than %u: hair goes through it",
+             shape->getName(), shape->getShapeType(), static_cast<unsigned long long>(count),
+             MOST_TRIANGLES / 3);
+    return HAIR_ERROR_ARGUMENT;
+}
+
 static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
                         uint64_t print, const btVector3& lower, const btVector3& upper, const hair_form** out)
 {
+    counter triangles;
+    shape->processAllTriangles(&triangles, lower, upper);
+    if (triangles.count > MOST_TRIANGLES / 3) return refuse(bullet, shape, taking, print, triangles.count);
     hair_mesh mesh = {};
     mesh.host      = &bullet->host;
-    gatherer triangles;
-    triangles.mesh = &mesh;
-    shape->processAllTriangles(&triangles, lower, upper);
+    gatherer gatherer;
+    gatherer.mesh = &mesh;
+    shape->processAllTriangles(&gatherer, lower, upper);
     if (shape->getShapeType() == TERRAIN_SHAPE_PROXYTYPE)
         close_below(static_cast<const btHeightfieldTerrainShape*>(shape), &mesh);
     hair_result result = mesh.result;
-    if (!result && triangles.passed) {
-        hair_bullet_keep(bullet, shape, print, nullptr);
-        result = hair_bullet_wrong(bullet, shape, taking, "has more than 5592405 triangles");
-    }
     if (!result)
         result = hair_bullet_make_form(bullet, shape, print, mesh, 2 * static_cast<float>(shape->getMargin()),
                                        out);
