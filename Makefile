@@ -155,9 +155,9 @@ WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/none.c.o,$(B)/tools/bullet
 $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
-$(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
+$(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
 
 SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a

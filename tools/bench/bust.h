@@ -33,6 +33,9 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides);
 // Of finding hits, and leading followers round solids if that is asked for: ms, the median of some runs.
 bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* ms, uint32_t* runs);
 
+// world.c: rows of a Bullet world among whose many objects the hair is.
+void bench_measure_world(struct bench* bench);
+
 // From the nearest solid to a point, m, below 0 inside.
 double bench_bust_distance(const struct bench_bust* bust, const float at[3]);
 

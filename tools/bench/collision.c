@@ -26,9 +26,13 @@ static const char* const columns[] = {"case",
                                       "jump",
                                       "jump_of_strands",
                                       "dropped",
+                                      "solids",
+                                      "objects",
                                       "ms",
                                       "runs",
                                       "ratio",
+                                      "limit",
+                                      "pass",
                                       NULL};
 
 static const char* const names[] = {"push", "switch", "none"}; // In the order of hair_collision.
@@ -228,6 +232,7 @@ static void run_suite(struct bench* bench)
     measure_shoulders(bench, HAIR_COLLISION_PUSH);
     double compute = measure_first_hit(bench, HAIR_FIRST_HIT_COMPUTE, 0);
     measure_first_hit(bench, HAIR_FIRST_HIT_PREPASS, compute);
+    bench_measure_world(bench);
 }
 
 const struct bench_suite bench_collision = {

@@ -20,6 +20,7 @@ struct hair_world {
     std::vector<std::unique_ptr<btStridingMeshInterface>> meshes;
     std::vector<std::unique_ptr<btCollisionShape>>        shapes;
     std::vector<std::unique_ptr<btCollisionObject>>       objects;
+    std::vector<uint32_t>                                 moving; // of them
 
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher           dispatcher{&configuration};
@@ -163,15 +164,19 @@ static bool moves(const hair_scene_solid& body)
     return runs || body.key_count || !body.stays;
 }
 
-static void move(hair_world* world, float time, const float transform[16], bool all)
+static btTransform place_of(const hair_scene_solid& body, float time, const float transform[16])
 {
-    for (uint32_t i = 0; i < world->scene->bullet.count; ++i) {
-        const hair_scene_solid& body = world->scene->bullet.object[i].body;
-        if (!all && !moves(body)) continue;
-        hair_solid at = hair_scene_solid_at(&body, time);
-        if (!body.stays) hair_solid_carry(transform, 1, &at);
-        world->objects[i]->setWorldTransform(pose(at.position, at.rotation));
-        world->world.updateSingleAabb(world->objects[i].get());
+    hair_solid at = hair_scene_solid_at(&body, time);
+    if (!body.stays) hair_solid_carry(transform, 1, &at);
+    return pose(at.position, at.rotation);
+}
+
+static void move(hair_world* world, float time, const float transform[16])
+{
+    for (uint32_t i : world->moving) {
+        btCollisionObject* object = world->objects[i].get();
+        object->setWorldTransform(place_of(world->scene->bullet.object[i].body, time, transform));
+        world->world.updateSingleAabb(object);
     }
 }
 
@@ -191,16 +196,17 @@ static int try_objects(hair_world* world, const char* name)
 static int fill(hair_world* world, const char* name, const hair_host* host)
 {
     if (hair_bullet_create(host, sizeof(btScalar), &world->bullet)) return HAIR_EXIT_RUNTIME;
+    const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (uint32_t i = 0; i < world->scene->bullet.count; ++i) {
         const hair_bullet_object& from   = world->scene->bullet.object[i];
         auto                      object = std::make_unique<btCollisionObject>();
         object->setCollisionShape(make_shape(world, from.shape));
         object->setFriction(from.body.solid.friction);
+        object->setWorldTransform(place_of(from.body, 0, here));
+        if (moves(from.body)) world->moving.push_back(i);
         world->world.addCollisionObject(object.get());
         world->objects.push_back(std::move(object));
     }
-    const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    move(world, 0, here, true);
     return try_objects(world, name);
 }
 
@@ -230,7 +236,7 @@ hair_result hair_world_solids(hair_world* world, float time, const float transfo
 {
     *count = 0;
     if (!world) return HAIR_OK;
-    move(world, time, transform, false);
+    move(world, time, transform);
     hair_result result = hair_bullet_begin(world->bullet);
     if (!result) result = hair_bullet_take_world(world->bullet, &world->world, lower, upper, -1);
     *solids = hair_bullet_solids(world->bullet, count);
