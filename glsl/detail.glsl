@@ -3,7 +3,6 @@
 
 #define FEWEST_SEGMENTS 2.0
 #define GIVE 1.1     // hair may stretch, and stray from its guides
-#define STRAYS 3.6   // times frizz, as a share of their length: deviation() of follower.glsl
 #define HIDDEN_BY 0.3 // radii of the skull between the eye and what is hidden
 
 struct hair_detail {
@@ -53,7 +52,7 @@ hair_detail find_detail(uint guide, vec4 patch_)
     float share  = draw.strand_share, segments = max(most, 1.0);
     if (draw.pixels_per_unit > 0.0) {
         vec3  root  = guide_at(guide, 0u);
-        float reach = GIVE * patch_.x + STRAYS * draw.frizz * patch_.y;
+        float reach = GIVE * draw.strand.most_width * patch_.x + draw.strand.most_stray * patch_.y + draw.strand.most_aside;
         float scale = max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
                                                       pixels_per_metre(guide_at(guide, draw.smooth_vertices - 1u))));
         float size  = scale * patch_.z;

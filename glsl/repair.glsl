@@ -6,19 +6,9 @@
 //
 // `repair_control` gives control point i of the strand whose first is at `first`: away in xyz, freed in w. That at 0,
 // whose place is the root's, has in x how much longer a stretch of the curve is drawn, in place of away.
+#include "spline.glsl"
+
 vec4 repair_control(int first, int i);
-
-vec4 spline(float x)
-{
-    float s = 1.0 - x;
-    return vec4(s * s * s, 4.0 + x * x * (3.0 * x - 6.0), 1.0 + x * (3.0 + x * (3.0 - 3.0 * x)), x * x * x) / 6.0;
-}
-
-vec4 spline_slope(float x)
-{
-    float s = 1.0 - x;
-    return 0.5 * vec4(-s * s, x * (3.0 * x - 4.0), 1.0 + x * (2.0 - 3.0 * x), x * x);
-}
 
 // Interval of t, and the share of it that lies before t.
 int spline_place(float t, out float x)

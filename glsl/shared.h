@@ -108,6 +108,8 @@ typedef uint32_t hair_uint;
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_PATCH_TEXELS 4
 #define HAIR_MAP_SETS 4 // of a groom, at most
+#define HAIR_CURVE_INTERVALS 7 // of a curve along a strand
+#define HAIR_TURN_PLACES 16    // that a turn of a curl is given at
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
 #define HAIR_SOLID_TEXELS 6
@@ -349,6 +351,42 @@ struct hair_field_brick {
 };
 HAIR_SIZE(hair_field_brick, 16)
 
+// A cubic over an interval: c.x + x (c.y + x (c.z + x c.w)), x from 0 to 1.
+struct hair_cubic {
+    hair_vec4 c;
+};
+HAIR_SIZE(hair_cubic, 16)
+
+// The curves of a look along a strand.
+#define HAIR_CURVE_TAPER 0
+#define HAIR_CURVE_CLUMP 1
+#define HAIR_CURVE_CLUMP_WIDTH 2
+#define HAIR_CURVE_TIP_STRAY 3
+#define HAIR_CURVE_STRAY 4
+#define HAIR_CURVE_FRIZZ 5
+#define HAIR_CURVE_CURL 6
+#define HAIR_CURVES 7
+
+// What a look makes of a strand's way, as hair_look has it.
+struct hair_strand_look {
+    HAIR_STRUCT(hair_cubic) curve[HAIR_CURVES * HAIR_CURVE_INTERVALS]; // of each its intervals
+    HAIR_STRUCT(hair_cubic) loop[2 * HAIR_TURN_PLACES]; // a turn of a curl of radius 1: x, then z, by intervals
+    float tip_strays, strays;
+    float kinks; // 1/m
+    float drawn; // share
+    float thinning;
+    float curl_radius; // m
+    float curl_waves;  // 1/m
+    float curl_turns;
+    float curl_lock_phase, curl_phase, curl_spread, curl_left;
+    // The most that all this makes of how far a strand gets.
+    float     most_stray; // in lengths
+    float     most_aside; // m
+    float     most_width; // multiple of what its offsets are; 1 or more
+    hair_uint unused;
+};
+HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_PLACES) * 16 + 64)
+
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
     hair_mat4 view; // to view space
@@ -362,9 +400,6 @@ struct hair_draw_params {
     hair_vec4 tip_color;  // rgb
     hair_vec4 specular;   // strengths of both highlights, their exponents
     float     radius;     // m
-    float     tip_radius; // share
-    float     clump;
-    float     frizz;
     float     density;
     hair_uint segments;
     hair_uint smooth_vertices;
@@ -374,6 +409,7 @@ struct hair_draw_params {
     hair_uint collision; // hair_collision
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
+    hair_uint unused0, unused1, unused2;
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m
@@ -386,7 +422,8 @@ struct hair_draw_params {
     float     segment_pixels;  // wanted
     float     least_share;
     float     hidden_share; // as a multiple, of strands behind the skull
+    HAIR_STRUCT(hair_strand_look) strand;
 };
-HAIR_SIZE(hair_draw_params, 4 * 64 + 9 * 16 + 80)
+HAIR_SIZE(hair_draw_params, 4 * 64 + 9 * 16 + 80 + sizeof(struct hair_strand_look))
 
 #endif

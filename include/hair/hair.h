@@ -317,7 +317,33 @@ typedef enum hair_collision {
     HAIR_COLLISION_NONE      ///< They go through.
 } hair_collision;
 
-/// How hair looks.
+/// A number along a strand, smooth and without going beyond its neighbours: at[i] at i/7 of the length from the root.
+typedef struct hair_curve {
+    float at[8];
+} hair_curve;
+
+/// The curve that goes evenly from one number to another.
+static inline hair_curve hair_curve_line(float root, float tip)
+{
+    hair_curve curve;
+    for (int i = 0; i < 8; ++i) curve.at[i] = root + (tip - root) * (float)i / 7;
+    return curve;
+}
+
+/// What followers between guides are made of. Those that a groom of full strands binds have one guide each.
+typedef enum hair_interpolation {
+    HAIR_INTERPOLATION_MIXED = 0, ///< Both of the below, by hair_look.clump along the strand.
+    HAIR_INTERPOLATION_SINGLE, ///< Tariq 2010: offsets from one guide, in its frame. Locks, at worst ropes.
+    HAIR_INTERPOLATION_MULTI   ///< Tariq 2010: the weighted mean of three guides. Full and even.
+} hair_interpolation;
+
+typedef enum hair_curls {
+    HAIR_CURLS_HELIX = 0, ///< A circle a turn.
+    HAIR_CURLS_EXAMPLE    ///< curl_x and curl_z: see hair_look_curl_like.
+} hair_curls;
+
+/// How hair looks. What strays, kinks and curls is off where its share, curve or radius is 0, and costs nothing then. A
+/// curve that is not 0 at the root takes it off the scalp.
 typedef struct hair_look {
     hair_made made;
     float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.06, 0.027, 0.012).
@@ -326,12 +352,35 @@ typedef struct hair_look {
     float     specular[2]; ///< Strength of the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
     float     gloss[2];    ///< Their exponents. [1, 1000]. Default (60, 15).
     float     radius;      ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
-    float     tip_radius;  ///< At the tip, as a share of that. [0, 1]. Default 0.5.
-    float     clump;       ///< How far tips gather around their guide. [0, 1]. Default 0.6.
-    float     frizz;       ///< Strands' own deviation, share of their length. [0, 0.2]. Default 0.01.
-    float     absorption;  ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
-    float     density;     ///< Share of the followers drawn. [0, 1]. Default 1.
-    uint32_t  segments;    ///< Line segments of a drawn strand. [1, 256]. Default 32.
+    hair_curve taper;  ///< As a share of that. [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
+    float      length; ///< Share of every strand that is drawn, cut off beyond. [0.01, 1]. Default 1.
+    float      thinning; ///< The most by which strands are shorter at random, as a share. [0, 1]. Default 0.
+    hair_interpolation interpolation; ///< Default HAIR_INTERPOLATION_MIXED.
+    hair_curve clump;       ///< 0 multi, 1 single. [0, 1]. Default (0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6).
+    hair_curve clump_width; ///< Offsets from one guide, as a multiple. [0, 4]. Default 1.
+    float      tip_strays;  ///< Share of the strands that stray near their tips. [0, 1]. Default 0.3.
+    hair_curve tip_stray; ///< How far, in lengths. [0, 1]. Default (0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025).
+    float      strays;    ///< Share of the strands that stray all along. [0, 1]. Default 0.1.
+    hair_curve stray; ///< How far, in lengths. [0, 1]. Default (0, 0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02).
+    hair_curve frizz; ///< How far every strand kinks. m. [0, 0.1]. Default 0.
+    float      kink;  ///< From one of its kinks to the next. m. [0.001, 1]. Default 0.015.
+    /// Strands turn about the way they would go, in the frame that their guide carries: what they reach stays, and the
+    /// strand that is drawn is longer. Turns need some eight `segments` each.
+    float      curl_radius;  ///< Of curls or waves. m. [0, 0.1]. Default 0.
+    hair_curve curl_profile; ///< Along the strand, a multiple. [0, 2]. Default (0, 0.6, 0.9, 1, 1, 1, 1, 1).
+    float      curl_wavelength; ///< Along the strand, of a turn. m. [0.001, 10]. Default 0.05.
+    float      curl_turns;      ///< Beside those, turns from root to tip. [0, 100]. Default 0.
+    float      curl_flatness;   ///< From 0, a helix, to 1, a wave in a plane. [0, 1]. Default 0.
+    float      curl_left;       ///< Share of the guides whose strands turn to the left. [0, 1]. Default 0.
+    float      curl_lock_phase; ///< How far apart guides are in their turns. Turns. [0, 1]. Default 1.
+    float      curl_phase;      ///< The same of the strands of one guide. Turns. [0, 1]. Default 0.1.
+    float      curl_spread;     ///< Relative spread of radius and length of turns. [0, 0.9]. Default 0.1.
+    hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
+    float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
+    float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
+    float absorption; ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
+    float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
+    uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
     float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
 } hair_look;

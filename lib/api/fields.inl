@@ -1,5 +1,16 @@
 // fields.inl - every number of every desc: struct, member, type, default, least, most. Read by lib/api/fields.c
 // for the defaults, the checks and the error sentences; a test holds the comments of the headers to it.
+#define CURVE(S, member, a, b, c, d, e, f, g, h, min, max) \
+    FIELD(S, member.at[0], FLOAT, a, min, max) FIELD(S, member.at[1], FLOAT, b, min, max) \
+    FIELD(S, member.at[2], FLOAT, c, min, max) FIELD(S, member.at[3], FLOAT, d, min, max) \
+    FIELD(S, member.at[4], FLOAT, e, min, max) FIELD(S, member.at[5], FLOAT, f, min, max) \
+    FIELD(S, member.at[6], FLOAT, g, min, max) FIELD(S, member.at[7], FLOAT, h, min, max)
+#define FOUR(S, member, a, b, c, d, min, max) \
+    FIELD(S, member[a], FLOAT, 0, min, max) FIELD(S, member[b], FLOAT, 0, min, max) \
+    FIELD(S, member[c], FLOAT, 0, min, max) FIELD(S, member[d], FLOAT, 0, min, max)
+#define TURN(S, member, min, max) \
+    FOUR(S, member, 0, 1, 2, 3, min, max) FOUR(S, member, 4, 5, 6, 7, min, max) \
+    FOUR(S, member, 8, 9, 10, 11, min, max) FOUR(S, member, 12, 13, 14, 15, min, max)
 BEGIN(hair_import)
 FIELD(hair_import, scale, FLOAT, 1, 1e-6, 1e6)
 FIELD(hair_import, up, UINT, HAIR_UP_Y, 0, HAIR_UP_X)
@@ -78,9 +89,30 @@ FIELD(hair_look, specular[1], FLOAT, 0.5, 0, 4)
 FIELD(hair_look, gloss[0], FLOAT, 60, 1, 1000)
 FIELD(hair_look, gloss[1], FLOAT, 15, 1, 1000)
 FIELD(hair_look, radius, FLOAT, 1.5e-4, 1e-6, 0.01)
-FIELD(hair_look, tip_radius, FLOAT, 0.5, 0, 1)
-FIELD(hair_look, clump, FLOAT, 0.6, 0, 1)
-FIELD(hair_look, frizz, FLOAT, 0.01, 0, 0.2)
+CURVE(hair_look, taper, 1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5, 0, 4)
+FIELD(hair_look, length, FLOAT, 1, 0.01, 1)
+FIELD(hair_look, thinning, FLOAT, 0, 0, 1)
+FIELD(hair_look, interpolation, UINT, HAIR_INTERPOLATION_MIXED, 0, HAIR_INTERPOLATION_MULTI)
+CURVE(hair_look, clump, 0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6, 0, 1)
+CURVE(hair_look, clump_width, 1, 1, 1, 1, 1, 1, 1, 1, 0, 4)
+FIELD(hair_look, tip_strays, FLOAT, 0.3, 0, 1)
+CURVE(hair_look, tip_stray, 0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025, 0, 1)
+FIELD(hair_look, strays, FLOAT, 0.1, 0, 1)
+CURVE(hair_look, stray, 0, 0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02, 0, 1)
+CURVE(hair_look, frizz, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1)
+FIELD(hair_look, kink, FLOAT, 0.015, 0.001, 1)
+FIELD(hair_look, curl_radius, FLOAT, 0, 0, 0.1)
+CURVE(hair_look, curl_profile, 0, 0.6, 0.9, 1, 1, 1, 1, 1, 0, 2)
+FIELD(hair_look, curl_wavelength, FLOAT, 0.05, 0.001, 10)
+FIELD(hair_look, curl_turns, FLOAT, 0, 0, 100)
+FIELD(hair_look, curl_flatness, FLOAT, 0, 0, 1)
+FIELD(hair_look, curl_left, FLOAT, 0, 0, 1)
+FIELD(hair_look, curl_lock_phase, FLOAT, 1, 0, 1)
+FIELD(hair_look, curl_phase, FLOAT, 0.1, 0, 1)
+FIELD(hair_look, curl_spread, FLOAT, 0.1, 0, 0.9)
+FIELD(hair_look, curls, UINT, HAIR_CURLS_HELIX, 0, HAIR_CURLS_EXAMPLE)
+TURN(hair_look, curl_x, -1, 1)
+TURN(hair_look, curl_z, -1, 1)
 FIELD(hair_look, absorption, FLOAT, 200, 0, 10000)
 FIELD(hair_look, density, FLOAT, 1, 0, 1)
 FIELD(hair_look, segments, UINT, 32, 1, 256)
@@ -141,3 +173,6 @@ FIELD(hair_style_desc, seed, UINT, 1, 0, UINT32_MAX)
 END(hair_style_desc)
 BEGIN(hair_asset_info)
 END(hair_asset_info)
+#undef CURVE
+#undef FOUR
+#undef TURN

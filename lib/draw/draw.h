@@ -32,8 +32,10 @@ void        hair_draw_free_hits(struct hair_draw* draw);
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
 void        hair_draw_run_prepass(struct hair_draw* draw);
 void        hair_draw_patches(struct hair_draw* draw); // all of them, with the program that is current
-// The program of `pass` that heeds what was found, if there was a solid.
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+// The program of `pass` that the look asks for; and of a pass that draws or expands, that heeds what was found where there was
+// a solid.
+hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
+hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture);
 

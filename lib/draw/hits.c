@@ -10,7 +10,7 @@
 static hair_gl_pass pass_of(const struct hair_draw* draw)
 {
     if (draw->hits.prepass) return HAIR_GL_PREPASS_HIT;
-    return draw->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP;
+    return hair_draw_styled(draw, draw->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP);
 }
 
 static hair_result make(struct hair_draw* draw)
@@ -31,7 +31,7 @@ static hair_result make(struct hair_draw* draw)
         result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, hits->repair, &hits->repair_texture);
     if (!result) result = hair_gl_need(gl, pass_of(draw));
     if (!result && hits->prepass) result = hair_draw_make_prepass(draw);
-    if (!result && pushes) result = hair_gl_need(gl, HAIR_GL_REPAIR);
+    if (!result && pushes) result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
     return result;
 }
 
@@ -64,15 +64,16 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    hair_gl_pass pass = pass_of(draw);
-    if (pass == HAIR_GL_HIT_GROUP) {
+    uint32_t groups   = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    int      by_group = !hits->prepass && !gl->software;
+    if (by_group) {
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     }
-    uint32_t groups = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
-    hair_gl_run(gl, pass, pass == HAIR_GL_HIT_GROUP ? draw->followers : groups);
+    hair_gl_run(gl, pass_of(draw), by_group ? draw->followers : groups);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
-        hair_gl_run(gl, HAIR_GL_REPAIR, (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
+        hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
+                    (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }
 
 int hair_draw_has_met_solids(const struct hair_draw* draw, const struct hair_smooth* smooth)
@@ -95,6 +96,12 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
     return HAIR_OK;
 }
 
+// Of a FOLLOWER_PASS.
+hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
+{
+    return hair_look_is_styled(&draw->look) ? pass + 1 : pass;
+}
+
 hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
 {
     static const hair_gl_pass with_hits[] = {
@@ -104,7 +111,8 @@ hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
         [HAIR_GL_DEPTH_LINES]   = HAIR_GL_DEPTH_LINES_HITS,
         [HAIR_GL_DEPTH_RIBBONS] = HAIR_GL_DEPTH_RIBBONS_HITS,
     };
-    if (!draw->hits.active || *pass == HAIR_GL_GUIDES) return HAIR_OK;
-    *pass = with_hits[*pass];
+    if (*pass == HAIR_GL_GUIDES) return HAIR_OK;
+    if (draw->hits.active) *pass = with_hits[*pass];
+    *pass = hair_draw_styled(draw, *pass);
     return hair_gl_need(draw->gl, *pass);
 }

@@ -87,9 +87,6 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->tip_color       = (hair_vec4){look->tip_color[0], look->tip_color[1], look->tip_color[2], 0};
     out->specular        = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
     out->radius          = look->radius;
-    out->tip_radius      = look->tip_radius;
-    out->clump           = look->clump;
-    out->frizz           = look->frizz;
     out->density         = look->density;
     out->segments        = look->segments;
     out->colored         = view && view->pass == HAIR_PASS_COLOR;
@@ -98,4 +95,5 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->collision       = look->collision;
     out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
     hair_draw_write_detail(draw, head, view, out);
+    hair_draw_write_strand(look, &out->strand);
 }

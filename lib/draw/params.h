@@ -11,5 +11,13 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
 // detail.c: of them what is about the level of detail. Those about the view are there.
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
+// strand.c: of the above, what a look makes of a strand's way; and how far it takes it from there at most, in its lengths
+// and, beside that, in m.
+void  hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out);
+float hair_look_most_stray(const hair_look* look);
+float hair_look_most_aside(const hair_look* look);
+float hair_curve_most(const hair_curve* curve);
+// Whether it kinks, curls or cuts strands, which takes programs of its own.
+int hair_look_is_styled(const hair_look* look);
 
 #endif

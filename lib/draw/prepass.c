@@ -29,7 +29,7 @@ hair_result hair_draw_make_prepass(struct hair_draw* draw)
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
                          "the driver has no framebuffer of %u by %d for hair hits", HAIR_HIT_COLUMNS,
                          (int)rows);
-    return hair_gl_need(gl, HAIR_GL_PREPASS);
+    return hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_PREPASS));
 }
 
 struct saved {
@@ -102,9 +102,10 @@ void hair_draw_run_prepass(struct hair_draw* draw)
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->hits.frame);
     gl->ViewportIndexedf(0, 0, 0, HAIR_HIT_COLUMNS, (GLfloat)rows);
     gl->BindVertexArray(gl->vertex_array);
-    hair_gl_begin(gl, HAIR_GL_PREPASS);
+    hair_gl_pass pass = hair_draw_styled(draw, HAIR_GL_PREPASS);
+    hair_gl_begin(gl, pass);
     hair_draw_patches(draw);
-    hair_gl_end(gl, HAIR_GL_PREPASS);
+    hair_gl_end(gl, pass);
     leave(gl, &saved);
     gl->BindSampler(HAIR_UNIT_SHADOW, 0);
     gl->BindTextureUnit(HAIR_UNIT_SHADOW, draw->hits.image);

@@ -61,7 +61,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass but those of GUIDE_PASS, of the crowd and of hits that nothing has needed; those that fail keep the
+// Compile every pass but those of GUIDE_PASS, of the crowd, of hits and of styles that nothing has needed; those that fail keep the
 // program they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 

@@ -30,6 +30,12 @@
     ROD_PASS_IN(name, label, defines) \
     ROD_PASS_IN(name##_TIED, label "_tied", "HAIR_TIED=1 " defines)
 
+// A pass that evaluates followers is two programs: as they go, and where the look kinks, curls or cuts them. The second is
+// made when a look first does.
+#define FOLLOWER_PASS(name, label, stages) \
+    PASS(name, label, stages) \
+    PASS(name##_STYLED, label "_styled", "HAIR_STYLED=1 " stages)
+
 PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
 PASS(VOXELISE_FORMS, "field/voxelise_forms", "HAIR_FORMS=1 field/voxelise.comp")
 PASS(RESET, "sim/reset", "sim/reset.comp")
@@ -45,26 +51,27 @@ ROD_PASS(ACCURATE_STIFF, "sim/accurate_stiff", "HAIR_SOLVER=0 HAIR_STIFF=1 ")
 ROD_PASS(FOLLOW, "sim/follow", "HAIR_SOLVER=3 ")
 GUIDE_PASS(REDBLACK, "sim/redblack", "sim/redblack.comp")
 GUIDE_PASS(SMOOTH, "interpolate/smooth", "interpolate/smooth.comp")
-PASS(EXPAND, "interpolate/expand", "interpolate/expand.comp")
-PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
-PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
-PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
-PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+FOLLOWER_PASS(EXPAND, "interpolate/expand", "interpolate/expand.comp")
+FOLLOWER_PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
+FOLLOWER_PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
+FOLLOWER_PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
+FOLLOWER_PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
 PASS(SOLIDS, "draw/solids", "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
 // The same where followers have met solids: made when they first do.
-PASS(EXPAND_HITS, "interpolate/expand_hits", "HAIR_HITS=1 interpolate/expand.comp")
-PASS(RIBBONS_HITS, "draw/ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
-PASS(LINES_HITS, "draw/lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
-PASS(DEPTH_RIBBONS_HITS, "draw/depth_ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
-PASS(DEPTH_LINES_HITS, "draw/depth_lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
-PASS(HIT, "interpolate/hit", "HAIR_FINDS_HITS=1 interpolate/hit.comp")
-PASS(HIT_GROUP, "interpolate/hit_group", "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_GROUP_PER_FOLLOWER=1 interpolate/hit.comp")
-PASS(PREPASS, "interpolate/hit_prepass", "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
+FOLLOWER_PASS(EXPAND_HITS, "interpolate/expand_hits", "HAIR_HITS=1 interpolate/expand.comp")
+FOLLOWER_PASS(RIBBONS_HITS, "draw/ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
+FOLLOWER_PASS(LINES_HITS, "draw/lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
+FOLLOWER_PASS(DEPTH_RIBBONS_HITS, "draw/depth_ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
+FOLLOWER_PASS(DEPTH_LINES_HITS, "draw/depth_lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+FOLLOWER_PASS(HIT, "interpolate/hit", "HAIR_FINDS_HITS=1 interpolate/hit.comp")
+FOLLOWER_PASS(HIT_GROUP, "interpolate/hit_group", "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_GROUP_PER_FOLLOWER=1 interpolate/hit.comp")
+FOLLOWER_PASS(PREPASS, "interpolate/hit_prepass", "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
 PASS(PREPASS_HIT, "interpolate/hit_gather", "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 interpolate/hit.comp")
-PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
+FOLLOWER_PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
+#undef FOLLOWER_PASS
 #undef ROD_PASS
 #undef ROD_PASS_IN
 #undef ROD_PASS_BY

@@ -137,7 +137,8 @@ static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
 static int is_optional(hair_gl_pass pass)
 {
     const char* stages = passes[pass].stages;
-    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") || strstr(stages, "HITS=");
+    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") || strstr(stages, "HITS=") ||
+           strstr(stages, "HAIR_STYLED=");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)

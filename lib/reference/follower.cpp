@@ -1,5 +1,5 @@
 // follower.cpp - where a follower is, by the formula that glsl/shared.h gives with its struct.
-#include "lib/reference/convert.h"
+#include "lib/reference/strand.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,25 +7,10 @@
 namespace
 {
 
-const double two_pi = 6.283185307179586;
-
-// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering": pcg.
-uint32_t hash(uint32_t seed)
-{
-    const uint32_t state = seed * 747796405u + 2891336453u;
-    const uint32_t word  = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-double random(uint32_t seed)
-{
-    return (hash(seed) >> 8) / 16777216.0;
-}
-
 struct place {
-    Vector3d    position, tangent;
+    Vector3d    position, tangent, bend; // bend: slope of the tangent by u
     Quaterniond frame;
-    double      to_root;
+    double      length; // of the guide
 };
 
 // Between samples everything is linear; beyond the tip (u > 1) the guide goes on straight.
@@ -39,24 +24,12 @@ place find(const hair_reference_sample* samples, uint32_t count, double u)
     if (qa.dot(qb) < 0) qb.coeffs() *= -1;
     place p;
     p.tangent  = direction_of((1 - w) * vector_of(a.tangent) + w * vector_of(b.tangent));
+    p.bend     = (count - 1) * (vector_of(b.tangent) - vector_of(a.tangent)) * (u < 1 ? 1 : 0);
     p.frame    = Quaterniond((1 - w) * qa.coeffs() + w * qb.coeffs()).normalized();
-    p.to_root  = (1 - w) * a.to_root + w * b.to_root;
+    p.length   = samples[count - 1].to_root;
     p.position = (1 - w) * vector_of(a.position) + w * vector_of(b.position);
-    if (u > 1) {
-        const double more = (u - 1) * b.to_root;
-        p.position += more * p.tangent;
-        p.to_root += more;
-    }
+    if (u > 1) p.position += (u - 1) * p.length * p.tangent;
     return p;
-}
-
-// Two slow waves across the strand, which begin at the root and of which a few strands have much.
-Vector3d deviation(uint32_t seed, double frizz, double t)
-{
-    const double r[4]  = {random(seed), random(seed + 1), random(seed + 2), random(seed + 3)};
-    const double share = frizz * std::pow(t, 1.5) * (0.3 + 2.2 * r[3] * r[3]);
-    return share * Vector3d(std::sin(two_pi * (r[0] + t * (0.6 + 1.4 * r[2]))), 0,
-                            std::sin(two_pi * (r[1] + t * (0.6 + 1.4 * r[3]))));
 }
 
 struct bezier {
@@ -73,10 +46,17 @@ bezier evaluate(const hair_vec4 control[4], double t)
     return {p[0] + t * (p[1] - p[0]), 3 * (p[1] - p[0])};
 }
 
-double smoothstep(double from, double to, double t)
+// The part of a curve from its start to `share` of it: its control points are what de Casteljau finds on the way.
+void cut(hair_follower& f, double share)
 {
-    const double x = std::min(std::max((t - from) / (to - from), 0.0), 1.0);
-    return x * x * (3 - 2 * x);
+    Vector3d p[4];
+    for (int i = 0; i < 4; ++i) p[i] = vector_of(f.offset[i]);
+    for (int level = 1; level < 4; ++level) {
+        for (int i = 3; i >= level; --i) p[i] = (1 - share) * p[i - 1] + share * p[i];
+    }
+    for (int i = 0; i < 4; ++i)
+        f.offset[i].x = float(p[i].x()), f.offset[i].y = float(p[i].y()), f.offset[i].z = float(p[i].z());
+    f.length_ratio = float(f.length_ratio * share);
 }
 
 } // namespace
@@ -117,41 +97,46 @@ void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], doubl
     }
 }
 
-void hair_reference_follower(const hair_follower* f, const hair_draw_params* draw,
+void hair_reference_follower(const hair_follower* follower, const hair_look* look, uint32_t count,
                              const hair_reference_sample* samples, double t,
                              const hair_reference_repair* repair, hair_reference_point* out)
 {
-    static const hair_reference_repair none     = {};
-    const hair_reference_repair&       r        = repair ? *repair : none;
-    const uint32_t                     count    = draw->smooth_vertices;
-    const uint32_t                     guide[3] = {f->guide0, f->guide1, f->guide2};
-    const double   weight[3] = {1 - double(f->weight1) - f->weight2, f->weight1, f->weight2};
-    const double   u         = t * f->length_ratio;
-    const double   v         = std::min(t, 1.0); // What is the strand's own ends with it.
-    const place    own       = find(samples + size_t(guide[0]) * count, count, u);
-    const double   length    = std::max(own.to_root / std::max(t, 1e-3), 1e-6);
-    const bezier   offset    = evaluate(f->offset, v);
-    const Vector3d waves     = length * deviation(f->seed, draw->frizz, v);
+    static const hair_reference_repair none = {};
+    const hair_reference_repair&       r    = repair ? *repair : none;
+    hair_follower                      own  = *follower;
+    cut(own, hair_reference_share(*look, own.seed));
+    const uint32_t guide[3]  = {own.guide0, own.guide1, own.guide2};
+    const double   weight[3] = {1 - double(own.weight1) - own.weight2, own.weight1, own.weight2};
+    const double   ratio = own.length_ratio, u = t * ratio, v = std::min(t, 1.0);
+    const place    first  = find(samples + size_t(guide[0]) * count, count, u);
+    const double   length = ratio * first.length;
+    const bezier   offset = evaluate(own.offset, v);
+    const along    width  = hair_reference_curve(look->clump_width, v);
+    const along    single = hair_reference_singleness(*look, v);
 
-    Vector3d position = own.position + own.frame * (offset.point + waves);
-    Vector3d tangent  = own.tangent + own.frame * offset.slope / length;
-
-    const double clumped = f->multi * (1 - draw->clump * smoothstep(0.1, 1, v));
-    const double multi   = clumped * (1 - r.freed);
-    if (multi > 0) {
-        Vector3d middle = own.frame * (Vector3d(f->offset[1].w, f->offset[2].w, f->offset[3].w) + waves);
-        Vector3d along(0, 0, 0);
-        for (int i = 0; i < 3; ++i) {
-            const place p = find(samples + size_t(guide[i]) * count, count, u);
-            middle += weight[i] * p.position;
-            along += weight[i] * p.tangent;
-        }
-        tangent =
-            (1 - multi) * tangent + multi * along - clumped * r.freed_slope / length * (middle - position);
-        position = (1 - multi) * position + multi * middle;
+    // One guide: its offset. Three: their mean, and a fixed offset of it from where the strand grows.
+    const Vector3d aside_one  = width.value * offset.point;
+    const Vector3d slope_one  = width.value * offset.slope + width.slope * offset.point;
+    const Vector3d aside_many = Vector3d(own.offset[1].w, own.offset[2].w, own.offset[3].w);
+    Vector3d       mean(0, 0, 0), mean_slope(0, 0, 0);
+    for (int i = 0; i < 3; ++i) {
+        const place p = find(samples + size_t(guide[i]) * count, count, u);
+        mean += weight[i] * p.position;
+        mean_slope += weight[i] * ratio * p.length * p.tangent;
     }
-    const double taper = 1 + v * v * (double(draw->tip_radius) - 1);
+    const double many = own.multi * (1 - single.value) * (1 - r.freed);
+    const double many_slope =
+        -own.multi * (single.slope * (1 - r.freed) + (1 - single.value) * r.freed_slope);
+    const astray   stray       = hair_reference_astray(*look, own.guide0, own.seed, v, length);
+    const Vector3d local       = (1 - many) * aside_one + many * aside_many + stray.at;
+    const Vector3d local_slope = (1 - many) * slope_one + many_slope * (aside_many - aside_one) + stray.slope;
+    const Vector3d turned      = first.frame * local;
+
+    const Vector3d position = (1 - many) * first.position + many * mean + turned;
+    const Vector3d slope    = (1 - many) * length * first.tangent + many * mean_slope +
+                           many_slope * (mean - first.position) + first.frame * local_slope -
+                           ratio * first.bend.dot(turned) * first.tangent;
     store(position + Vector3d(r.away), out->position);
-    store(direction_of(tangent + Vector3d(r.away_slope) / length), out->tangent);
-    out->radius = double(draw->radius) * f->offset[0].w * taper;
+    store(direction_of(slope + Vector3d(r.away_slope)), out->tangent);
+    out->radius = double(look->radius) * own.offset[0].w * hair_reference_curve(look->taper, v).value;
 }

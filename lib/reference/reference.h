@@ -8,6 +8,8 @@
 #ifndef HAIR_REFERENCE_REFERENCE_H
 #define HAIR_REFERENCE_REFERENCE_H
 
+#include <hair/hair.h>
+
 #include "glsl/shared.h"
 
 #ifdef __cplusplus
@@ -74,7 +76,7 @@ void hair_reference_hermite(const double a[3], const double slope_a[3], const do
 void hair_reference_smooth(struct hair_reference_guide guide, const struct hair_reference_vertex* state,
                            struct hair_reference_sample* samples);
 
-// follower.cpp ----------------------------------------------------------------------------------------------
+// follower.cpp, strand.cpp ----------------------------------------------------------------------------------------------
 
 struct hair_reference_point {
     double position[3];
@@ -95,9 +97,9 @@ void hair_reference_switch(double t, double hit, struct hair_reference_repair* o
 void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], double t,
                            struct hair_reference_repair* out);
 
-/// A follower at t from 0 (root) to 1 (tip), beyond 1 straight on. `samples`: of all guides, draw->smooth_vertices
-/// each. `repair`: NULL: none.
-void hair_reference_follower(const struct hair_follower* follower, const struct hair_draw_params* draw,
+/// A follower at t from 0 (root) to 1 (tip), beyond 1 straight on. `samples`: of all guides, `count` each. `repair`: NULL:
+/// none.
+void hair_reference_follower(const struct hair_follower* follower, const hair_look* look, uint32_t count,
                              const struct hair_reference_sample* samples, double t,
                              const struct hair_reference_repair* repair, struct hair_reference_point* out);
 

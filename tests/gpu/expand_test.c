@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lib/api/api.h"
+#include "lib/base/math.h"
 #include "lib/reference/reference.h"
 #include "tests/support/handmade.h"
 
@@ -16,6 +17,7 @@ struct fixture {
     hair_groom*                   groom;
     hair_instance*                hair;
     struct hair_reference_sample* samples;
+    double                        longest; // of the guides, m
 };
 
 // Guides in disorder, smoothed on the GPU and by the reference.
@@ -52,6 +54,7 @@ static struct fixture start(void** state)
         }
         hair_reference_smooth((struct hair_reference_guide){guide, f.groom->rest + guide->first, &params},
                               in_double, f.samples + g * each);
+        f.longest = fmax(f.longest, f.samples[(g + 1) * each - 1].to_root);
     }
     return f;
 }
@@ -63,16 +66,6 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-static struct hair_draw_params params_of(const struct fixture* f, const hair_look* look)
-{
-    return (struct hair_draw_params){.radius          = look->radius,
-                                     .tip_radius      = look->tip_radius,
-                                     .clump           = look->clump,
-                                     .frizz           = look->frizz,
-                                     .segments        = look->segments,
-                                     .smooth_vertices = 2 * f->groom->most_vertices - 1};
-}
-
 // A sample is right to 6 sqrt(20) 2^-24 m and its frame to 8 / 5 mm of that (smooth_test.c says why). The
 // frame turns offsets of up to 15 mm; those and up to three guides add.
 #define SAMPLE (6 * 4.5 / 16777216)
@@ -80,10 +73,9 @@ static struct hair_draw_params params_of(const struct fixture* f, const hair_loo
 
 static void compare(struct fixture* f, const hair_look* look)
 {
-    struct hair_gl*         gl       = &f->test->context->gl;
-    struct hair_draw_params draw     = params_of(f, look);
-    hair_vec4*              vertices = NULL;
-    double                  worst    = 0;
+    struct hair_gl* gl       = &f->test->context->gl;
+    hair_vec4*      vertices = NULL;
+    double          worst    = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
     hair_result result = hair_draw_expand(&f->hair->draw, &f->hair->smooth, &vertices);
@@ -92,15 +84,16 @@ static void compare(struct fixture* f, const hair_look* look)
     for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
         struct hair_reference_point expected;
         double                      t = (double)(i % (look->segments + 1)) / look->segments;
-        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], &draw, f->samples, t,
-                                NULL, &expected);
+        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
+                                2 * f->groom->most_vertices - 1, f->samples, t, NULL, &expected);
         hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
         hair_test_near("y", i, vertices[i].y, expected.position[1], TOLERANCE);
         hair_test_near("z", i, vertices[i].z, expected.position[2], TOLERANCE);
-        hair_test_near("radius", i, vertices[i].w, expected.radius, 8 * 2 * look->radius / 16777216);
+        hair_test_near("radius", i, vertices[i].w, expected.radius, 32 * look->radius / 16777216);
         worst = fmax(worst, fabs(vertices[i].x - expected.position[0]));
     }
     print_message("    %u segments: off by up to %.2g m of %.2g m\n", look->segments, worst, TOLERANCE);
+    assert_true(worst < 1e-5 * f->longest);
     hair_free(&f->test->host.host, vertices);
 }
 
@@ -116,15 +109,57 @@ static void followers_are_where_the_reference_has_them(void** state)
     finish(&f);
 }
 
-static void clump_frizz_and_taper_do_what_the_reference_does(void** state)
+static float between(uint32_t* random, float least, float most)
 {
-    struct fixture f    = start(state);
-    hair_look      look = hair_look_default();
-    look.segments       = 20;
-    for (int i = 0; i < 27; ++i) {
-        look.clump      = 0.5f * (float)(i % 3);
-        look.frizz      = 0.03f * (float)(i / 3 % 3);
-        look.tip_radius = 0.5f * (float)(i / 9);
+    return least + (most - least) * hair_random(random);
+}
+
+static hair_curve any_curve(uint32_t* random, float most)
+{
+    hair_curve curve;
+    for (int i = 0; i < 8; ++i) curve.at[i] = between(random, 0, most);
+    return curve;
+}
+
+static hair_look any_look(uint32_t* random)
+{
+    hair_look look       = hair_look_default();
+    look.segments        = 20;
+    look.taper           = any_curve(random, 2);
+    look.clump           = any_curve(random, 1);
+    look.clump_width     = any_curve(random, 1);
+    look.interpolation   = (hair_interpolation)between(random, 0, 3);
+    look.tip_strays      = between(random, 0, 1);
+    look.strays          = between(random, 0, 1);
+    look.tip_stray       = any_curve(random, 0.03f);
+    look.stray           = any_curve(random, 0.03f);
+    look.length          = between(random, 0.2f, 1);
+    look.thinning        = between(random, 0, 1);
+    look.frizz           = any_curve(random, 0.004f);
+    look.kink            = between(random, 0.01f, 0.1f);
+    look.curl_radius     = between(random, 0, 0.008f);
+    look.curl_profile    = any_curve(random, 1);
+    look.curl_wavelength = between(random, 0.02f, 0.2f);
+    look.curl_turns      = between(random, 0, 4);
+    look.curl_flatness   = between(random, 0, 1);
+    look.curl_left       = between(random, 0, 1);
+    look.curl_lock_phase = between(random, 0, 1);
+    look.curl_phase      = between(random, 0, 1);
+    look.curl_spread     = between(random, 0, 0.9f);
+    look.curls           = (hair_curls)between(random, 0, 2);
+    for (int i = 0; i < 16; ++i) {
+        look.curl_x[i] = between(random, -1, 1);
+        look.curl_z[i] = between(random, -1, 1);
+    }
+    return look;
+}
+
+static void any_look_is_as_in_the_reference(void** state)
+{
+    struct fixture f      = start(state);
+    uint32_t       random = 7;
+    for (int i = 0; i < 30; ++i) {
+        hair_look look = any_look(&random);
         compare(&f, &look);
     }
     finish(&f);
@@ -174,7 +209,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(followers_are_where_the_reference_has_them),
-        HAIR_TEST(clump_frizz_and_taper_do_what_the_reference_does),
+        HAIR_TEST(any_look_is_as_in_the_reference),
         HAIR_TEST(what_is_read_is_in_the_world),
         HAIR_TEST(no_more_than_the_capacity_is_written),
     };

@@ -91,14 +91,12 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-static struct hair_draw_params params_of(const struct fixture* f)
+// At t from 0 to 1.
+static void find_point(const struct fixture* f, uint32_t number, double t,
+                       const struct hair_reference_repair* repair, struct hair_reference_point* out)
 {
-    return (struct hair_draw_params){.radius          = f->look.radius,
-                                     .tip_radius      = f->look.tip_radius,
-                                     .clump           = f->look.clump,
-                                     .frizz           = f->look.frizz,
-                                     .segments        = f->look.segments,
-                                     .smooth_vertices = 2 * f->groom->most_vertices - 1};
+    hair_reference_follower(&f->groom->followers[number], &f->look, 2 * f->groom->most_vertices - 1,
+                            f->samples, t, repair, out);
 }
 
 static double distance_to(const hair_solid* solid, const double p[3])
@@ -150,12 +148,10 @@ static void read_buffer(struct fixture* f, GLuint buffer, size_t each, void* out
 // The first vertex inside, and how far from the surface any up to it comes nearest: there rounding decides.
 static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
 {
-    struct hair_draw_params draw = params_of(f);
-    *nearest                     = INFINITY;
-    for (uint32_t k = 1; k <= draw.segments; ++k) {
+    *nearest = INFINITY;
+    for (uint32_t k = 1; k <= f->look.segments; ++k) {
         struct hair_reference_point point;
-        hair_reference_follower(&f->groom->followers[number], &draw, f->samples, (double)k / draw.segments,
-                                NULL, &point);
+        find_point(f, number, (double)k / f->look.segments, NULL, &point);
         double d = distance_to_all(f, point.position);
         *nearest = fmin(*nearest, fabs(d));
         if (d < 0) return k;
@@ -259,10 +255,9 @@ static void a_prepass_finds_the_same(void** state)
 static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
                     const struct hair_reference_repair* repair, const float* vertices)
 {
-    struct hair_draw_params     draw = params_of(f);
     struct hair_reference_point expected;
-    size_t                      at = (size_t)number * (draw.segments + 1) + k;
-    hair_reference_follower(&f->groom->followers[number], &draw, f->samples, t, repair, &expected);
+    size_t                      at = (size_t)number * (f->look.segments + 1) + k;
+    find_point(f, number, t, repair, &expected);
     for (int i = 0; i < 3; ++i)
         hair_test_near("coordinate", at, (double)vertices[3 * at + (size_t)i], expected.position[i],
                        TOLERANCE);

@@ -104,10 +104,10 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t mos
 // The rest of the library's followers tell themselves apart by their radius (grooms.c), if nothing tapers it.
 static hair_look look_of(uint32_t segments)
 {
-    hair_look look  = hair_look_default();
-    look.segments   = segments;
-    look.radius     = 0.001f;
-    look.tip_radius = 1;
+    hair_look look = hair_look_default();
+    look.segments  = segments;
+    look.radius    = 0.001f;
+    look.taper     = hair_curve_line(1, 1);
     return look;
 }
 

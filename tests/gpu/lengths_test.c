@@ -48,8 +48,8 @@ static struct fixture start_in(void** state, hair_context* context, uint32_t gui
 
     hair_desc instance = hair_test_way(way);
     hair_look look     = hair_look_default();
-    look.frizz         = 0;
-    instance.look      = &look;
+    look.tip_strays = look.strays = 0;
+    instance.look                 = &look;
     hair_test_ok(f.test, hair_create(context, f.groom, &instance, &f.hair));
     return f;
 }

@@ -36,7 +36,7 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host*    host,
                                      const struct hair_test_strands* strands);
 void            hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp);
 
-// As glsl/follower.glsl, without frizz: following guide 0 alone, or between its three guides.
+// As glsl/follower.glsl, of a look that adds nothing: following guide 0 alone, or between its three guides.
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t);
 hair_vec3 hair_test_multi(const struct hair_groom* groom, const struct hair_follower* follower, float t);
 

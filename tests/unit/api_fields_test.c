@@ -173,9 +173,9 @@ static void check_field(const char* owner, const struct hair_field* field)
 {
     char name[40];
     snprintf(name, sizeof name, "%s", strchr(field->name, '.') + 1);
-    char* bracket = strchr(name, '[');
-    int   index   = bracket ? atoi(bracket + 1) : 0;
-    if (bracket) *bracket = 0;
+    char* bracket               = strchr(name, '[');
+    int   index                 = bracket ? atoi(bracket + 1) : 0;
+    name[strcspn(name, "[.")]   = 0; // Of a curve its numbers are members of a member.
     const struct member* member = find_member(owner, name);
     if (!member) fail_msg("%s is in no header", field->name);
 
@@ -219,7 +219,7 @@ static int has_field(const struct member* member)
         for (uint32_t i = 0; i < fields.count; ++i) {
             const char* name = strchr(fields.field[i].name, '.') + 1;
             if (strncmp(name, member->name, strlen(member->name)) == 0 &&
-                strchr("[", name[strlen(member->name)]))
+                strchr("[.", name[strlen(member->name)]))
                 return 1;
         }
     }

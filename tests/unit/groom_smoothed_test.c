@@ -104,12 +104,14 @@ static void compare_guides(const struct fixture* fixture)
 
 static void compare_followers(const struct fixture* fixture)
 {
-    struct hair_draw_params draw = {.smooth_vertices = fixture->each, .radius = 1e-4f, .segments = 16};
+    hair_look look  = hair_look_default();
+    look.tip_strays = look.strays = 0;
+    look.interpolation            = HAIR_INTERPOLATION_SINGLE;
     for (uint32_t i = 0; i < fixture->groom->info.follower_count; ++i)
         for (uint32_t j = 0; j <= 16; ++j) {
             const struct hair_follower* follower = &fixture->groom->followers[i];
             struct hair_reference_point point;
-            hair_reference_follower(follower, &draw, fixture->samples, j / 16.0, NULL, &point);
+            hair_reference_follower(follower, &look, fixture->each, fixture->samples, j / 16.0, NULL, &point);
             assert_vec3(hair_test_single(fixture->groom, follower, (float)j / 16), point.position, 2e-6);
         }
 }

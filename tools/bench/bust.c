@@ -61,8 +61,8 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     hair_scene_default(&out->scene);
     if (!hair_scene_named(BENCH_TOOL, "demo", &out->scene)) return false;
     if (followers) out->scene.settings.groom.follower_count = followers;
-    out->look       = out->scene.settings.look;
-    out->look.frizz = 0; // Turns are to be those that interpolation and solids make.
+    out->look            = out->scene.settings.look;
+    out->look.tip_strays = out->look.strays = 0; // Turns are to be those that interpolation and solids make.
     if (segments) out->look.segments = segments;
     if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
         bring_to_life(out, first_hit))

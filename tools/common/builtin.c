@@ -15,7 +15,7 @@ const struct hair_builtin hair_builtin_scenes[] = {
              " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.56, 0.0], 'fov': 27}}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
-            " 'settings': {'clump': 0.3, 'radius': 1e-4, 'segments': 8, 'guides': 1000, 'iterations': 8, "
+            " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, 'guides': 1000, 'iterations': 8, "
             "'pull_root': 8, 'pull_tip': 6}}"},
     {NULL, NULL},
 };

@@ -11,8 +11,9 @@
 
 #define MAX_TARGETS 3
 #define MAX_CHOICES 4
+#define CURVE_PLACES (int)(sizeof(hair_curve) / sizeof(float))
 
-enum kind { FLOAT, COUNT, PRESET };
+enum kind { FLOAT, COUNT, CURVE, PRESET };
 
 // Where one key goes. Several places where several descs ask the same question.
 struct row {
@@ -114,9 +115,32 @@ static const struct row rows[] = {
     {"gloss.white", "exponent of the first highlight", FLOAT, {AT(look.gloss[0])}, {0}},
     {"gloss.tinted", "exponent of the second", FLOAT, {AT(look.gloss[1])}, {0}},
     {"radius", "of a drawn strand, m", FLOAT, {AT(look.radius)}, {0}},
-    {"tip_radius", "at the tip, as a share of that", FLOAT, {AT(look.tip_radius)}, {0}},
-    {"clump", "how far tips gather around their guide", FLOAT, {AT(look.clump)}, {0}},
-    {"frizz", "strands' own deviation, share of their length", FLOAT, {AT(look.frizz)}, {0}},
+    {"taper", "as a share of that, from root to tip", CURVE, {AT(look.taper)}, {0}},
+    {"cut", "share of every strand that is drawn", FLOAT, {AT(look.length)}, {0}},
+    {"thinning", "most by which strands are shorter at random, as a share", FLOAT, {AT(look.thinning)}, {0}},
+    {"interpolation",
+     "what followers are made of",
+     COUNT,
+     {AT(look.interpolation)},
+     {"mixed", "single", "multi"}},
+    {"clump", "from three guides to one, from root to tip", CURVE, {AT(look.clump)}, {0}},
+    {"clump_width", "offsets from one guide, as a multiple", CURVE, {AT(look.clump_width)}, {0}},
+    {"tip_strays", "share of strands that stray near their tips", FLOAT, {AT(look.tip_strays)}, {0}},
+    {"tip_stray", "how far, in lengths", CURVE, {AT(look.tip_stray)}, {0}},
+    {"strays", "share of strands that stray all along", FLOAT, {AT(look.strays)}, {0}},
+    {"stray", "how far, in lengths", CURVE, {AT(look.stray)}, {0}},
+    {"frizz", "how far every strand kinks, m", CURVE, {AT(look.frizz)}, {0}},
+    {"kink", "from one of its kinks to the next, m", FLOAT, {AT(look.kink)}, {0}},
+    {"curl_radius", "of curls or waves, m", FLOAT, {AT(look.curl_radius)}, {0}},
+    {"curl_profile", "as a multiple of that, from root to tip", CURVE, {AT(look.curl_profile)}, {0}},
+    {"curl_wavelength", "along the strand, of a turn, m", FLOAT, {AT(look.curl_wavelength)}, {0}},
+    {"curl_turns", "beside those, from root to tip", FLOAT, {AT(look.curl_turns)}, {0}},
+    {"curl_flatness", "0: a helix; 1: a wave in a plane", FLOAT, {AT(look.curl_flatness)}, {0}},
+    {"curl_left", "share of guides whose strands turn to the left", FLOAT, {AT(look.curl_left)}, {0}},
+    {"curl_lock_phase", "how far apart guides are, turns", FLOAT, {AT(look.curl_lock_phase)}, {0}},
+    {"curl_phase", "and strands of one guide, turns", FLOAT, {AT(look.curl_phase)}, {0}},
+    {"curl_spread", "of radius and length of turns", FLOAT, {AT(look.curl_spread)}, {0}},
+    {"curls", "the course of a turn", COUNT, {AT(look.curls)}, {"helix", "example"}},
     {"absorption", "of light by hair, 1/m", FLOAT, {AT(look.absorption)}, {0}},
     {"density", "share of the followers drawn", FLOAT, {AT(look.density)}, {0}},
     {"segments", "of a drawn strand", COUNT, {AT(look.segments)}, {0}},
@@ -201,8 +225,34 @@ static bool set_number(struct hair_settings* settings, const struct row* row, co
     return true;
 }
 
+// "0.6", "0,1": numbers at even places from root to tip, at most as many as the curve has.
+static bool set_curve(struct hair_settings* settings, const struct row* row, const char* value)
+{
+    hair_curve curve;
+    float      number[CURVE_PLACES];
+    int        count = 0;
+    for (const char* at = value;; ++at) {
+        char*  end;
+        double wide = strtod(at, &end);
+        if (end == at || count == CURVE_PLACES || !isfinite((float)wide)) return false;
+        number[count++] = (float)wide;
+        if (!*end) break;
+        if (*end != ',') return false;
+        at = end;
+    }
+    for (int i = 0; i < CURVE_PLACES; ++i) {
+        float along = (float)(i * (count - 1)) / (CURVE_PLACES - 1);
+        int   k     = (int)along < count - 1 ? (int)along : count - 1;
+        int   next  = k + 1 < count ? k + 1 : k;
+        curve.at[i] = number[k] + (along - (float)k) * (number[next] - number[k]);
+    }
+    memcpy((char*)settings + row->target[0], &curve, sizeof curve);
+    return true;
+}
+
 static bool set_value(struct hair_settings* settings, const struct row* row, const char* value)
 {
+    if (row->kind == CURVE) return set_curve(settings, row, value);
     if (row->kind == PRESET) return set_preset(settings, value);
     return row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value);
 }
@@ -230,7 +280,9 @@ static void complain_of_value(const char* tool, const struct row* row, const cha
                       choices_of(row, names));
         return;
     }
-    const char* kind = row->kind == COUNT ? "a whole number" : "a finite number";
+    const char* kind = row->kind == COUNT   ? "a whole number"
+                       : row->kind == CURVE ? "one to eight finite numbers with commas between"
+                                            : "a finite number";
     hair_complain(tool, "%s is %s, not %s", row->key, *value ? value : "empty", kind);
 }
 
@@ -246,6 +298,18 @@ bool hair_settings_set(const char* tool, struct hair_settings* settings, const c
     return false;
 }
 
+// One number where all are alike.
+static void print_curve(const void* value, char* text, size_t size)
+{
+    hair_curve curve;
+    size_t     used = 0;
+    int        same = 1;
+    memcpy(&curve, value, sizeof curve);
+    while (same < CURVE_PLACES && curve.at[same] == curve.at[0]) ++same;
+    for (int i = 0; i < (same == CURVE_PLACES ? 1 : CURVE_PLACES) && used < size; ++i)
+        used += (size_t)snprintf(text + used, size - used, "%s%g", i ? "," : "", (double)curve.at[i]);
+}
+
 void hair_settings_print(FILE* file)
 {
     struct hair_settings settings = hair_settings_default();
@@ -256,9 +320,11 @@ void hair_settings_print(FILE* file)
         float             number;
         memcpy(&count, value, sizeof count);
         memcpy(&number, value, sizeof number);
-        char text[32], names[128];
+        char text[64], names[128];
         if (choice_of(row, 0))
             snprintf(text, sizeof text, "%s", choice_of(row, row->kind == PRESET ? 0 : (int)count));
+        else if (row->kind == CURVE)
+            print_curve(value, text, sizeof text);
         else if (row->kind == COUNT)
             snprintf(text, sizeof text, "%u", count);
         else if (number == HAIR_SCALE_GUESSED)

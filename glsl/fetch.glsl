@@ -1,0 +1,38 @@
+// fetch.glsl - the smoothed guides and the followers, read as textures; with HAIR_STORED as storage buffers, which a GPU
+// reads several times as fast, but which stages that draw are not promised.
+#include "shared.h"
+
+#ifdef HAIR_STORED
+layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer { vec4 stored_position[]; };
+layout(std430, binding = HAIR_BIND_STORED_TANGENT) readonly restrict buffer tangent_buffer { vec4 stored_tangent[]; };
+layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer { vec4 stored_frame[]; };
+layout(std430, binding = HAIR_BIND_STORED_FOLLOWER) readonly restrict buffer follower_buffer {
+    hair_follower stored_follower[];
+};
+
+vec4          fetch_position(int at) { return stored_position[at]; }
+vec4          fetch_tangent(int at) { return stored_tangent[at]; }
+vec4          fetch_turn(int at) { return stored_frame[at]; }
+hair_follower fetch_whole(uint number) { return stored_follower[number]; }
+#else
+#include "position_texture.glsl"
+layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
+layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
+layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
+
+vec4 fetch_position(int at) { return texelFetch(position_texture, at); }
+vec4 fetch_tangent(int at) { return texelFetch(tangent_texture, at); }
+vec4 fetch_turn(int at) { return texelFetch(frame_texture, at); }
+
+hair_follower fetch_whole(uint number)
+{
+    int           at = int(number) * HAIR_FOLLOWER_TEXELS;
+    hair_follower follower;
+    uvec4         ids   = texelFetch(follower_texture, at);
+    vec4          reals = uintBitsToFloat(texelFetch(follower_texture, at + 1));
+    follower.guide0 = ids.x, follower.guide1 = ids.y, follower.guide2 = ids.z, follower.seed = ids.w;
+    follower.weight1 = reals.x, follower.weight2 = reals.y, follower.length_ratio = reals.z, follower.multi = reals.w;
+    for (int i = 0; i < 4; ++i) follower.offset[i] = uintBitsToFloat(texelFetch(follower_texture, at + 2 + i));
+    return follower;
+}
+#endif

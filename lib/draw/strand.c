@@ -1,0 +1,127 @@
+// strand.c - what a look makes of a strand's way, as shaders read it: cubics in place of numbers at even places.
+#include "lib/draw/params.h"
+
+#define SWEEPS 24 // Of Gauss and Seidel over a turn: what is left of an error then is below a float's.
+
+// From a to b, with these slopes at both ends, by the interval.
+static struct hair_cubic hermite(float a, float b, float slope_a, float slope_b)
+{
+    float rise = b - a;
+    return (struct hair_cubic){{a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise}};
+}
+
+// Fritsch and Butland 1984: the harmonic mean of both sides, so that nothing goes beyond its neighbours.
+static float inner_slope(float before, float after)
+{
+    return before * after > 0 ? 2 * before * after / (before + after) : 0;
+}
+
+// At an end, of the parabola that goes on with the slope next to it, as far as that goes beyond nothing.
+static float end_slope(float rise, float next)
+{
+    float slope = 1.5f * rise - 0.5f * next;
+    return slope * rise > 0 ? slope : 0;
+}
+
+static void write_curve(hair_curve curve, struct hair_strand_look* out, int number)
+{
+    float slope[HAIR_CURVE_INTERVALS + 1], rise[HAIR_CURVE_INTERVALS];
+    int   last = HAIR_CURVE_INTERVALS;
+    for (int i = 0; i < last; ++i) rise[i] = curve.at[i + 1] - curve.at[i];
+    for (int i = 1; i < last; ++i) slope[i] = inner_slope(rise[i - 1], rise[i]);
+    slope[0]    = end_slope(rise[0], slope[1]);
+    slope[last] = end_slope(rise[last - 1], slope[last - 1]);
+    for (int i = 0; i < last; ++i)
+        out->curve[number * last + i] = hermite(curve.at[i], curve.at[i + 1], slope[i], slope[i + 1]);
+}
+
+// The periodic spline of two continuous derivatives through places at equal distances.
+static void write_turn(const float at[HAIR_TURN_PLACES], float scale, struct hair_cubic* out)
+{
+    float slope[HAIR_TURN_PLACES] = {0};
+    for (int sweep = 0; sweep < SWEEPS; ++sweep)
+        for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+            int before = (i + HAIR_TURN_PLACES - 1) % HAIR_TURN_PLACES, after = (i + 1) % HAIR_TURN_PLACES;
+            slope[i] = 0.25f * (3 * (at[after] - at[before]) - slope[before] - slope[after]);
+        }
+    for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+        int after = (i + 1) % HAIR_TURN_PLACES;
+        out[i]    = hermite(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
+    }
+}
+
+static void write_turns(const hair_look* look, struct hair_strand_look* out)
+{
+    float circle[2][HAIR_TURN_PLACES];
+    for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+        circle[0][i] = cosf(6.2831853f * (float)i / HAIR_TURN_PLACES);
+        circle[1][i] = sinf(6.2831853f * (float)i / HAIR_TURN_PLACES);
+    }
+    int like = look->curls == HAIR_CURLS_EXAMPLE;
+    write_turn(like ? look->curl_x : circle[0], 1, out->loop);
+    write_turn(like ? look->curl_z : circle[1], 1 - look->curl_flatness, out->loop + HAIR_TURN_PLACES);
+}
+
+// Both pure kinds of followers are mixtures of one.
+static hair_curve clump_of(const hair_look* look)
+{
+    if (look->interpolation == HAIR_INTERPOLATION_SINGLE) return hair_curve_line(1, 1);
+    if (look->interpolation == HAIR_INTERPOLATION_MULTI) return hair_curve_line(0, 0);
+    return look->clump;
+}
+
+float hair_curve_most(const hair_curve* curve)
+{
+    float most = curve->at[0];
+    for (int i = 1; i <= HAIR_CURVE_INTERVALS; ++i) most = fmaxf(most, curve->at[i]);
+    return most;
+}
+
+// Across a strand are two axes, along each of which it may go so far.
+#define DIAGONAL 1.4142136f
+
+float hair_look_most_stray(const hair_look* look)
+{
+    float tip = look->tip_strays > 0 ? hair_curve_most(&look->tip_stray) : 0;
+    float all = look->strays > 0 ? hair_curve_most(&look->stray) : 0;
+    return DIAGONAL * (tip + all);
+}
+
+float hair_look_most_aside(const hair_look* look)
+{
+    float curl = look->curl_radius * (1 + look->curl_spread) * hair_curve_most(&look->curl_profile);
+    return DIAGONAL * (curl + hair_curve_most(&look->frizz));
+}
+
+void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
+{
+    write_curve(look->taper, out, HAIR_CURVE_TAPER);
+    write_curve(clump_of(look), out, HAIR_CURVE_CLUMP);
+    write_curve(look->clump_width, out, HAIR_CURVE_CLUMP_WIDTH);
+    write_curve(look->tip_stray, out, HAIR_CURVE_TIP_STRAY);
+    write_curve(look->stray, out, HAIR_CURVE_STRAY);
+    write_curve(look->frizz, out, HAIR_CURVE_FRIZZ);
+    write_curve(look->curl_profile, out, HAIR_CURVE_CURL);
+    write_turns(look, out);
+    out->tip_strays      = look->tip_strays;
+    out->strays          = look->strays;
+    out->kinks           = 1 / look->kink;
+    out->drawn           = look->length;
+    out->thinning        = look->thinning;
+    out->curl_radius     = look->curl_radius;
+    out->curl_waves      = 1 / look->curl_wavelength;
+    out->curl_turns      = look->curl_turns;
+    out->curl_lock_phase = look->curl_lock_phase;
+    out->curl_phase      = look->curl_phase;
+    out->curl_spread     = look->curl_spread;
+    out->curl_left       = look->curl_left;
+    out->most_stray      = hair_look_most_stray(look);
+    out->most_aside      = hair_look_most_aside(look);
+    out->most_width      = fmaxf(hair_curve_most(&look->clump_width), 1);
+}
+
+int hair_look_is_styled(const hair_look* look)
+{
+    return look->length < 1 || look->thinning > 0 || hair_curve_most(&look->frizz) > 0 ||
+           look->curl_radius * hair_curve_most(&look->curl_profile) > 0;
+}
