@@ -206,7 +206,8 @@ static json_t* find_row(json_t* rows, const char* primitive, int segments, int s
     json_t* row;
     json_array_foreach(rows, i,
                        row) if (!strcmp(json_string_value(json_object_get(row, "primitive")), primitive) &&
-                                number(row, "lod") == 1 && number(row, "segments") == segments &&
+                                !strcmp(json_string_value(json_object_get(row, "lod")), "100 %") &&
+                                number(row, "segments") == segments &&
                                 number(row, "samples") == samples) return row;
     fail_msg("no row of %s, %d segments, %d samples", primitive, segments, samples);
     return NULL;

@@ -152,6 +152,26 @@ static void only_what_the_mask_covers_counts(void** state)
     assert_true(fabs(error.psnr - 40) < 1e-3 && error.flip > 0 && error.pixels == PIXELS);
 }
 
+static void what_is_not_covered_changes_nothing_by_being_left_out(void** state)
+{
+    (void)state;
+    static float            a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
+    static unsigned char    mask[PIXELS];
+    struct hair_image_error error;
+    double                  sum = 0;
+    paint(0, a);
+    paint(1, b);
+    assert_true(hair_flip(a, b, WIDTH, HEIGHT, HAIR_FLIP_DISPLAY, map));
+    for (int y = 20; y < 30; ++y)
+        for (int x = 15; x < 40; ++x) {
+            mask[y * WIDTH + x] = 1;
+            sum += map[y * WIDTH + x];
+        }
+    assert_true(hair_image_error(a, b, mask, WIDTH, HEIGHT, &error));
+    assert_int_equal(error.pixels, 250);
+    assert_true(fabs(error.flip - sum / 250) < 1e-6);
+}
+
 static void a_mask_grows_by_a_square_and_not_over_the_border(void** state)
 {
     (void)state;
@@ -174,6 +194,7 @@ int main(void)
         cmocka_unit_test(a_picture_differs_from_itself_by_nothing_and_from_another_as_that_from_it),
         cmocka_unit_test(what_is_too_fine_to_be_seen_differs_less),
         cmocka_unit_test(only_what_the_mask_covers_counts),
+        cmocka_unit_test(what_is_not_covered_changes_nothing_by_being_left_out),
         cmocka_unit_test(a_mask_grows_by_a_square_and_not_over_the_border),
     };
     return cmocka_run_group_tests_name("image error", tests, NULL, NULL);

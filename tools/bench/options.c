@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {&bench_accuracy,  &bench_collision, &bench_field,
-                                                   &bench_physics,   &bench_render,    &bench_scale,
-                                                   &bench_stability, &bench_table};
+static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_collision, &bench_field,
+                                                   &bench_lod,      &bench_physics,   &bench_render,
+                                                   &bench_scale,    &bench_stability, &bench_table};
 
 #define MOST_SCENE 999999999
 
@@ -47,7 +47,7 @@ static const struct row {
      "copies of the strand that are timed; 1000; of render and table, strands\n"
      "                   of the haircut"},
     {"scene", SCENE, "N", "of the case fuzz, only this random scene, or those of N-M"},
-    {"size", SIZE, "N", "pixels to each side of pictures; 256; of table, 720 on a GPU"},
+    {"size", SIZE, "N", "pixels to each side of pictures; 256 or, on a GPU, what the suite has"},
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
     {"quiet", QUIET, NULL, "no progress"},
     {"verbose", VERBOSE, NULL, "pass on all that the library logs"},

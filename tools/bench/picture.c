@@ -46,7 +46,7 @@ void bench_picture_finish(struct bench_picture* picture, uint32_t count, double 
 bool bench_picture_cover(struct bench_picture* picture)
 {
     size_t pixels = (size_t)picture->size * picture->size;
-    picture->mask = malloc(pixels);
+    if (!picture->mask) picture->mask = malloc(pixels);
     if (!picture->mask) return false;
     for (size_t i = 0; i < pixels; ++i) picture->mask[i] = picture->rgba[4 * i + 3] > 0;
     return hair_mask_dilate(picture->mask, picture->size, picture->size, AROUND);

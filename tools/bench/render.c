@@ -15,14 +15,16 @@
 #define REFERENCE_SAMPLES 1024
 #define REFERENCE_SEGMENTS 64
 #define REFERENCE_PIXELS 2048 // to each side of what is drawn at once
-#define SIZE 256
-#define LEAST_RATIO 5 // of a reported error and that of the reference
+#define SIZE 512
+#define SIZE_OF_SOFTWARE 256
+#define STRANDS_OF_SOFTWARE 4500 // As wide on its pixels as 18,000 are on 1,024.
+#define LEAST_RATIO 5            // of a reported error and that of the reference
 
-static const char* const columns[] = {"case",    "method", "primitive",      "lod",           "segments",
-                                      "samples", "msaa",   "supersample",    "size",          "strands",
-                                      "ms",      "ms_min", "ms_max",         "runs",          "flip",
-                                      "psnr",    "pixels", "coverage_error", "halves_differ", "front",
-                                      NULL};
+static const char* const columns[] = {
+    "case",           "method",        "primitive", "lod",     "segments", "samples",
+    "msaa",           "supersample",   "size",      "strands", "radius",   "ms",
+    "ms_min",         "ms_max",        "runs",      "flip",    "psnr",     "pixels",
+    "coverage_error", "halves_differ", "front",     NULL};
 
 // A case: a scene from some distance.
 static const struct subject {
@@ -42,11 +44,16 @@ static const struct primitive {
     hair_primitive primitive;
 } primitives[] = {{"ribbons", HAIR_RIBBONS}, {"lines", HAIR_LINES}};
 
-// Fewer strands, and wider in the same measure.
+// Fewer strands, and wider for it; 0: by how large they appear.
 static const struct lod {
-    float share;
-    bool  quick;
-} lods[] = {{1, true}, {0.5f, false}, {0.25f, true}, {0.1f, false}};
+    const char* name;
+    float       share;
+    bool        quick;
+} lods[] = {{"100 %", 1, true},
+            {"50 %", 0.5f, false},
+            {"25 %", 0.25f, true},
+            {"10 %", 0.1f, false},
+            {"dynamic", 0, true}};
 
 static const struct segments {
     uint32_t count;
@@ -57,8 +64,7 @@ static const struct segments {
 static const struct samples {
     uint32_t msaa, supersample;
     bool     quick;
-} samples[] = {{1, 1, true}, {4, 1, true},  {8, 1, false}, {1, 2, false},
-               {4, 2, true}, {8, 2, false}, {4, 4, false}};
+} samples[] = {{1, 1, true}, {4, 1, true}, {8, 1, false}, {4, 2, true}, {8, 4, false}, {4, 4, false}};
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
@@ -74,9 +80,19 @@ struct scene {
     size_t                first_row;
 };
 
-static uint32_t size_of(const struct bench* bench)
+static uint32_t strands_of(const struct bench* bench)
 {
-    return bench->options.size ? bench->options.size : SIZE;
+    if (bench->options.strands) return bench->options.strands;
+    return bench->software ? STRANDS_OF_SOFTWARE : 0;
+}
+
+// Of as many strands as there are, so wide that they cover what all of the scene's do.
+static struct bench_shot shot_of(const struct scene* scene)
+{
+    struct bench_shot shot = bench_studio_shot(&scene->studio);
+    shot.look.radius *= scene->studio.fewer;
+    shot.away = scene->subject->away;
+    return shot;
 }
 
 // The reference -------------------------------------------------------------------------------------------------
@@ -109,11 +125,10 @@ static bool take_half(struct scene* scene, uint32_t half, struct bench_shot* sho
 
 static bool take_reference(struct scene* scene, struct bench_picture halves[2])
 {
-    struct bench_shot shot = bench_studio_shot(&scene->studio);
+    struct bench_shot shot = shot_of(scene);
     uint32_t          size = scene->studio.size, side = 1;
     while (2 * side * size <= REFERENCE_PIXELS && side < 8) side *= 2;
     shot.look.segments = REFERENCE_SEGMENTS;
-    shot.away          = scene->subject->away;
     shot.samples       = scene->most_samples < 8 ? scene->most_samples : 8;
     shot.supersample   = side;
     uint32_t each = shot.samples * side * side, pictures = (REFERENCE_SAMPLES + each - 1) / each;
@@ -146,9 +161,10 @@ static bool find_truth(struct scene* scene)
 static bool need(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
-    struct bench_studio_desc desc = {.scene     = scene->subject->scene,
-                                     .size      = size_of(scene->bench),
-                                     .followers = scene->bench->options.strands};
+    uint32_t                 size = scene->bench->software ? SIZE_OF_SOFTWARE : SIZE;
+    struct bench_studio_desc desc = {.scene = scene->subject->scene,
+                                     .size  = scene->bench->options.size ? scene->bench->options.size : size,
+                                     .followers = strands_of(scene->bench)};
     GLint                    most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     scene->most_samples = (uint32_t)most;
@@ -175,13 +191,14 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
     bench_set_text(row, "case", scene->subject->name);
     bench_set_text(row, "method", setting->path->name);
     bench_set_text(row, "primitive", setting->primitive->name);
-    bench_set_number(row, "lod", (double)setting->lod->share);
+    bench_set_text(row, "lod", setting->lod->name);
     bench_set_count(row, "segments", setting->segments->count);
     bench_set_count(row, "samples", setting->samples->msaa * side * side);
     bench_set_count(row, "msaa", setting->samples->msaa);
     bench_set_count(row, "supersample", side);
     bench_set_count(row, "size", scene->studio.size);
     bench_set_count(row, "strands", scene->studio.info.follower_count);
+    bench_set_number(row, "radius", (double)scene->studio.shot.look.radius);
     bench_set_number(row, "ms", times->ms);
     bench_set_number(row, "ms_min", times->ms_min);
     bench_set_number(row, "ms_max", times->ms_max);
@@ -196,18 +213,18 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
 
 static bool look(struct scene* scene, const struct setting* setting)
 {
-    struct bench_shot       shot = bench_studio_shot(&scene->studio);
+    struct bench_shot       shot = shot_of(scene);
     struct bench_picture    picture;
     struct bench_times      times;
     struct hair_image_error error;
     shot.view.path      = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
     shot.look.segments  = setting->segments->count;
-    shot.look.density *= setting->lod->share;
-    shot.look.radius /= setting->lod->share;
+    shot.has_lod        = setting->lod->share < 1;
+    shot.lod.dynamic    = setting->lod->share > 0 ? 0 : 1;
+    if (setting->lod->share > 0) shot.lod.strands = setting->lod->share;
     shot.samples     = setting->samples->msaa;
     shot.supersample = setting->samples->supersample;
-    shot.away        = scene->subject->away;
     if (!bench_picture_make(scene->studio.size, &picture)) return false;
     bool ok = bench_studio_set(&scene->studio, &shot) &&
               bench_studio_time(&scene->studio, scene->bench->options.quick ? 50 : 300, &times) &&
@@ -219,12 +236,17 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
+// All of it by one path; that the others draw the same is seen by fewer.
+static bool is_wanted(const struct bench* bench, const struct setting* setting)
+{
+    return (!bench->options.quick && setting->path == paths) ||
+           (setting->lod->quick && setting->segments->quick && setting->samples->quick);
+}
+
 static void measure(struct scene* scene, const struct setting* setting)
 {
     struct bench* bench = scene->bench;
-    bool          all   = !bench->options.quick;
-    if (!all && !(setting->lod->quick && setting->segments->quick && setting->samples->quick)) return;
-    if (!bench_begin(bench, scene->subject->name, setting->path->name)) return;
+    if (!is_wanted(bench, setting) || !bench_begin(bench, scene->subject->name, setting->path->name)) return;
     if (need(scene) && setting->samples->msaa > scene->most_samples) return; // OpenGL has fewer.
     if (!scene->alive || !look(scene, setting))
         bench_refuse(bench, scene->subject->name, setting->path->name);
@@ -233,11 +255,11 @@ static void measure(struct scene* scene, const struct setting* setting)
 static void measure_subject(struct bench* bench, const struct subject* subject)
 {
     struct scene scene = {.bench = bench, .subject = subject};
-    for (size_t p = 0; p < COUNT(paths); ++p)
-        for (size_t k = 0; k < COUNT(primitives); ++k)
-            for (size_t l = 0; l < COUNT(lods); ++l)
-                for (size_t s = 0; s < COUNT(segments); ++s)
-                    for (size_t n = 0; n < COUNT(samples); ++n) {
+    for (size_t n = 0; n < COUNT(samples); ++n) // Framebuffers are made as seldom as can be.
+        for (size_t p = 0; p < COUNT(paths); ++p)
+            for (size_t k = 0; k < COUNT(primitives); ++k)
+                for (size_t l = 0; l < COUNT(lods); ++l)
+                    for (size_t s = 0; s < COUNT(segments); ++s) {
                         struct setting setting = {&paths[p], &primitives[k], &lods[l], &segments[s],
                                                   &samples[n]};
                         measure(&scene, &setting);

@@ -107,10 +107,13 @@ static bool make_subject(struct bench_studio* studio, const struct bench_studio_
     struct hair_scene* scene = &studio->scene;
     hair_scene_default(scene);
     if (!hair_scene_named(BENCH_TOOL, desc->scene, scene)) return false;
+    uint32_t followers = scene->settings.groom.follower_count;
+    studio->fewer      = 1;
     if (!set(studio, "guides", desc->guides) || !set(studio, "followers", desc->followers) ||
         !set(studio, "segments", desc->segments))
         return false;
     scene->width = scene->height = studio->size;
+    if (desc->followers) studio->fewer = (float)followers / (float)desc->followers;
     if (hair_subject_load(BENCH_TOOL, &studio->bench->host, scene, &studio->groom)) return false;
     studio->info = hair_groom_info_default();
     if (hair_groom_describe(studio->groom, &studio->info)) return false;
@@ -129,6 +132,7 @@ bool bench_studio_make(struct bench* bench, const struct bench_studio_desc* desc
     out->size  = desc->size;
     snprintf(bench->sentence, sizeof bench->sentence, "the scene could not be made");
     bench_timer_make(&out->timer, bench->software);
+    glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &out->query);
     if (make_programs(out) && make_subject(out, desc) && make_head(out) && bring_to_life(out, desc))
         return true;
     bench_studio_free(out);
@@ -145,6 +149,7 @@ void bench_studio_free(struct bench_studio* studio)
     glDeleteVertexArrays(2, studio->arrays);
     glDeleteBuffers(2, studio->buffers);
     bench_timer_free(&studio->timer);
+    glDeleteQueries(1, &studio->query);
     memset(studio, 0, sizeof *studio);
 }
 
@@ -164,8 +169,12 @@ bool bench_studio_step(struct bench_studio* studio, double* ms)
 struct bench_shot bench_studio_shot(const struct bench_studio* studio)
 {
     const struct hair_settings* settings = &studio->scene.settings;
-    return (struct bench_shot){
-        .look = settings->look, .view = settings->view, .samples = 1, .supersample = 1, .away = 1};
+    return (struct bench_shot){.look        = settings->look,
+                               .view        = settings->view,
+                               .lod         = hair_lod_default(),
+                               .samples     = 1,
+                               .supersample = 1,
+                               .away        = 1};
 }
 
 bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot)
@@ -204,33 +213,73 @@ static void draw_head(const struct bench_studio* studio, unsigned program,
     glDisable(GL_CULL_FACE);
 }
 
-static bool draw_hair(struct bench_studio* studio, hair_pass pass, const struct hair_matrices* matrices,
+// What is seen through a projection at a distance: pixels per metre.
+static float scale_of(const struct hair_matrices* matrices, float distance, uint32_t pixels)
+{
+    const float* p = matrices->projection;
+    return 0.5f * (float)pixels * p[5] / (p[15] > 0 ? 1 : distance);
+}
+
+// A shadow need be no finer than the picture.
+static float importance_of_shadow(const struct bench_studio* studio, const struct hair_matrices* camera,
+                                  const struct hair_matrices* light)
+{
+    const struct hair_scene* scene  = &studio->scene;
+    float                    square = 0;
+    for (int i = 0; i < 3; ++i) square += powf(studio->shot.away * (scene->eye[i] - scene->target[i]), 2);
+    uint32_t pixels = studio->size * studio->shot.supersample;
+    return fminf(1, scale_of(camera, sqrtf(square), pixels) / scale_of(light, 1, HAIR_SHADOW_SIZE));
+}
+
+static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct hair_matrices* matrices,
                       const struct hair_matrices* light)
 {
-    hair_view view      = studio->shot.view;
-    view.pass           = pass;
-    view.shadow_texture = pass == HAIR_PASS_COLOR ? studio->targets.shadow : 0;
-    if (pass == HAIR_PASS_DEPTH)
-        view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
-    hair_light_clip(light, view.shadow_matrix);
-    memcpy(view.view, matrices->view, sizeof view.view);
-    memcpy(view.projection, matrices->projection, sizeof view.projection);
+    hair_light_clip(light, view->shadow_matrix);
+    memcpy(view->view, matrices->view, sizeof view->view);
+    memcpy(view->projection, matrices->projection, sizeof view->projection);
     if (studio->timed) bench_timer_start(&studio->timer);
-    hair_result result = hair_draw(studio->hair, &view);
+    hair_result result = hair_draw(studio->hair, view);
     if (studio->timed) bench_timer_stop(&studio->timer);
     return !result;
 }
 
-static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* light)
+// Without levels of detail as lines: about a ribbon's width there, at half the cost.
+static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
+                        const struct hair_matrices* light)
 {
     static const float far         = 1;
     unsigned           framebuffer = studio->targets.framebuffer[HAIR_TARGET_SHADOW];
+    hair_view          view        = studio->shot.view;
+    hair_lod           lod         = studio->shot.lod;
+    view.pass                      = HAIR_PASS_DEPTH;
+    lod.importance *= importance_of_shadow(studio, camera, light);
+    if (studio->shot.has_lod)
+        view.lod = &lod;
+    else
+        view.primitive = HAIR_LINES;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
     glEnable(GL_DEPTH_TEST);
     draw_head(studio, studio->programs[DEPTH], light);
-    return draw_hair(studio, HAIR_PASS_DEPTH, light, light);
+    return draw_hair(studio, &view, light, light);
+}
+
+static bool draw_strands(struct bench_studio* studio, const struct hair_matrices* camera,
+                         const struct hair_matrices* light)
+{
+    GLuint64  primitives = 0;
+    hair_view view       = studio->shot.view;
+    view.pass            = HAIR_PASS_COLOR;
+    view.shadow_texture  = studio->targets.shadow;
+    if (studio->shot.has_lod) view.lod = &studio->shot.lod;
+    if (studio->counts) glBeginQuery(GL_PRIMITIVES_GENERATED, studio->query);
+    bool ok = draw_hair(studio, &view, camera, light);
+    if (!studio->counts) return ok;
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+    glGetQueryObjectui64v(studio->query, GL_QUERY_RESULT, &primitives);
+    studio->primitives = primitives;
+    return ok;
 }
 
 // Of samples, then of pixels.
@@ -273,13 +322,13 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
     aim(studio, &camera);
-    if (!draw_shadow(studio, &light)) return false;
+    if (!draw_shadow(studio, &camera, &light)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, size, size);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background);
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
     draw_head(studio, studio->programs[MESH], &camera);
-    if (!draw_hair(studio, HAIR_PASS_COLOR, &camera, &light)) return false;
+    if (!draw_strands(studio, &camera, &light)) return false;
     average(studio);
     if (ms) *ms = bench_timer_take(&studio->timer);
     return !bench_was_interrupted();

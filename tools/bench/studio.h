@@ -13,7 +13,9 @@
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
-    hair_view view;        // its path and primitive; matrices and light are the studio's
+    hair_view view;    // its path and primitive; matrices, light and level of detail are set elsewhere
+    bool      has_lod; // else all is drawn
+    hair_lod  lod;
     uint32_t  samples;     // of a pixel, as OpenGL has them
     uint32_t  supersample; // pixels for one of the picture, in each direction
     float     jitter[2];   // pixels by which the picture moves
@@ -25,16 +27,19 @@ struct bench_studio {
     struct hair_scene   scene;
     hair_groom*         groom;
     hair_groom_info     info;
+    float               fewer; // times: than the scene's followers
     hair_instance*      hair;
     uint32_t            size; // of a picture, pixels to each side
     float               transform[16], reach;
     uint32_t            frame;
-    bool                bare;  // the head is not drawn
-    bool                timed; // what is under way is
-    struct bench_shot   shot;  // the last that was set
+    bool                bare;       // the head is not drawn
+    bool                timed;      // what is under way is
+    bool                counts;     // and
+    uint64_t            primitives; // that the last picture has of hair, two to a ribbon's segment
+    struct bench_shot   shot;       // the last that was set
     struct bench_timer  timer;
     struct hair_targets targets;
-    unsigned            programs[3], arrays[2], buffers[2];
+    unsigned            programs[3], arrays[2], buffers[2], query;
     uint32_t            indices;
 };
 

@@ -1,5 +1,6 @@
 // table.c - the suite `table`: the eight cells of the performance table of Tariq 2010, beside its figures, which are those
 // of a GTX 480 in 2010. Frames are timed as a viewer would see them: from the first call to glFinish, many at a time.
+#include "tools/bench/picture.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
 #include "tools/common/stats.h"
@@ -15,8 +16,8 @@
 #define RATE 60 // frames per second of the hair's own time
 
 static const char* const columns[] = {
-    "case", "method", "solver", "path",   "strands", "guides",    "size",    "samples",       "frames",
-    "runs", "ms",     "ms_min", "ms_max", "fps",     "paper_fps", "to_near", "paper_to_near", NULL};
+    "case", "method", "solver", "path", "strands",   "guides",  "size",          "samples", "frames", "runs",
+    "ms",   "ms_min", "ms_max", "fps",  "paper_fps", "to_near", "paper_to_near", "flip",    NULL};
 
 // A column of the table, and one more for how hair is simulated and drawn when nobody asks for anything else.
 static const struct way {
@@ -82,8 +83,31 @@ static bool run_frames(struct bench_studio* studio, const struct cell* cell, uin
     return true;
 }
 
-static void add_row(struct column* column, const struct cell* cell, uint32_t frames,
-                    const struct bench_times* times)
+// FLIP of the picture far away with levels of detail, from the one without.
+static bool compare_far(struct bench_studio* studio, const struct bench_shot* shot, double* flip)
+{
+    struct bench_picture    picture[2] = {{0}};
+    struct hair_image_error error      = {0};
+    bool                    ok         = true;
+    studio->bare                       = false;
+    for (int i = 0; i < 2 && ok; ++i) {
+        struct bench_shot own = *shot;
+        own.has_lod           = i == 1;
+        ok = bench_picture_make(studio->size, &picture[i]) && bench_studio_set(studio, &own) &&
+             bench_studio_draw(studio, NULL) && bench_studio_add(studio, picture[i].rgba);
+        if (ok) bench_picture_finish(&picture[i], 1, (double)studio->scene.exposure);
+    }
+    ok = ok && bench_picture_cover(&picture[0]) &&
+         bench_picture_compare(&picture[0], &picture[0], &picture[1], &error);
+    *flip        = error.flip;
+    studio->bare = true;
+    bench_picture_free(&picture[0]);
+    bench_picture_free(&picture[1]);
+    return ok;
+}
+
+static json_t* add_row(struct column* column, const struct cell* cell, uint32_t frames,
+                       const struct bench_times* times)
 {
     static const char* const   paths[] = {"tessellation"};
     const struct bench_studio* studio  = &column->studio;
@@ -107,9 +131,10 @@ static void add_row(struct column* column, const struct cell* cell, uint32_t fra
     bench_set_number(row, "ms_max", times->ms_max);
     bench_set_number(row, "fps", fps);
     if (paper[0] > 0) bench_set_number(row, "paper_fps", paper[number]);
-    if (!cell->is_far) return;
+    if (!cell->is_far) return row;
     if (column->near_fps > 0) bench_set_number(row, "to_near", fps / column->near_fps);
     if (paper[0] > 0) bench_set_number(row, "paper_to_near", paper[number] / paper[0]);
+    return row;
 }
 
 static bool run_cell(struct bench* bench, struct column* column, const struct cell* cell)
@@ -123,13 +148,18 @@ static bool run_cell(struct bench* bench, struct column* column, const struct ce
     shot.samples           = 4;
     shot.view.path         = column->way->path;
     shot.away              = cell->is_far ? AWAY : 1;
+    shot.has_lod           = cell->is_far;
     if (!bench_studio_set(&column->studio, &shot)) return false;
     if (!run_frames(&column->studio, cell, 2, &ms[0])) return false; // They compile what they need.
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
          passed       = hair_now() - start)
         if (!run_frames(&column->studio, cell, frames, &ms[runs++])) return false;
     times = bench_times_of(ms, runs);
-    add_row(column, cell, frames, &times);
+    double  flip;
+    json_t* row = add_row(column, cell, frames, &times);
+    if (!cell->is_far) return true;
+    if (!compare_far(&column->studio, &shot, &flip)) return false;
+    bench_set_number(row, "flip", flip);
     return true;
 }
 

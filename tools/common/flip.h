@@ -11,6 +11,9 @@
 // Pixels per degree of a display of 3,840 pixels over 0.7 m, seen from 0.7 m.
 #define HAIR_FLIP_DISPLAY 67.0206433f
 
+// Pixels beyond which nothing has to do with a pixel's error, for that display.
+#define HAIR_FLIP_REACH 10
+
 // Of pictures of RGB, sRGB in [0, 1], into one error in [0, 1] per pixel. At most 1,800 pixels per degree.
 // False: out of memory.
 bool hair_flip(const float* reference, const float* test, uint32_t width, uint32_t height,

@@ -7,28 +7,68 @@
 #include <stdlib.h>
 #include <string.h>
 
+// The part of a picture that a mask's errors come from.
+struct part {
+    uint32_t x, y, width, height;
+};
+
+static struct part part_of(const unsigned char* mask, uint32_t width, uint32_t height)
+{
+    uint32_t lower[2] = {width, height}, upper[2] = {0, 0};
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            if (!mask[(size_t)y * width + x]) continue;
+            uint32_t left = x < HAIR_FLIP_REACH ? 0 : x - HAIR_FLIP_REACH, right = x + HAIR_FLIP_REACH + 1;
+            uint32_t below = y < HAIR_FLIP_REACH ? 0 : y - HAIR_FLIP_REACH, above = y + HAIR_FLIP_REACH + 1;
+            if (left < lower[0]) lower[0] = left;
+            if (below < lower[1]) lower[1] = below;
+            if (right > upper[0]) upper[0] = right < width ? right : width;
+            if (above > upper[1]) upper[1] = above < height ? above : height;
+        }
+    if (!upper[0]) return (struct part){0};
+    return (struct part){lower[0], lower[1], upper[0] - lower[0], upper[1] - lower[1]};
+}
+
+static void copy_part(const struct part* part, const float* from, uint32_t width, float* to)
+{
+    size_t row = 3 * (size_t)part->width;
+    for (uint32_t y = 0; y < part->height; ++y)
+        memcpy(to + y * row, from + 3 * ((size_t)(part->y + y) * width + part->x), row * sizeof *to);
+}
+
+static void sum_up(const struct part* part, const float* a, const float* b, const float* map,
+                   const unsigned char* mask, uint32_t width, struct hair_image_error* out)
+{
+    double square = 0;
+    for (uint32_t y = 0; y < part->height; ++y)
+        for (uint32_t x = 0; x < part->width; ++x) {
+            size_t i = (size_t)y * part->width + x;
+            if (!mask[(size_t)(part->y + y) * width + part->x + x]) continue;
+            ++out->pixels;
+            out->flip += (double)map[i];
+            for (size_t k = 3 * i; k < 3 * i + 3; ++k) square += pow((double)(a[k] - b[k]), 2);
+        }
+    out->flip /= out->pixels;
+    out->psnr = -10 * log10(square / (3.0 * out->pixels));
+}
+
 bool hair_image_error(const float* reference, const float* test, const unsigned char* mask, uint32_t width,
                       uint32_t height, struct hair_image_error* out)
 {
-    size_t count  = (size_t)width * height;
-    float* map    = malloc(count * sizeof *map);
-    double square = 0;
-    *out          = (struct hair_image_error){0};
-    if (!map || !hair_flip(reference, test, width, height, HAIR_FLIP_DISPLAY, map)) {
-        free(map);
-        return false;
+    struct part part   = part_of(mask, width, height);
+    size_t      pixels = (size_t)part.width * part.height;
+    float*      a      = malloc((7 * pixels + 1) * sizeof *a);
+    float *     b = a + 3 * pixels, *map = b + 3 * pixels;
+    *out    = (struct hair_image_error){0};
+    bool ok = false;
+    if (a && pixels) {
+        copy_part(&part, reference, width, a);
+        copy_part(&part, test, width, b);
+        ok = hair_flip(a, b, part.width, part.height, HAIR_FLIP_DISPLAY, map);
     }
-    for (size_t i = 0; i < count; ++i) {
-        if (!mask[i]) continue;
-        ++out->pixels;
-        out->flip += (double)map[i];
-        for (size_t k = 3 * i; k < 3 * i + 3; ++k) square += pow((double)(reference[k] - test[k]), 2);
-    }
-    free(map);
-    if (!out->pixels) return false;
-    out->flip /= out->pixels;
-    out->psnr = -10 * log10(square / (3.0 * out->pixels));
-    return true;
+    if (ok) sum_up(&part, a, b, map, mask, width, out);
+    free(a);
+    return ok;
 }
 
 // Along one axis: `step` apart lie the pixels of a line, `stride` apart the lines.
