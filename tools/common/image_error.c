@@ -57,7 +57,7 @@ bool hair_image_error(const float* reference, const float* test, const unsigned 
 {
     struct part part   = part_of(mask, width, height);
     size_t      pixels = (size_t)part.width * part.height;
-    float*      a      = malloc((7 * pixels + 1) * sizeof *a);
+    float*      a      = calloc(7 * pixels + 1, sizeof *a);
     float *     b = a + 3 * pixels, *map = b + 3 * pixels;
     *out    = (struct hair_image_error){0};
     bool ok = false;
