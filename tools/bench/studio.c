@@ -243,7 +243,7 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     return !result;
 }
 
-// Without levels of detail as lines: about a ribbon's width there, at half the cost.
+// Of what is drawn, not of lines in its place: their shadow is another where ribbons are not a texel wide.
 static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
                         const struct hair_matrices* light)
 {
@@ -253,10 +253,7 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     hair_lod           lod         = studio->shot.lod;
     view.pass                      = HAIR_PASS_DEPTH;
     lod.importance *= importance_of_shadow(studio, camera, light);
-    if (studio->shot.has_lod)
-        view.lod = &lod;
-    else
-        view.primitive = HAIR_LINES;
+    if (studio->shot.has_lod) view.lod = &lod;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
