@@ -226,8 +226,8 @@ static bool look(struct scene* scene, const struct setting* setting)
     shot.samples     = setting->samples->msaa;
     shot.supersample = setting->samples->supersample;
     if (!bench_picture_make(scene->studio.size, &picture)) return false;
-    bool ok = bench_studio_set(&scene->studio, &shot) &&
-              bench_studio_time(&scene->studio, scene->bench->options.quick ? 50 : 300, &times) &&
+    double enough = scene->bench->options.quick ? 50 : scene->bench->software ? 300 : 30;
+    bool ok = bench_studio_set(&scene->studio, &shot) && bench_studio_time(&scene->studio, enough, &times) &&
               bench_studio_add(&scene->studio, picture.rgba);
     if (ok) bench_picture_finish(&picture, 1, (double)scene->studio.scene.exposure);
     ok = ok && bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);
