@@ -1,14 +1,41 @@
-// shade.glsl - light from a strand to the eye: Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003
-// as Scheuermann 2004 approximates them: a white one shifted towards the root, a coloured one towards the tip.
+// shade.glsl - light from a strand to the eye.
 #include "draw_params.glsl"
+#include "shadow.glsl"
+#ifdef HAIR_FIBRES
+#include "fibre.glsl"
+#endif
 
 struct hair_fragment {
-    vec3  tangent; // unit, from root to tip
-    vec3  to_eye;  // unit
-    float t;       // from root to tip, [0, 1]
-    float random;  // the strand's own, [0, 1)
-    float light;   // that reaches here, [0, 1]
+    vec3  position; // m, from the head's origin
+    vec3  tangent;  // unit, from root to tip
+    vec3  to_eye;   // unit
+    float t;        // from root to tip, [0, 1]
+    float random;   // the strand's own, [0, 1)
+    uint  seed;     // likewise
 };
+
+vec3 albedo_of(hair_fragment f)
+{
+    return mix(draw.root_color.rgb, draw.tip_color.rgb, f.t) * (1.0 + draw.root_color.w * (2.0 * f.random - 1.0));
+}
+
+#ifdef HAIR_FIBRES
+vec3 hair_shade(hair_fragment f)
+{
+    vec3         albedo = albedo_of(f), mu = absorption_of(albedo);
+    fibre_angles a      = measure_angles(f.tangent, draw.light_to.xyz, f.to_eye);
+    fibre_crowd  crowd  = find_crowd(a, mu);
+    float        met;
+    vec4         light  = light_through(f.position, f.seed, 1.0 - crowd.on, met);
+    vec3         once   = scatter_once(a, mu, draw.fibre.z * (1.0 + 0.5 * (f.random - 0.5)));
+    vec3         direct = scatter_often(a, crowd, once, light.x, light.yzw, met) * a.light.y;
+    // What shades from the light hides the sky too.
+    vec3         sky    = albedo * 0.31830989 * (0.25 + 0.75 * sqrt(light.yzw));
+    return draw.light.rgb * direct + draw.ambient.rgb * sky;
+}
+#else
+// Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as Scheuermann 2004 approximates them: a white
+// one shifted towards the root, a coloured one towards the tip.
 
 float lobe(vec3 tangent, vec3 halfway, float exponent)
 {
@@ -18,7 +45,8 @@ float lobe(vec3 tangent, vec3 halfway, float exponent)
 
 vec3 hair_shade(hair_fragment f)
 {
-    vec3  albedo  = mix(draw.root_color.rgb, draw.tip_color.rgb, f.t) * (1.0 + draw.root_color.w * (2.0 * f.random - 1.0));
+    float met, light = light_through(f.position, f.seed, vec3(1.0), met).x;
+    vec3  albedo  = albedo_of(f);
     vec3  normal  = normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6); // Of the ribbon
     vec3  halfway = normalize(draw.light_to.xyz + f.to_eye);
     float along   = dot(f.tangent, draw.light_to.xyz);
@@ -30,7 +58,8 @@ vec3 hair_shade(hair_fragment f)
     // Light from behind passes through the fibre but does not glint on its near side.
     float facing  = clamp(0.5 + 0.75 * dot(normal, draw.light_to.xyz), 0.0, 1.0);
 
-    vec3 direct  = draw.light.rgb * f.light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * (first + second));
-    vec3 indirect = draw.ambient.rgb * albedo * (0.25 + 0.75 * sqrt(f.light)); // Hair that shades from the light hides the sky too.
+    vec3 direct  = draw.light.rgb * light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * (first + second));
+    vec3 indirect = draw.ambient.rgb * albedo * (0.25 + 0.75 * sqrt(light)); // Hair that shades from the light hides the sky too.
     return direct + indirect;
 }
+#endif

@@ -91,6 +91,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
+#define HAIR_UNIT_FIBRE 10   // of lib/draw/fibre.h
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
@@ -116,6 +117,11 @@ typedef uint32_t hair_uint;
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32       // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
+
+#define HAIR_FIBRE_COLUMNS 64 // of its table
+#define HAIR_FIBRE_ROWS 16
+#define HAIR_FIBRE_LAYERS 3
+#define HAIR_FIBRE_MU 0.5 // absorption per radius in the middle of its columns
 
 #define HAIR_NO_HIT 1e9
 #define HAIR_HIT_THREADS 32     // of a work group that looks at one follower
@@ -399,6 +405,7 @@ struct hair_draw_params {
     hair_vec4 root_color; // rgb; w: spread
     hair_vec4 tip_color;  // rgb
     hair_vec4 specular;   // strengths of both highlights, their exponents
+    hair_vec4 fibre;      // variance along, absorption per log of reflectance squared, tilt in radians, scattering
     float     radius;     // m
     float     density;
     hair_uint segments;
@@ -424,6 +431,6 @@ struct hair_draw_params {
     float     hidden_share; // as a multiple, of strands behind the skull
     HAIR_STRUCT(hair_strand_look) strand;
 };
-HAIR_SIZE(hair_draw_params, 4 * 64 + 9 * 16 + 80 + sizeof(struct hair_strand_look))
+HAIR_SIZE(hair_draw_params, 4 * 64 + 10 * 16 + 80 + sizeof(struct hair_strand_look))
 
 #endif

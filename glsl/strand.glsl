@@ -1,7 +1,6 @@
 // strand.glsl - a vertex of a drawn strand: where, how wide and, where colour is asked for, its colour. Shading runs
 // here and not for every sample of a pixel: along a strand light changes slowly, across it not at all.
 #include "evaluate.glsl"
-#include "shadow.glsl"
 #include "shade.glsl"
 
 struct strand_vertex {
@@ -13,11 +12,12 @@ struct strand_vertex {
 vec3 shade(hair_follower follower, hair_point point, float t)
 {
     hair_fragment f;
-    f.tangent = point.tangent;
-    f.to_eye  = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - point.position : draw.eye.xyz);
-    f.t       = t;
-    f.random  = random(follower.seed + 7u);
-    f.light   = light_through(point.position, follower.seed);
+    f.position = point.position;
+    f.tangent  = point.tangent;
+    f.to_eye   = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - point.position : draw.eye.xyz);
+    f.t        = t;
+    f.random   = random(follower.seed + 7u);
+    f.seed     = follower.seed;
     return hair_shade(f);
 }
 

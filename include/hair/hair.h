@@ -342,16 +342,27 @@ typedef enum hair_curls {
     HAIR_CURLS_EXAMPLE    ///< curl_x and curl_z: see hair_look_curl_like.
 } hair_curls;
 
+/// How strands scatter light.
+typedef enum hair_shading {
+    HAIR_SHADING_FIBRES =
+        0,             ///< Marschner et al. 2003, Zinke et al. 2008: light goes through strands; the default.
+    HAIR_SHADING_LINES ///< Kajiya and Kay 1989 with two highlights: cheaper, needs no table.
+} hair_shading;
+
 /// How hair looks. What strays, kinks and curls is off where its share, curve or radius is 0, and costs nothing then. A
 /// curve that is not 0 at the root takes it off the scalp.
 typedef struct hair_look {
     hair_made made;
-    float     root_color[3]; ///< Diffuse reflectance at the root. [0, 1]. Default (0.06, 0.027, 0.012).
-    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.12, 0.058, 0.028).
+    float     root_color[3]; ///< Reflectance of much hair at the root. [0, 1]. Default (0.13, 0.055, 0.024).
+    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.26, 0.13, 0.06).
     float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
-    float     specular[2]; ///< Strength of the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
-    float     gloss[2];    ///< Their exponents. [1, 1000]. Default (60, 15).
-    float     radius;      ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
+    hair_shading shading;    ///< Default HAIR_SHADING_FIBRES.
+    float        roughness[2]; ///< Of fibres, along and round them. [0.05, 1]. Default (0.3, 0.4).
+    float        tilt; ///< Of the scales of fibres, which moves highlights. Radians. [0, 0.3]. Default 0.05.
+    float        scattering; ///< Share of the light from other fibres that is heeded. [0, 1]. Default 0.7.
+    float      specular[2];  ///< Of lines: the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
+    float      gloss[2];     ///< Of lines: their exponents. [1, 1000]. Default (60, 15).
+    float      radius; ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
     hair_curve taper;  ///< As a share of that. [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
     float      length; ///< Share of every strand that is drawn, cut off beyond. [0.01, 1]. Default 1.
     float      thinning; ///< The most by which strands are shorter at random, as a share. [0, 1]. Default 0.
@@ -378,7 +389,7 @@ typedef struct hair_look {
     hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
     float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
     float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
-    float absorption; ///< Of light by the hair in front of it. 1/m. [0, 10000]. Default 200.
+    float absorption; ///< Strands that light meets on its way through hair. 1/m. [0, 10000]. Default 200.
     float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.

@@ -32,6 +32,7 @@ void hair_draw_destroy(struct hair_draw* draw)
 {
     if (!draw->gl) return;
     hair_draw_free_hits(draw);
+    hair_draw_free_fibres(draw);
     hair_gl_free_texture(draw->gl, &draw->follower_texture);
     hair_gl_free_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
@@ -45,6 +46,8 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GL
     GLuint          textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
                                   draw->follower_texture, draw->patch_texture,      shadow_texture,
                                   draw->hits.hit_texture, draw->hits.repair_texture};
+    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
+    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
     gl->BindSampler(HAIR_UNIT_SHADOW, gl->shadow_sampler);
@@ -73,23 +76,29 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-static hair_gl_pass pass_of(const hair_view* view)
+// Of the rows of a DRAW_PASS, each of which is two.
+static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view)
 {
     if (view->pass == HAIR_PASS_GUIDES) return HAIR_GL_GUIDES;
-    if (view->pass == HAIR_PASS_DEPTH)
-        return view->primitive == HAIR_LINES ? HAIR_GL_DEPTH_LINES : HAIR_GL_DEPTH_RIBBONS;
-    return view->primitive == HAIR_LINES ? HAIR_GL_LINES : HAIR_GL_RIBBONS;
+    int depth = view->pass == HAIR_PASS_DEPTH, fibres = !depth && draw->look.shading == HAIR_SHADING_FIBRES;
+    int row = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
+    return HAIR_GL_TESSELLATED_RIBBONS + 2 * row;
 }
 
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view)
 {
     struct hair_gl* gl     = draw->gl;
-    hair_gl_pass    pass   = pass_of(view);
+    hair_gl_pass    pass   = pass_of(draw, view);
     int             guides = pass == HAIR_GL_GUIDES;
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result = hair_draw_need(draw, &pass);
     if (result) return result;
+
+    if (view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES) {
+        result = hair_draw_need_fibres(draw);
+        if (result) return result;
+    }
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);

@@ -2,19 +2,27 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
+#include "lib/draw/fibre.h"
 #include "lib/draw/hits.h"
 
+// The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
+struct hair_fibres {
+    GLuint            texture;
+    struct hair_fibre of;
+};
+
 struct hair_draw {
-    struct hair_gl*  gl;
-    hair_look        look;
-    GLuint           follower, patch, params;         // buffers
-    GLuint           follower_texture, patch_texture; // the first two, for stages without storage buffers
-    uint32_t         followers, patches, smooth_vertices, guides;
-    uint32_t         most_isolines; // of a patch
-    uint32_t         map_sets;
-    hair_vec4        skull;   // of the groom
-    int              bounded; // roots are held: no strand leaves its patch's reach
-    struct hair_hits hits;
+    struct hair_gl*    gl;
+    hair_look          look;
+    GLuint             follower, patch, params;         // buffers
+    GLuint             follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t           followers, patches, smooth_vertices, guides;
+    uint32_t           most_isolines; // of a patch
+    uint32_t           map_sets;
+    hair_vec4          skull;   // of the groom
+    int                bounded; // roots are held: no strand leaves its patch's reach
+    struct hair_hits   hits;
+    struct hair_fibres fibres;
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -38,6 +46,10 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
 hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture);
+
+// fibres.c: the table that colour needs, with the look as it is.
+hair_result hair_draw_need_fibres(struct hair_draw* draw);
+void        hair_draw_free_fibres(struct hair_draw* draw);
 
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,

@@ -104,15 +104,20 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
 
 hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
 {
-    static const hair_gl_pass with_hits[] = {
-        [HAIR_GL_EXPAND]        = HAIR_GL_EXPAND_HITS,
-        [HAIR_GL_RIBBONS]       = HAIR_GL_RIBBONS_HITS,
-        [HAIR_GL_LINES]         = HAIR_GL_LINES_HITS,
-        [HAIR_GL_DEPTH_LINES]   = HAIR_GL_DEPTH_LINES_HITS,
-        [HAIR_GL_DEPTH_RIBBONS] = HAIR_GL_DEPTH_RIBBONS_HITS,
+    static const struct {
+        hair_gl_pass first, last, with_hits;
+    } rows[] = {
+        {HAIR_GL_EXPAND, HAIR_GL_EXPAND, HAIR_GL_EXPAND_HITS},
+        {HAIR_GL_TESSELLATED_RIBBONS, HAIR_GL_TESSELLATED_FIBRES_LINES_STYLED,
+         HAIR_GL_TESSELLATED_HITS_RIBBONS},
     };
     if (*pass == HAIR_GL_GUIDES) return HAIR_OK;
-    if (draw->hits.active) *pass = with_hits[*pass];
+    if (draw->hits.active)
+        for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+            if (*pass >= rows[i].first && *pass <= rows[i].last) {
+                *pass = rows[i].with_hits + (*pass - rows[i].first);
+                break;
+            }
     *pass = hair_draw_styled(draw, *pass);
     return hair_gl_need(draw->gl, *pass);
 }

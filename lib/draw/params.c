@@ -1,5 +1,6 @@
 // params.c - matrices that take positions from the head's origin, the eye, the light, the look.
 #include "lib/draw/params.h"
+#include "lib/draw/fibre.h"
 
 #include <string.h>
 
@@ -76,6 +77,15 @@ static hair_vec4 weigh_sets(float set, uint32_t sets)
     return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
 }
 
+// Chiang et al. 2016, equation 9: what the logarithm of a reflectance is divided by.
+static void write_fibre(const hair_look* look, hair_vec4* out)
+{
+    float variance[3], b = look->roughness[1];
+    hair_fibre_variances(look->roughness[0], variance);
+    float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
+    *out    = (hair_vec4){variance[0], 1 / (d * d), look->tilt, look->scattering};
+}
+
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out)
 {
@@ -84,8 +94,9 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     if (view) write_view(draw, head, view, out);
     out->root_color =
         (hair_vec4){look->root_color[0], look->root_color[1], look->root_color[2], look->color_spread};
-    out->tip_color       = (hair_vec4){look->tip_color[0], look->tip_color[1], look->tip_color[2], 0};
-    out->specular        = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    out->tip_color = (hair_vec4){look->tip_color[0], look->tip_color[1], look->tip_color[2], 0};
+    out->specular  = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    write_fibre(look, &out->fibre);
     out->radius          = look->radius;
     out->density         = look->density;
     out->segments        = look->segments;

@@ -107,6 +107,23 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
     return HAIR_OK;
 }
 
+void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t size[3], const void* texels)
+{
+    static const GLenum parts[] = {GL_UNPACK_SWAP_BYTES,  GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT,
+                                   GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_IMAGES};
+    GLint               was[6], buffer = 0;
+    gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer);
+    if (buffer) gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (int i = 0; i < 6; ++i) {
+        gl->GetIntegerv(parts[i], &was[i]);
+        gl->PixelStorei(parts[i], 0);
+    }
+    gl->TextureSubImage3D(texture, 0, 0, 0, 0, (GLsizei)size[0], (GLsizei)size[1], (GLsizei)size[2], GL_RGBA,
+                          GL_FLOAT, texels);
+    for (int i = 0; i < 6; ++i) gl->PixelStorei(parts[i], was[i]);
+    if (buffer) gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)buffer);
+}
+
 void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (*buffer) gl->DeleteBuffers(1, buffer);

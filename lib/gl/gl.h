@@ -14,7 +14,7 @@ typedef enum hair_gl_pass {
     HAIR_GL_PASS_COUNT
 } hair_gl_pass;
 
-#define HAIR_GL_UNITS (HAIR_UNIT_SOLID + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_FIBRE + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 
@@ -113,8 +113,10 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
 // refuses.
 hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
                                GLenum filter, GLuint* out);
-void        hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
-void        hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
+// Of four floats a texel. However the host unpacks its pixels.
+void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t size[3], const void* texels);
+void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
+void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 
 // pass.c ----------------------------------------------------------------------------------------------------
 

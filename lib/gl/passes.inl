@@ -36,6 +36,15 @@
     PASS(name, label, stages) \
     PASS(name##_STYLED, label "_styled", "HAIR_STYLED=1 " stages)
 
+// Strands: as ribbons or lines, in colour or depth only, their colour that of lines or of fibres.
+#define DRAW_PASS(name, label, stages) \
+    FOLLOWER_PASS(name##_RIBBONS, "draw/" label "_ribbons", stages " draw/ribbon.geom draw/strand.frag") \
+    FOLLOWER_PASS(name##_LINES, "draw/" label "_lines", stages " draw/strand.frag") \
+    FOLLOWER_PASS(name##_DEPTH_RIBBONS, "draw/" label "_depth_ribbons", stages " draw/ribbon.geom draw/depth.frag") \
+    FOLLOWER_PASS(name##_DEPTH_LINES, "draw/" label "_depth_lines", stages " draw/depth.frag") \
+    FOLLOWER_PASS(name##_FIBRES_RIBBONS, "draw/" label "_fibres_ribbons", "HAIR_FIBRES=1 " stages " draw/ribbon.geom draw/strand.frag") \
+    FOLLOWER_PASS(name##_FIBRES_LINES, "draw/" label "_fibres_lines", "HAIR_FIBRES=1 " stages " draw/strand.frag")
+
 PASS(VOXELISE, "field/voxelise", "field/voxelise.comp")
 PASS(VOXELISE_FORMS, "field/voxelise_forms", "HAIR_FORMS=1 field/voxelise.comp")
 PASS(RESET, "sim/reset", "sim/reset.comp")
@@ -52,18 +61,12 @@ ROD_PASS(FOLLOW, "sim/follow", "HAIR_SOLVER=3 ")
 GUIDE_PASS(REDBLACK, "sim/redblack", "sim/redblack.comp")
 GUIDE_PASS(SMOOTH, "interpolate/smooth", "interpolate/smooth.comp")
 FOLLOWER_PASS(EXPAND, "interpolate/expand", "interpolate/expand.comp")
-FOLLOWER_PASS(RIBBONS, "draw/ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
-FOLLOWER_PASS(LINES, "draw/lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
-FOLLOWER_PASS(DEPTH_RIBBONS, "draw/depth_ribbons", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
-FOLLOWER_PASS(DEPTH_LINES, "draw/depth_lines", "draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+DRAW_PASS(TESSELLATED, "tessellated", "draw/patch.vert draw/patch.tesc draw/strand.tese")
 PASS(SOLIDS, "draw/solids", "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
 // The same where followers have met solids: made when they first do.
 FOLLOWER_PASS(EXPAND_HITS, "interpolate/expand_hits", "HAIR_HITS=1 interpolate/expand.comp")
-FOLLOWER_PASS(RIBBONS_HITS, "draw/ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/strand.frag")
-FOLLOWER_PASS(LINES_HITS, "draw/lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/strand.frag")
-FOLLOWER_PASS(DEPTH_RIBBONS_HITS, "draw/depth_ribbons_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/ribbon.geom draw/depth.frag")
-FOLLOWER_PASS(DEPTH_LINES_HITS, "draw/depth_lines_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese draw/depth.frag")
+DRAW_PASS(TESSELLATED_HITS, "tessellated_hits", "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese")
 FOLLOWER_PASS(HIT, "interpolate/hit", "HAIR_FINDS_HITS=1 interpolate/hit.comp")
 FOLLOWER_PASS(HIT_GROUP, "interpolate/hit_group", "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_GROUP_PER_FOLLOWER=1 interpolate/hit.comp")
 FOLLOWER_PASS(PREPASS, "interpolate/hit_prepass", "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
@@ -71,6 +74,7 @@ PASS(PREPASS_HIT, "interpolate/hit_gather", "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 in
 FOLLOWER_PASS(REPAIR, "interpolate/repair", "HAIR_FINDS_HITS=1 interpolate/repair.comp")
 PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 
+#undef DRAW_PASS
 #undef FOLLOWER_PASS
 #undef ROD_PASS
 #undef ROD_PASS_IN

@@ -133,12 +133,13 @@ static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
     return HAIR_OK;
 }
 
-// Of a size that no guide may have, or of what hair can do without.
+// Of a size that no guide may have, of what hair can do without, or one of the ways to draw it.
 static int is_optional(hair_gl_pass pass)
 {
     const char* stages = passes[pass].stages;
-    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") || strstr(stages, "HITS=") ||
-           strstr(stages, "HAIR_STYLED=");
+    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") ||
+           strstr(stages, "HITS=") || strstr(stages, "HAIR_STYLED=") || strstr(stages, "draw/strand.") ||
+           strstr(stages, "draw/depth.");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)

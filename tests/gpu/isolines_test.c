@@ -65,7 +65,7 @@ struct drawn {
 static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t most_segments, int hits)
 {
     struct hair_gl* gl    = &test->context->gl;
-    hair_gl_pass    pass  = hits ? HAIR_GL_LINES_HITS : HAIR_GL_LINES;
+    hair_gl_pass    pass  = hits ? HAIR_GL_TESSELLATED_HITS_FIBRES_LINES : HAIR_GL_TESSELLATED_FIBRES_LINES;
     GLuint          whole = gl->program[pass], program = 0;
     const char*     stages = "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese";
     hair_test_ok(test, hair_gl_link(gl, "capture", hits ? stages : strchr(stages, ' ') + 1, "strand_position",

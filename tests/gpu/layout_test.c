@@ -178,6 +178,7 @@ static const struct member members[] = {
     VEC4(hair_draw_params, root_color),
     VEC4(hair_draw_params, tip_color),
     VEC4(hair_draw_params, specular),
+    VEC4(hair_draw_params, fibre),
     FLOAT(hair_draw_params, radius),
     FLOAT(hair_draw_params, density),
     UINT(hair_draw_params, segments),
@@ -374,7 +375,7 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
         STORAGE(VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
         DRAW(EXPAND),
-        DRAW(RIBBONS)};
+        DRAW(TESSELLATED_FIBRES_RIBBONS)};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));
         GLuint program = test->context->gl.program[uses[i].pass];

@@ -110,7 +110,7 @@ static void timings_count_the_runs_of_every_pass(void** state)
     assert_string_equal(timings[HAIR_GL_DIRECT_CURVED_32].pass, "sim/direct_curved_32");
     assert_int_equal(timings[HAIR_GL_DIRECT_CURVED_32].runs, 9);
     assert_int_equal(timings[HAIR_GL_SMOOTH_32].runs, 0); // Nobody has looked.
-    assert_int_equal(timings[HAIR_GL_RIBBONS].runs, 0);
+    assert_int_equal(timings[HAIR_GL_TESSELLATED_FIBRES_RIBBONS].runs, 0);
     for (int i = 0; i < HAIR_GL_PASS_COUNT; ++i) assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
     hair_destroy(hair);
     hair_context_destroy(context);

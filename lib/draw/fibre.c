@@ -1,0 +1,204 @@
+// fibre.c - a cylinder's lobes, by summing over where on its width a ray comes in.
+#include "lib/draw/fibre.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979
+#define LOBES 4
+#define ANGLES 64 // along the fibre
+#define RAYS 96   // over the width of the fibre, by angle from its middle: close where it grazes
+
+void hair_fibre_variances(float roughness, float out[3])
+{
+    float b = 0.726f * roughness + 0.812f * roughness * roughness + 3.7f * powf(roughness, 20);
+    out[0]  = b * b;
+    out[1]  = 0.25f * out[0];
+    out[2]  = 4 * out[0];
+}
+
+float hair_fibre_scale(float roughness)
+{
+    return 0.6266571f * (0.265f * roughness + 1.194f * roughness * roughness + 5.372f * powf(roughness, 22));
+}
+
+// Unpolarised, for light that comes at an angle of that cosine.
+static double reflect(double cosine, double index)
+{
+    double t = sqrt(1 - (1 - cosine * cosine) / (index * index));
+    double p = (index * cosine - t) / (index * cosine + t), s = (cosine - index * t) / (cosine + index * t);
+    return 0.5 * (p * p + s * s);
+}
+
+static double to_logistic(double x, double scale)
+{
+    return 1 / (1 + exp(-x / scale));
+}
+
+// Of an angle, distributed by a logistic that is cut at half a turn to each side: the density, 1/radian.
+static double logistic(double x, double scale)
+{
+    x        = x - 2 * PI * floor((x + PI) / (2 * PI));
+    double e = exp(-fabs(x) / scale);
+    return e / (scale * (1 + e) * (1 + e)) / (to_logistic(PI, scale) - to_logistic(-PI, scale));
+}
+
+// A ray that meets the fibre at an angle `in` round it from its middle: what leaves in each lobe if nothing is absorbed,
+// as a share of all light that comes in; at which angle from where it came; and how far inside it has gone, radii.
+struct ray {
+    double share[LOBES], angle[LOBES], path[LOBES];
+};
+
+static struct ray trace(double in, double cos_d, double index)
+{
+    struct ray ray;
+    double     sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
+    double     bravais = index * cos_t / cos_d; // Index as seen across the fibre.
+    double     inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
+    double     leg            = 2 * cos(inside) / cos_t;
+    double     through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
+    for (int p = 0; p < LOBES; ++p) {
+        ray.share[p] = through[p] * 0.5 * PI / RAYS * cos(in);
+        ray.angle[p] = 2 * p * inside - 2 * in + p * PI;
+        ray.path[p]  = p * leg;
+    }
+    return ray;
+}
+
+static double cosine_of(int row)
+{
+    double cosine = (double)row / (HAIR_FIBRE_ROWS - 1);
+    return cosine < 0.02 ? 0.02 : cosine;
+}
+
+static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
+{
+    double scale = (double)hair_fibre_scale(fibre->around);
+    for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
+        struct ray rays[RAYS];
+        for (int i = 0; i < RAYS; ++i)
+            rays[i] = trace(PI * ((i + 0.5) / RAYS - 0.5), cosine_of(row), (double)fibre->index);
+        for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
+            double phi = PI * column / (HAIR_FIBRE_COLUMNS - 1), sum[LOBES] = {0}, path[LOBES] = {0};
+            for (int i = 0; i < RAYS; ++i)
+                for (int p = 0; p < LOBES; ++p) {
+                    // What has been reflected inside twice or more has lost its direction.
+                    double density = p < 3 ? logistic(phi - rays[i].angle[p], scale) : 0.5 / PI;
+                    sum[p] += rays[i].share[p] * density;
+                    path[p] += rays[i].share[p] * density * rays[i].path[p];
+                }
+            for (int p = 1; p < LOBES; ++p) path[p] = sum[p] > 1e-30 ? path[p] / sum[p] : 2 * p;
+            table[0][row][column] = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
+            table[1][row][column] = (hair_vec4){(float)path[1], (float)path[2], (float)path[3], 0};
+        }
+    }
+}
+
+static double weight_of(int column) // of a column in a sum over all turns, radians
+{
+    int end = column == 0 || column == HAIR_FIBRE_COLUMNS - 1;
+    return 2 * PI / (HAIR_FIBRE_COLUMNS - 1) * (end ? 0.5 : 1);
+}
+
+static double angle_of(int i)
+{
+    return PI * ((i + 0.5) / ANGLES - 0.5);
+}
+
+// Light comes evenly from one side of the plane through the fibre: at phi from it, phi / pi of it goes on to the other.
+static hair_vec4 send(const hair_fibre_table table, int row, double mu, const float variance[3])
+{
+    double on = 0, back = 0, on_variance = 0, back_variance = 0;
+    for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
+        const hair_vec4 *w = &table[0][row][column], *l = &table[1][row][column];
+        double           share   = (double)column / (HAIR_FIBRE_COLUMNS - 1);
+        double           weight  = weight_of(column);
+        double           lobe[4] = {(double)w->x, (double)w->y * exp(-mu * (double)l->x),
+                                    (double)w->z * exp(-mu * (double)l->y), (double)w->w * exp(-mu * (double)l->z)};
+        for (int p = 0; p < LOBES; ++p) {
+            double v = (double)variance[p < 2 ? p : 2];
+            on += weight * share * lobe[p];
+            back += weight * (1 - share) * lobe[p];
+            on_variance += weight * share * lobe[p] * v;
+            back_variance += weight * (1 - share) * lobe[p] * v;
+        }
+    }
+    return (hair_vec4){(float)on, (float)back, (float)(on_variance / on), (float)(back_variance / back)};
+}
+
+// Log of the modified Bessel function I0, by its integral.
+static double log_bessel(double x)
+{
+    double sum = 0;
+    for (int i = 0; i < 24; ++i) {
+        double s = sin(PI * (i + 0.5) / 48); // 1 - cos of twice the angle, without losing digits
+        sum += exp(-2 * x * s * s) / 24;
+    }
+    return x + log(sum);
+}
+
+// As in fibre.glsl, of scales without tilt, for angles above the plane across the fibre.
+static double longitudinal(double light, double eye, double variance)
+{
+    double r = 1 / variance, s = variance / (variance + 0.3);
+    double m =
+        exp(log_bessel(cos(light) * cos(eye) * r) - (sin(light) * sin(eye) + 1) * r) * r / (1 - exp(-2 * r));
+    double grazing = sqrt(s * (0.304161 + s * (-0.101796 + s * (1.961349 - 1.543683 * s))));
+    double normal  = 1 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
+    double g = pow(grazing, 3), n = pow(normal, 3) - g;
+    return m * pow((g + n * pow(cos(light), 3)) * (g + n * pow(cos(eye), 3)), -1.0 / 6);
+}
+
+// Lobes of different widths take light from cones on which they are differently strong, so that together they lose some
+// of what grazes the fibre. A factor for either direction makes up for it (Sinkhorn 1967): by cosine, in every row.
+static void balance(hair_fibre_table table, const float variance[3])
+{
+    static const double finest = 4 * (PI / ANGLES) * (PI / ANGLES); // What the sums below resolve.
+    double              lobe[HAIR_FIBRE_ROWS][LOBES] = {{0}}, pair[ANGLES][ANGLES], factor[ANGLES];
+    for (int row = 0; row < HAIR_FIBRE_ROWS; ++row)
+        for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
+            const hair_vec4* w      = &table[0][row][column];
+            double           weight = weight_of(column);
+            lobe[row][0] += weight * (double)w->x, lobe[row][1] += weight * (double)w->y;
+            lobe[row][2] += weight * ((double)w->z + (double)w->w);
+        }
+    for (int i = 0; i < ANGLES; ++i)
+        for (int k = 0; k < ANGLES; ++k) {
+            double light = angle_of(i), eye = angle_of(k),
+                   at  = cos(0.5 * (light - eye)) * (HAIR_FIBRE_ROWS - 1);
+            int row    = at < HAIR_FIBRE_ROWS - 2 ? (int)at : HAIR_FIBRE_ROWS - 2;
+            pair[i][k] = 0;
+            for (int p = 0; p < 3; ++p)
+                pair[i][k] += (lobe[row][p] + (at - row) * (lobe[row + 1][p] - lobe[row][p])) * PI / ANGLES *
+                              cos(light) * cos(light) *
+                              longitudinal(light, eye, fmax((double)variance[p], finest));
+        }
+    for (int k = 0; k < ANGLES; ++k) factor[k] = 1;
+    for (int round = 0; round < 16; ++round) {
+        double sum[ANGLES] = {0};
+        for (int i = 0; i < ANGLES; ++i)
+            for (int k = 0; k < ANGLES; ++k) sum[k] += pair[i][k] * factor[i] * factor[k];
+        for (int k = 0; k < ANGLES; ++k) factor[k] /= sqrt(sum[k]);
+    }
+    for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
+        double at = (acos((double)row / (HAIR_FIBRE_ROWS - 1)) / PI + 0.5) * ANGLES - 0.5;
+        int    k  = at < ANGLES - 2 ? (int)at : ANGLES - 2;
+        for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column)
+            table[1][row][column].w = (float)(factor[k] + fmin(at - k, 1) * (factor[k + 1] - factor[k]));
+    }
+}
+
+void hair_fibre_fill(const struct hair_fibre* fibre, hair_fibre_table table)
+{
+    float variance[3];
+    hair_fibre_variances(fibre->along, variance);
+    fill_lobes(fibre, table);
+    balance(table, variance);
+    for (int row = 0; row < HAIR_FIBRE_ROWS; ++row)
+        for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
+            double x  = (double)column / (HAIR_FIBRE_COLUMNS - 1);
+            double mu = x < 1 ? HAIR_FIBRE_MU * x / (1 - x) : 1e4;
+            table[2][row][column] =
+                send((const hair_vec4(*)[HAIR_FIBRE_ROWS][HAIR_FIBRE_COLUMNS])table, row, mu, variance);
+        }
+}

@@ -1,0 +1,34 @@
+// fibres.c - the table of fibre.h as a texture.
+#include "lib/draw/draw.h"
+
+#include <string.h>
+
+#define REFRACTION 1.55f // of keratin
+
+hair_result hair_draw_need_fibres(struct hair_draw* draw)
+{
+    struct hair_fibres* fibres = &draw->fibres;
+    struct hair_gl*     gl     = draw->gl;
+    struct hair_fibre   of     = {draw->look.roughness[1], draw->look.roughness[0], REFRACTION};
+    if (fibres->texture && memcmp(&of, &fibres->of, sizeof of) == 0) return HAIR_OK;
+
+    static const uint32_t size[3] = {HAIR_FIBRE_COLUMNS, HAIR_FIBRE_ROWS, HAIR_FIBRE_LAYERS};
+    hair_vec4(*table)[HAIR_FIBRE_ROWS][HAIR_FIBRE_COLUMNS] =
+        hair_alloc(&gl->host, HAIR_FIBRE_LAYERS, sizeof *table);
+    if (!table) return hair_fail_memory(&gl->host, "the table of fibres");
+    hair_result result = HAIR_OK;
+    if (!fibres->texture)
+        result = hair_gl_texture_3d(gl, "hair fibres", GL_RGBA32F, size, GL_LINEAR, &fibres->texture);
+    if (!result) {
+        hair_fibre_fill(&of, table);
+        hair_gl_fill_texture_3d(gl, fibres->texture, size, table);
+        fibres->of = of;
+    }
+    hair_free(&gl->host, table);
+    return result;
+}
+
+void hair_draw_free_fibres(struct hair_draw* draw)
+{
+    hair_gl_free_texture(draw->gl, &draw->fibres.texture);
+}
