@@ -42,7 +42,7 @@ static void wrong_use_exits_with_2(void** state)
         {"", "no suite"},
         {"dance", "no suite dance"},
         {"accuracy physics", "physics is one argument too many"},
-        {"accuracy --case dance", "its cases are shake, swing, static"},
+        {"accuracy --case dance", "its cases are shake, swing, contact, static"},
         {"accuracy --case sha", "its cases are"},
         {"accuracy --method dance", "--method is dance"},
         {"accuracy --mapping dance", "--mapping is dance"},

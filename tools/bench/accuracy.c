@@ -11,6 +11,7 @@
 #define LENGTH 0.3 // m
 #define MOST_FRAMES 60
 #define MOST_SUBSTEPS 4096
+#define FINE_SUBSTEPS 512
 #define TOLERANCE 1e-7 // of the length: how far halving its substeps may move the reference
 
 static const char* const columns[] = {"case",        "method",      "vertices",
@@ -49,6 +50,8 @@ struct motion {
     uint32_t                       frames;
     struct hair_reference_rod_pose heads[MOST_FRAMES];
     bool                           moves; // heads are in use
+    hair_solid                     solids[2];
+    uint32_t                       solid_count;
     double*                        truth; // per frame and vertex; NULL: not found yet
     char                           reference[96];
 };
@@ -82,6 +85,25 @@ static void make_shake(const struct bench* bench, uint32_t vertices, struct moti
     }
 }
 
+// The same head as a sphere, and a shoulder, over which the strand falls and is drawn. (Against an upright body the tip
+// strikes like a whip, and over a ridge along it a strand may fall either way: there any two runs go apart.)
+static void make_contact(const struct bench* bench, uint32_t vertices, struct motion* out)
+{
+    make_shake(bench, vertices, out);
+    hair_solid head = hair_solid_default(), shoulder = head;
+    head.size[0]         = 0.095f;
+    shoulder.shape       = HAIR_SHAPE_CAPSULE; // Its axis along z.
+    shoulder.rotation[0] = shoulder.rotation[3] = (float)sqrt(0.5);
+    shoulder.position[0]                        = 0.2f;
+    shoulder.position[1]                        = -0.45f;
+    shoulder.size[0]                            = 0.2f;
+    shoulder.size[1]                            = 0.12f;
+    out->name                                   = "contact";
+    out->solids[0]                              = head;
+    out->solids[1]                              = shoulder;
+    out->solid_count                            = 2;
+}
+
 // A chain without bending, let go horizontal: the whip at 0.25 s is what separates solvers.
 static void make_swing(const struct bench* bench, uint32_t vertices, struct motion* out)
 {
@@ -91,10 +113,50 @@ static void make_swing(const struct bench* bench, uint32_t vertices, struct moti
     out->scene.physics.bend  = 0;
 }
 
-static bool find_truth(struct motion* motion)
+static bool bring_to_life(struct bench* bench, const struct motion* motion, struct bench_living* out)
+{
+    if (!bench_live(bench, &motion->scene, out)) return false;
+    if (!hair_set_solids(out->hair, motion->solids, motion->solid_count, sizeof *motion->solids)) return true;
+    bench_die(out);
+    return false;
+}
+
+// One strand among solids, of which the reference knows nothing: by the solver with the least error.
+static bool run_finely(struct bench* bench, const struct motion* motion, uint32_t substeps, double* positions)
+{
+    struct motion       fine = *motion;
+    struct bench_living living;
+    fine.scene.solver  = HAIR_SOLVER_ACCURATE;
+    fine.scene.strands = 1;
+    fine.scene.substep = FRAME / substeps;
+    if (!bring_to_life(bench, &fine, &living)) return false;
+    bool whole = true;
+    for (uint32_t k = 0; k < fine.frames && whole; ++k)
+        whole = bench_step(&living, fine.moves ? fine.heads + k : NULL, FRAME) &&
+                bench_read(&living, positions + (size_t)k * 3 * fine.scene.vertices);
+    bench_die(&living);
+    return whole;
+}
+
+static bool find_truth_among_solids(struct bench* bench, struct motion* motion)
+{
+    size_t  count = (size_t)motion->frames * 3 * motion->scene.vertices;
+    double* half  = malloc(count * sizeof *half);
+    double  sum   = 0;
+    bool    whole = half && run_finely(bench, motion, FINE_SUBSTEPS / 2, half) &&
+                 run_finely(bench, motion, FINE_SUBSTEPS, motion->truth);
+    for (size_t i = 0; i < count && whole; ++i) sum += pow(motion->truth[i] - half[i], 2);
+    free(half);
+    snprintf(motion->reference, sizeof motion->reference, "accurate, %d substeps, rms %.1e from half as many",
+             FINE_SUBSTEPS, sqrt(3 * sum / (double)count) / LENGTH);
+    return whole;
+}
+
+static bool find_truth(struct bench* bench, struct motion* motion)
 {
     if (motion->truth) return true;
     motion->truth = malloc((size_t)motion->frames * 3 * motion->scene.vertices * sizeof *motion->truth);
+    if (motion->truth && motion->solid_count) return find_truth_among_solids(bench, motion);
     struct hair_reference_rod* rod = bench_reference(&motion->scene);
     if (!motion->truth || !rod) {
         hair_reference_rod_destroy(rod);
@@ -162,7 +224,10 @@ static bool settle_substep(struct bench* bench, struct motion* motion)
 {
     struct bench_living living;
     motion->scene.substep = 0;
-    if (!bench_live(bench, &motion->scene, &living)) return false;
+    if (!bring_to_life(bench, motion, &living)) return false;
+    hair_health health = hair_health_default(); // Among solids it is shorter from the first step on.
+    if (bench_step(&living, NULL, FRAME) && !hair_get_health(living.hair, &health))
+        living.substep = (double)health.substep;
     motion->scene.substep = FRAME / ceil(FRAME / living.substep - 1e-3);
     bench_die(&living);
     return true;
@@ -180,11 +245,11 @@ static void measure(struct bench* bench, struct motion* motion, const struct set
     scene->physics.iterations = setting->iterations ? setting->iterations : 1;
     scene->substep            = setting->substeps ? FRAME / setting->substeps : 0;
     scene->mapping = setting->solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
-    if ((!setting->substeps && !settle_substep(bench, motion)) || !bench_live(bench, scene, &living)) {
+    if ((!setting->substeps && !settle_substep(bench, motion)) || !bring_to_life(bench, motion, &living)) {
         bench_refuse(bench, motion->name, method);
         return;
     }
-    if (find_truth(motion) && run(&living, motion, &error) &&
+    if (find_truth(bench, motion) && run(&living, motion, &error) &&
         bench_time(&living, motion->frames, motion->moves ? motion->heads : NULL, FRAME, &times))
         add_row(motion, &living, &error, &times, setting);
     else
@@ -321,6 +386,8 @@ static void run_suite(struct bench* bench)
     }
     make_swing(bench, bench->options.quick ? 16 : 32, &motion);
     measure_all(bench, &motion);
+    make_contact(bench, 32, &motion);
+    if (!bench->options.quick) measure_all(bench, &motion);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < (bench->options.quick ? 1 : 3); ++k)
             measure_static(bench, solvers[i], lengths[k]);

@@ -8,6 +8,8 @@
 
 #define BENCH_TOOL "hair-bench"
 
+#define BENCH_MOST_PASSES 4096 // of hair_timings: more than there are
+
 struct bench_suite;
 
 // What the command line says.

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PASSES 512
 #define MOST_RUNS 15
 
 static bool make_target(struct bench_bust* bust)
@@ -141,10 +140,10 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 
 static double time_of_passes(hair_context* context)
 {
-    hair_timing now[MOST_PASSES];
-    uint32_t    count = hair_timings(context, now, MOST_PASSES);
+    hair_timing now[BENCH_MOST_PASSES];
+    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
     double      ms    = 0;
-    for (uint32_t i = 0; i < count && i < MOST_PASSES; ++i)
+    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (strstr(now[i].pass, "interpolate/hit") || strstr(now[i].pass, "interpolate/repair"))
             ms += now[i].total_ms;
     return ms;

@@ -81,11 +81,11 @@ static bool update(struct subject* subject, const hair_solid* solids, uint32_t c
 // Of the passes that write the field: GPU time, and how often they ran.
 static double sum_passes(struct bench* bench, uint32_t* runs)
 {
-    hair_timing timings[512];
-    uint32_t    count = hair_timings(bench->context, timings, 512);
+    hair_timing timings[BENCH_MOST_PASSES];
+    uint32_t    count = hair_timings(bench->context, timings, BENCH_MOST_PASSES);
     double      sum   = 0;
     *runs             = 0;
-    for (uint32_t i = 0; i < count && i < 512; ++i)
+    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (!strncmp(timings[i].pass, "field/", 6)) {
             sum += timings[i].total_ms;
             *runs += timings[i].runs;

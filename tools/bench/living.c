@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PASSES 512
 
 static hair_result make_groom(struct bench_living* living)
 {
@@ -177,12 +176,12 @@ bool bench_are_finite(const double* positions, uint32_t vertices)
 // Timing ----------------------------------------------------------------------------------------------------
 
 // GPU time of all passes that ran since `before`, which becomes now.
-static double passes_since(hair_context* context, hair_timing before[MOST_PASSES])
+static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_PASSES])
 {
-    hair_timing now[MOST_PASSES];
-    uint32_t    count = hair_timings(context, now, MOST_PASSES);
+    hair_timing now[BENCH_MOST_PASSES];
+    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
     double      ms    = 0;
-    for (uint32_t i = 0; i < count && i < MOST_PASSES; ++i) {
+    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i) {
         ms += now[i].total_ms - before[i].total_ms;
         before[i] = now[i];
     }
@@ -194,7 +193,7 @@ static bool run_frames(struct bench_living* living, uint32_t frames,
                        const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
     bool        software            = living->bench->software;
-    hair_timing before[MOST_PASSES] = {{0}};
+    hair_timing before[BENCH_MOST_PASSES] = {{0}};
     if (hair_reset(living->hair)) return false;
     glFinish();
     passes_since(living->bench->context, before);

@@ -136,7 +136,7 @@ static bool take(const struct row* row, const char* value, struct bench_options*
         if (!parse_name(row->name, value, mappings, &number)) return false;
         out->mapping = (hair_mapping)number;
         return true;
-    case STRANDS: return parse_count(row->name, value, 1, 65535, &out->strands);
+    case STRANDS: return parse_count(row->name, value, 1, 262144, &out->strands);
     case SIZE: return parse_count(row->name, value, 16, 4096, &out->size);
     case SCENE: return parse_range(row->name, value, out);
     case DEVICE:
