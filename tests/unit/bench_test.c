@@ -47,7 +47,7 @@ static void wrong_use_exits_with_2(void** state)
         {"accuracy --method dance", "--method is dance"},
         {"accuracy --mapping dance", "--mapping is dance"},
         {"accuracy --strands 0", "--strands is 0"},
-        {"accuracy --strands 65536", "--strands is 65536"},
+        {"accuracy --strands 262145", "--strands is 262145"},
         {"accuracy --strands x", "--strands is x"},
         {"accuracy --device -1", "--device is -1"},
         {"render --size 8", "--size is 8, not a whole number in [16, 4096]"},
