@@ -18,6 +18,7 @@
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 4500 // As wide on its pixels as 18,000 are on 1,024.
+#define MOST_RADIUS 0.01f        // m: hair_look's
 #define LEAST_RATIO 5            // of a reported error and that of the reference
 
 static const char* const columns[] = {
@@ -90,8 +91,8 @@ static uint32_t strands_of(const struct bench* bench)
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
-    shot.look.radius *= scene->studio.fewer;
-    shot.away = scene->subject->away;
+    shot.look.radius       = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
+    shot.away              = scene->subject->away;
     return shot;
 }
 
