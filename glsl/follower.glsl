@@ -1,5 +1,8 @@
 // follower.glsl - where a follower is (shared.h says how it is made of guides). What draws evaluates followers by
 // evaluate.glsl.
+#ifndef HAIR_FOLLOWER_GLSL
+#define HAIR_FOLLOWER_GLSL
+
 #include "rotation.glsl"
 #include "look.glsl"
 #include "fetch.glsl"
@@ -121,3 +124,5 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
 }
 
 hair_point interpolate(hair_follower follower, float t, repair r) { return interpolate(follower, t, r, true); }
+
+#endif

@@ -53,17 +53,26 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_SHARE 5    // hair_share[]   per guide vertex, never written
 #define HAIR_BIND_LIMIT 6    // float[]        per node, never written: volume from which it presses
 #define HAIR_BIND_PUSH 7     // hair_vec4[]    per guide vertex: acceleration, m/s^2
-#define HAIR_BIND_EXPANDED 6 // hair_vec4[]     per follower vertex: position from the head's origin, radius
 
 // Of the passes that look for followers inside solids:
 #define HAIR_BIND_HIT 3    // float[]     per follower: the first vertex inside, HAIR_NO_HIT if none is
 #define HAIR_BIND_REPAIR 4 // uvec2[]     per follower and control point of repair.glsl: four halves
 #define HAIR_BIND_LIST 5   // uint[]      two counts, in turn, and the followers that are to be repaired
-// The one with a work group per follower has no textures of guides and followers but, all never written:
+// The one with a work group per follower, and the one that writes followers out, have no textures of guides and followers
+// but, all never written:
 #define HAIR_BIND_STORED_POSITION 0 // hair_vec4[] per smooth vertex, as at HAIR_BIND_POSITION
 #define HAIR_BIND_STORED_TANGENT 1  // hair_vec4[] likewise
 #define HAIR_BIND_STORED_FRAME 2    // hair_vec4[] likewise
 #define HAIR_BIND_STORED_FOLLOWER 6 // hair_follower[]
+
+// Of the pass that writes followers out:
+#define HAIR_BIND_EXPANDED 4         // hair_vec4[] per follower vertex: position from the head's origin, radius
+#define HAIR_BIND_EXPANDED_TANGENT 5 // uvec2[]     per follower vertex: three 16-bit shares of [-1, 1]
+
+// Of the passes that list the strands that are drawn without a tessellator:
+#define HAIR_BIND_START 3   // uint[]              per patch: where its strands begin in the list
+#define HAIR_BIND_STRAND 4  // hair_strand[]       per strand that is drawn
+#define HAIR_BIND_COMMAND 5 // hair_draw_command[2]
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
@@ -84,11 +93,14 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FRAME 2
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
+#define HAIR_UNIT_STRAND 4   // hair_strand[], likewise, in place of patches where there is no tessellator
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
 #define HAIR_UNIT_TIE 2      // hair_held[], of the same, where guides are tied
 #define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
+#define HAIR_UNIT_EXPANDED 6         // of what draws expanded followers, in place of what they were made with
+#define HAIR_UNIT_EXPANDED_TANGENT 7 // vec4 per vertex: xyz: in [0, 1] for [-1, 1]
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
 #define HAIR_UNIT_FIBRE 10   // of lib/draw/fibre.h
@@ -104,6 +116,8 @@ typedef uint32_t hair_uint;
 #define HAIR_MAX_SMOOTH_VERTICES 511 // two samples per segment of the longest guide
 #define HAIR_MAX_ISOLINES 64         // made at once of a patch, and
 #define HAIR_MAX_ISOLINE_SEGMENTS 64 // of an isoline: what OpenGL promises
+#define HAIR_INSTANCE_STRANDS 64     // drawn as one instance, without a tessellator
+#define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64
 #define HAIR_FOLLOWER_TEXELS 6
@@ -392,6 +406,22 @@ struct hair_strand_look {
     hair_uint unused;
 };
 HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_PLACES) * 16 + 64)
+
+// A strand that is drawn without a tessellator.
+struct hair_strand {
+    hair_uint follower;
+    hair_uint segments;
+    float     width; // share of its own
+    float     whole; // segments, with the share that there is of the last one
+};
+HAIR_SIZE(hair_strand, 16)
+
+// Beginning with what OpenGL reads of an indirect draw with indices.
+struct hair_draw_command {
+    hair_uint count, instances, first, base_vertex, base_instance;
+    hair_uint unused0, unused1, unused2;
+};
+HAIR_SIZE(hair_draw_command, 32)
 
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {

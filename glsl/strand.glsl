@@ -1,6 +1,11 @@
 // strand.glsl - a vertex of a drawn strand: where, how wide and, where colour is asked for, its colour. Shading runs
 // here and not for every sample of a pixel: along a strand light changes slowly, across it not at all.
+#include "follower.glsl" // First: a file is put in where it is first named, be that left out or not.
+#ifdef HAIR_EXPANDED
+#include "expanded.glsl"
+#else
 #include "evaluate.glsl"
+#endif
 #include "shade.glsl"
 
 struct strand_vertex {

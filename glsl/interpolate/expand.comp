@@ -1,16 +1,19 @@
-// expand.comp - followers written out as vertices, segments + 1 each, to be read back. One thread per vertex.
+// expand.comp - followers written out as vertices, segments + 1 each, to be drawn or read back. One thread per vertex.
 #version 450 core
 #include "evaluate.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_EXPANDED) writeonly restrict buffer expanded_buffer { vec4 expanded[]; };
+layout(std430, binding = HAIR_BIND_EXPANDED_TANGENT) writeonly restrict buffer expanded_tangent_buffer { uvec2 expanded_tangent[]; };
 
 void main()
 {
     uint i    = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     uint each = draw.segments + 1u;
-    if (i >= expanded.length()) return;
+    if (i >= draw.followers * each) return;
     hair_point point = evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
-    expanded[i]      = vec4(point.position, point.radius);
+    vec3       share    = point.tangent * 0.5 + 0.5;
+    expanded[i]         = vec4(point.position, point.radius);
+    expanded_tangent[i] = uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
 }

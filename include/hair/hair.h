@@ -227,9 +227,9 @@ HAIR_API hair_result hair_form_describe(const hair_form* form, hair_form_info* o
 
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
-    HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, storage buffers 0-7,
-    ///< uniform buffers 0-2, buffer textures of units 0-4, 6 and 7, 2D texture, sampler of unit 5,
-    ///< 3D textures, samplers of units 8-9, image units 0-1.
+    HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
+    ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-4, 6 and 7,
+    ///< 2D texture, sampler of unit 5, 3D textures, samplers of units 8-9, image units 0-1.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
@@ -530,8 +530,11 @@ typedef enum hair_pass {
     HAIR_PASS_SOLIDS ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
 } hair_pass;
 
+/// How followers become what is drawn: the picture is the same.
 typedef enum hair_path {
-    HAIR_PATH_TESSELLATION = 0 ///< Isolines, from one-point patches.
+    HAIR_PATH_TESSELLATION = 0, ///< Isolines, from one-point patches.
+    HAIR_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
+    HAIR_PATH_EXPANDED   ///< Vertices written once, for all views until hair moves. 24 bytes each, kept.
 } hair_path;
 
 typedef enum hair_primitive {

@@ -120,7 +120,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_gl_enter(&hair->context->gl);
     hair_smooth_need(&hair->smooth, &hair->sim);
     hair_result result = meet_solids(hair);
-    if (!result) result = hair_draw_expand(&hair->draw, &hair->smooth, &vertices);
+    if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
     copy_to_world(&vertices->x, 4, count, &hair->sim.at_step, positions);

@@ -33,6 +33,8 @@ void hair_draw_destroy(struct hair_draw* draw)
     if (!draw->gl) return;
     hair_draw_free_hits(draw);
     hair_draw_free_fibres(draw);
+    hair_draw_free_listed(draw);
+    hair_draw_free_expanded(draw);
     hair_gl_free_texture(draw->gl, &draw->follower_texture);
     hair_gl_free_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
@@ -76,73 +78,61 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// Of the rows of a DRAW_PASS, each of which is two.
+// Of the rows of a DRAW_PASS, two each.
 static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view)
 {
-    if (view->pass == HAIR_PASS_GUIDES) return HAIR_GL_GUIDES;
     int depth = view->pass == HAIR_PASS_DEPTH, fibres = !depth && draw->look.shading == HAIR_SHADING_FIBRES;
-    int row = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
-    return HAIR_GL_TESSELLATED_RIBBONS + 2 * row;
+    int row                           = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
+    static const hair_gl_pass first[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED_RIBBONS,
+                                         [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED_RIBBONS,
+                                         [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED_RIBBONS};
+    return first[view->path] + (hair_gl_pass)(2 * row);
+}
+
+static void draw_guides(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    gl->BindVertexArray(gl->vertex_array);
+    hair_gl_begin(gl, HAIR_GL_GUIDES);
+    gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)draw->smooth_vertices, (GLsizei)draw->guides);
+    hair_gl_end(gl, HAIR_GL_GUIDES);
+}
+
+static void draw_followers(struct hair_draw* draw, hair_gl_pass pass, int listed)
+{
+    struct hair_gl* gl = draw->gl;
+    if (listed) hair_draw_list(draw);
+    gl->BindVertexArray(gl->vertex_array);
+    gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
+    hair_gl_begin(gl, pass);
+    (listed ? hair_draw_listed : hair_draw_patches)(draw);
+    hair_gl_end(gl, pass);
 }
 
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view)
 {
-    struct hair_gl* gl     = draw->gl;
-    hair_gl_pass    pass   = pass_of(draw, view);
-    int             guides = pass == HAIR_GL_GUIDES;
+    int          guides   = view->pass == HAIR_PASS_GUIDES;
+    int          listed   = view->path != HAIR_PATH_TESSELLATION;
+    int          expanded = view->path == HAIR_PATH_EXPANDED;
+    hair_gl_pass pass     = pass_of(draw, view);
+    hair_result  result   = HAIR_OK;
     if (!guides && draw->look.density <= 0) return HAIR_OK;
-    hair_result result = hair_draw_need(draw, &pass);
-    if (result) return result;
-
-    if (view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES) {
+    if (!guides) result = hair_draw_need(draw, &pass);
+    if (view->pass == HAIR_PASS_COLOR && !result && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-        if (result) return result;
-    }
+    if (!guides && !result && listed) result = hair_draw_make_listed(draw);
+    if (!guides && !result && expanded) result = hair_draw_need_expanded(draw, smooth);
+    if (result) return result;
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
-    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-
+    hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
-    gl->BindVertexArray(gl->vertex_array);
-    gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
-    hair_gl_begin(gl, pass);
+    if (expanded) hair_draw_bind_expanded(draw);
     if (guides)
-        gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)draw->smooth_vertices, (GLsizei)draw->guides);
+        draw_guides(draw);
     else
-        hair_draw_patches(draw);
-    hair_gl_end(gl, pass);
-    return HAIR_OK;
-}
-
-hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)
-{
-    struct hair_gl* gl       = draw->gl;
-    size_t          count    = (size_t)draw->followers * (draw->look.segments + 1);
-    size_t          size     = count * sizeof(hair_vec4);
-    GLuint          expanded = 0;
-    hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
-    if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
-    hair_gl_pass pass   = HAIR_GL_EXPAND;
-    hair_result  result = hair_draw_need(draw, &pass);
-    if (!result) result = hair_gl_storage(gl, "hair expanded", size, NULL, &expanded);
-    if (!result) {
-        struct hair_draw_params params;
-        hair_draw_write_params(draw, NULL, NULL, &params);
-        hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-        hair_draw_bind(draw, smooth, 0);
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, &expanded);
-        hair_gl_run(gl, pass, (uint32_t)((count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
-        gl->GetNamedBufferSubData(expanded, 0, (GLsizeiptr)size, vertices);
-        // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 1, NULL);
-    }
-    hair_gl_free_buffer(gl, &expanded);
-    if (result) {
-        hair_free(&gl->host, vertices);
-        return result;
-    }
-    *out = vertices;
+        draw_followers(draw, pass, listed);
     return HAIR_OK;
 }

@@ -3,7 +3,9 @@
 #define HAIR_DRAW_DRAW_H
 
 #include "lib/draw/fibre.h"
+#include "lib/draw/expanded.h"
 #include "lib/draw/hits.h"
+#include "lib/draw/listed.h"
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
 struct hair_fibres {
@@ -12,17 +14,19 @@ struct hair_fibres {
 };
 
 struct hair_draw {
-    struct hair_gl*    gl;
-    hair_look          look;
-    GLuint             follower, patch, params;         // buffers
-    GLuint             follower_texture, patch_texture; // the first two, for stages without storage buffers
-    uint32_t           followers, patches, smooth_vertices, guides;
-    uint32_t           most_isolines; // of a patch
-    uint32_t           map_sets;
-    hair_vec4          skull;   // of the groom
-    int                bounded; // roots are held: no strand leaves its patch's reach
-    struct hair_hits   hits;
-    struct hair_fibres fibres;
+    struct hair_gl*      gl;
+    hair_look            look;
+    GLuint               follower, patch, params;         // buffers
+    GLuint               follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t             followers, patches, smooth_vertices, guides;
+    uint32_t             most_isolines; // of a patch
+    uint32_t             map_sets;
+    hair_vec4            skull;   // of the groom
+    int                  bounded; // roots are held: no strand leaves its patch's reach
+    struct hair_hits     hits;
+    struct hair_listed   listed;
+    struct hair_expanded expanded;
+    struct hair_fibres   fibres;
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -51,6 +55,13 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GL
 hair_result hair_draw_need_fibres(struct hair_draw* draw);
 void        hair_draw_free_fibres(struct hair_draw* draw);
 
+// listed.c: what draws without a tessellator. With everything bound that makes followers, list those that are drawn; draw
+// them with the program that is current.
+hair_result hair_draw_make_listed(struct hair_draw* draw);
+void        hair_draw_free_listed(struct hair_draw* draw);
+void        hair_draw_list(struct hair_draw* draw);
+void        hair_draw_listed(struct hair_draw* draw);
+
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view);
@@ -60,8 +71,14 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
                              const hair_solid* solids, uint32_t count, const struct hair_pose* head,
                              const hair_view* view);
 
-// Vertices of all followers, look.segments + 1 each: xyz from the head's origin, radius. The caller frees *out, and has
-// checked that there are no more than UINT32_MAX.
-hair_result hair_draw_expand(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out);
+// expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
+hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth);
+void        hair_draw_free_expanded(struct hair_draw* draw);
+void        hair_draw_bind_expanded(struct hair_draw* draw);
+
+// They read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
+// UINT32_MAX.
+hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                    hair_vec4** out);
 
 #endif

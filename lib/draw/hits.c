@@ -91,6 +91,7 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
         if (result) return result;
         run(draw, smooth, field, margin);
     }
+    ++hits->met;
     hits->fresh    = 1;
     hits->smoothed = smooth->runs;
     return HAIR_OK;
@@ -110,8 +111,8 @@ hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
         {HAIR_GL_EXPAND, HAIR_GL_EXPAND, HAIR_GL_EXPAND_HITS},
         {HAIR_GL_TESSELLATED_RIBBONS, HAIR_GL_TESSELLATED_FIBRES_LINES_STYLED,
          HAIR_GL_TESSELLATED_HITS_RIBBONS},
+        {HAIR_GL_INSTANCED_RIBBONS, HAIR_GL_INSTANCED_FIBRES_LINES_STYLED, HAIR_GL_INSTANCED_HITS_RIBBONS},
     };
-    if (*pass == HAIR_GL_GUIDES) return HAIR_OK;
     if (draw->hits.active)
         for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
             if (*pass >= rows[i].first && *pass <= rows[i].last) {

@@ -13,6 +13,7 @@ struct hair_hits {
     int      active;                      // solids are near
     int      fresh;    // for what was asked last; what changes followers or solids clears it
     uint32_t smoothed; // runs of smooth.comp that it is for
+    uint32_t met;      // how often it has been found out
     uint32_t turn;     // as in hair_draw_params
 };
 

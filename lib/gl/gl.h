@@ -27,7 +27,7 @@ struct hair_gl_timer {
 
 // What a draw or a dispatch changes, to be put back. See state.c.
 struct hair_gl_saved {
-    GLint      program, vertex_array, patch_vertices, active_texture, cull;
+    GLint      program, vertex_array, patch_vertices, active_texture, cull, restarts, indirect;
     GLint      texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
     GLint      image[HAIR_IMAGE_SOLID + 1][6]; // name, level, layered, layer, access, format
     GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
@@ -42,6 +42,7 @@ struct hair_gl {
     int                  timings;
     int                  software; // the driver is a software rasteriser
     int                  subgroup; // work groups of 32 threads are one
+    uint32_t             made;     // how often all programs have been compiled
     GLuint               program[HAIR_GL_PASS_COUNT];
     struct hair_gl_timer timer[HAIR_GL_PASS_COUNT];
     GLuint               vertex_array; // empty: every vertex comes from its number

@@ -138,13 +138,14 @@ static int is_optional(hair_gl_pass pass)
 {
     const char* stages = passes[pass].stages;
     return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") ||
-           strstr(stages, "HITS=") || strstr(stages, "HAIR_STYLED=") || strstr(stages, "draw/strand.") ||
-           strstr(stages, "draw/depth.");
+           strstr(stages, "HITS=") || strstr(stages, "HAIR_STYLED=") || strstr(stages, "HAIR_LISTED=") ||
+           strstr(stages, "draw/strand.") || strstr(stages, "draw/depth.");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
 {
     hair_result first = HAIR_OK;
+    ++gl->made;
     for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
         if (is_optional((hair_gl_pass)pass) && !gl->program[pass]) continue;
         hair_result result = compile_pass(gl, (hair_gl_pass)pass);

@@ -76,7 +76,9 @@ void hair_gl_enter(struct hair_gl* gl)
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
     gl->GetIntegerv(GL_PATCH_VERTICES, &saved->patch_vertices);
-    saved->cull = gl->IsEnabled(GL_CULL_FACE);
+    gl->GetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &saved->indirect);
+    saved->cull     = gl->IsEnabled(GL_CULL_FACE);
+    saved->restarts = gl->IsEnabled(GL_PRIMITIVE_RESTART);
     save_units(gl);
     save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
                  GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_REDUCTION + 1, saved->storage, saved->storage_first,
@@ -91,6 +93,7 @@ void hair_gl_enter(struct hair_gl* gl)
 static void unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1, NULL);
     for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
@@ -107,7 +110,9 @@ void hair_gl_leave(struct hair_gl* gl)
     gl->UseProgram((GLuint)saved->program);
     gl->BindVertexArray((GLuint)saved->vertex_array);
     gl->PatchParameteri(GL_PATCH_VERTICES, saved->patch_vertices);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, (GLuint)saved->indirect);
     (saved->cull ? gl->Enable : gl->Disable)(GL_CULL_FACE);
+    (saved->restarts ? gl->Enable : gl->Disable)(GL_PRIMITIVE_RESTART);
     restore_units(gl);
     restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_REDUCTION + 1, saved->storage,
                     saved->storage_first, saved->storage_size);

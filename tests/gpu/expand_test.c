@@ -78,7 +78,7 @@ static void compare(struct fixture* f, const hair_look* look)
     double          worst    = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
-    hair_result result = hair_draw_expand(&f->hair->draw, &f->hair->smooth, &vertices);
+    hair_result result = hair_draw_read_expanded(&f->hair->draw, &f->hair->smooth, &vertices);
     hair_gl_leave(gl);
     hair_test_ok(f->test, result);
     for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {

@@ -1,4 +1,4 @@
-// isolines_test.c - every follower is drawn once and whole, however many vertices that takes.
+// isolines_test.c - every follower is drawn once and whole, however many vertices that takes, by every path.
 //
 // Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits and repeats earlier strands in place
 // of later ones, without an error and with the right count of primitives. So what is drawn is captured and
@@ -19,39 +19,56 @@ struct vertex {
 
 // What stands between the library and OpenGL while its draws are captured.
 static struct {
-    void(APIENTRY* draw)(GLenum, GLint, GLsizei, GLsizei);
-    GLuint   feedback, buffer;
+    void(APIENTRY* patches)(GLenum, GLint, GLsizei, GLsizei);
+    void(APIENTRY* listed)(GLenum, GLenum, const void*, GLsizei, GLsizei);
+    GLuint   feedback, buffer, queries[2];
     GLintptr at; // bytes captured so far
     uint64_t generated, draws;
 } capture;
 
 // Each draw is a run of transform feedback: one that was under way would not let the library change its
 // program.
-static void APIENTRY draw_captured(GLenum mode, GLint first, GLsizei count, GLsizei instances)
+static void begin_capture(void)
 {
-
-    GLuint64 generated = 0, written = 0;
-    GLuint   queries[2];
-    glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &queries[0]);
-    glCreateQueries(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, 1, &queries[1]);
     GLint64 size;
+    glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &capture.queries[0]);
+    glCreateQueries(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, 1, &capture.queries[1]);
     glGetNamedBufferParameteri64v(capture.buffer, GL_BUFFER_SIZE, &size);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, capture.feedback);
     glTransformFeedbackBufferRange(capture.feedback, 0, capture.buffer, capture.at, size - capture.at);
-    glBeginQuery(GL_PRIMITIVES_GENERATED, queries[0]);
-    glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, queries[1]);
+    glBeginQuery(GL_PRIMITIVES_GENERATED, capture.queries[0]);
+    glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, capture.queries[1]);
     glBeginTransformFeedback(GL_LINES);
-    capture.draw(mode, first, count, instances);
+}
+
+static void end_capture(void)
+{
+    GLuint64 generated = 0, written = 0;
     glEndTransformFeedback();
     glEndQuery(GL_PRIMITIVES_GENERATED);
     glEndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
-    glGetQueryObjectui64v(queries[0], GL_QUERY_RESULT, &generated);
-    glGetQueryObjectui64v(queries[1], GL_QUERY_RESULT, &written);
-    glDeleteQueries(2, queries);
+    glGetQueryObjectui64v(capture.queries[0], GL_QUERY_RESULT, &generated);
+    glGetQueryObjectui64v(capture.queries[1], GL_QUERY_RESULT, &written);
+    glDeleteQueries(2, capture.queries);
     capture.generated += generated;
     capture.at += (GLintptr)(written * 2 * sizeof(struct vertex));
     ++capture.draws;
+}
+
+static void APIENTRY capture_patches(GLenum mode, GLint first, GLsizei count, GLsizei instances)
+{
+    begin_capture();
+    capture.patches(mode, first, count, instances);
+    end_capture();
+}
+
+static void APIENTRY capture_listed(GLenum mode, GLenum type, const void* commands, GLsizei count,
+                                    GLsizei stride)
+{
+    begin_capture();
+    capture.listed(mode, type, commands, count, stride);
+    end_capture();
 }
 
 struct drawn {
@@ -60,18 +77,34 @@ struct drawn {
     uint64_t       generated, draws;
 };
 
-// hair_draw as lines, with what the tessellator made of it instead of pixels. `hits`: there are solids in reach. The
-// caller frees the vertices.
-static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t most_segments, int hits)
+// What makes lines, and the same without pixels: without and with solids in reach.
+static const struct {
+    hair_gl_pass pass[2];
+    const char*  stages[2];
+} paths[] = {
+    [HAIR_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED_FIBRES_LINES, HAIR_GL_TESSELLATED_HITS_FIBRES_LINES},
+                                {"draw/patch.vert draw/patch.tesc draw/strand.tese",
+                                 "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
+    [HAIR_PATH_INSTANCED]    = {{HAIR_GL_INSTANCED_FIBRES_LINES, HAIR_GL_INSTANCED_HITS_FIBRES_LINES},
+                                {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
+    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED_FIBRES_LINES, HAIR_GL_EXPANDED_FIBRES_LINES},
+                                {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
+};
+
+#define PATHS (sizeof paths / sizeof *paths)
+
+// hair_draw as lines, with what becomes of it instead of pixels. `hits`: there are solids in reach. The caller frees the
+// vertices.
+static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_path path, size_t most_segments,
+                         int hits)
 {
     struct hair_gl* gl    = &test->context->gl;
-    hair_gl_pass    pass  = hits ? HAIR_GL_TESSELLATED_HITS_FIBRES_LINES : HAIR_GL_TESSELLATED_FIBRES_LINES;
+    hair_gl_pass    pass  = paths[path].pass[hits];
     GLuint          whole = gl->program[pass], program = 0;
-    const char*     stages = "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese";
-    hair_test_ok(test, hair_gl_link(gl, "capture", hits ? stages : strchr(stages, ' ') + 1, "strand_position",
-                                    &program));
+    hair_test_ok(test, hair_gl_link(gl, "capture", paths[path].stages[hits], "strand_position", &program));
     memset(&capture, 0, sizeof capture);
-    capture.draw = gl->DrawArraysInstanced;
+    capture.patches = gl->DrawArraysInstanced;
+    capture.listed  = gl->MultiDrawElementsIndirect;
     glCreateTransformFeedbacks(1, &capture.feedback);
     glCreateBuffers(1, &capture.buffer);
     // Room for more than is right, so that too much is seen too.
@@ -80,13 +113,16 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t mos
 
     struct hair_test_frame frame; // Without one every draw fails.
     hair_test_frame_make(&frame, 4, 4, GL_RGBA8, 0);
-    gl->program[pass]       = program;
-    gl->DrawArraysInstanced = draw_captured;
-    hair_view view          = hair_view_default();
-    view.primitive          = HAIR_LINES;
-    hair_result result      = hair_draw(hair, &view);
-    gl->program[pass]       = whole;
-    gl->DrawArraysInstanced = capture.draw;
+    gl->program[pass]             = program;
+    gl->DrawArraysInstanced       = capture_patches;
+    gl->MultiDrawElementsIndirect = capture_listed;
+    hair_view view                = hair_view_default();
+    view.path                     = path;
+    view.primitive                = HAIR_LINES;
+    hair_result result            = hair_draw(hair, &view);
+    gl->program[pass]             = whole;
+    gl->DrawArraysInstanced       = capture.patches;
+    gl->MultiDrawElementsIndirect = capture.listed;
     hair_test_frame_free(&frame);
     hair_test_ok(test, result);
 
@@ -190,14 +226,17 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
     hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
     assert_int_equal(count, followers * (segments + 1));
 
-    struct drawn drawn = draw(test, hair, (size_t)followers * segments, collision != HAIR_COLLISION_NONE);
-    print_message("    %5u followers, %2u a patch, %3u segments: %3llu draws\n", followers, isolines,
-                  segments, (unsigned long long)drawn.draws);
-    assert_int_equal(drawn.generated, (uint64_t)followers * segments);
-    assert_int_equal(drawn.segments, (size_t)followers * segments);
-    check_every_segment(&drawn, expected, followers, segments);
-
-    free(drawn.vertices);
+    for (hair_path path = 0; path < PATHS; ++path) {
+        struct drawn drawn =
+            draw(test, hair, path, (size_t)followers * segments, collision != HAIR_COLLISION_NONE);
+        if (path == HAIR_PATH_TESSELLATION)
+            print_message("    %5u followers, %3u a patch, %3u segments: %3llu draws\n", followers, isolines,
+                          segments, (unsigned long long)drawn.draws);
+        assert_int_equal(drawn.generated, (uint64_t)followers * segments);
+        assert_int_equal(drawn.segments, (size_t)followers * segments);
+        check_every_segment(&drawn, expected, followers, segments);
+        free(drawn.vertices);
+    }
     free(expected);
     hair_destroy(hair);
     hair_groom_destroy(groom);
@@ -256,7 +295,7 @@ static void a_driver_that_loses_strands_is_found_out(void** state)
     assert_int_equal(test->context->gl.lines_level, 0);
 }
 
-static size_t count_drawn(struct hair_test* test, float density, uint32_t segments)
+static size_t count_drawn(struct hair_test* test, hair_path path, float density, uint32_t segments)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers                 = 1000;
@@ -268,7 +307,7 @@ static size_t count_drawn(struct hair_test* test, float density, uint32_t segmen
     look.density                     = density;
     desc.look                        = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    struct drawn drawn = draw(test, hair, (size_t)1000 * segments, 0);
+    struct drawn drawn = draw(test, hair, path, (size_t)1000 * segments, 0);
     assert_int_equal(drawn.generated, drawn.segments);
     free(drawn.vertices);
     hair_destroy(hair);
@@ -279,18 +318,20 @@ static size_t count_drawn(struct hair_test* test, float density, uint32_t segmen
 
 static void a_density_of_0_draws_nothing(void** state)
 {
-    assert_int_equal(count_drawn(*state, 0, 8), 0);
+    for (hair_path path = 0; path < PATHS; ++path) assert_int_equal(count_drawn(*state, path, 0, 8), 0);
 }
 
 // The last isoline of each patch, of which there are 16, is drawn when any of it is wanted.
 static void density_is_the_share_of_followers_drawn(void** state)
 {
-    for (int i = 1; i <= 16; ++i) {
-        size_t drawn = count_drawn(*state, (float)i / 16, 8);
-        assert_in_range(drawn, (size_t)(1000 * i / 16), (size_t)(1000 * i / 16) + 16);
+    for (hair_path path = 0; path < PATHS; ++path) {
+        for (int i = 1; i <= 16; ++i) {
+            size_t drawn = count_drawn(*state, path, (float)i / 16, 8);
+            assert_in_range(drawn, (size_t)(1000 * i / 16), (size_t)(1000 * i / 16) + 16);
+        }
+        assert_int_equal(count_drawn(*state, path, 1, 8), 1000);
+        assert_int_equal(count_drawn(*state, path, 1e-6f, 8), 16);
     }
-    assert_int_equal(count_drawn(*state, 1, 8), 1000);
-    assert_int_equal(count_drawn(*state, 1e-6f, 8), 16);
 }
 
 static void a_patch_of_no_density_draws_nothing(void** state)
@@ -303,9 +344,11 @@ static void a_patch_of_no_density_draws_nothing(void** state)
     hair_instance* hair              = NULL;
     groom->patches[1].density        = 1;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    struct drawn drawn = draw(test, hair, 64 * 32, 0);
-    assert_int_equal(drawn.segments, groom->patches[1].count * 32);
-    free(drawn.vertices);
+    for (hair_path path = 0; path < PATHS; ++path) {
+        struct drawn drawn = draw(test, hair, path, 64 * 32, 0);
+        assert_int_equal(drawn.segments, groom->patches[1].count * 32);
+        free(drawn.vertices);
+    }
     hair_destroy(hair);
     hair_groom_destroy(groom);
 }
@@ -327,11 +370,11 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
     groom->patches[1].map_thickness  = (hair_vec4){1, 2, 2, 2};
     desc.look                        = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    for (int i = 0; i <= 6; ++i) {
-        float set = 0.25f * (float)i, blend = fminf(set, 1); // Beyond the last set there is no other.
+    for (size_t i = 0; i < 7 * PATHS; ++i) {
+        float set = 0.25f * (float)(i % 7), blend = fminf(set, 1); // Beyond the last set there is no other.
         look.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
-        struct drawn drawn = draw(test, hair, (size_t)64 * 4, 0);
+        struct drawn drawn = draw(test, hair, (hair_path)(i / 7), (size_t)64 * 4, 0);
         size_t       first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
         assert_int_equal(drawn.segments, 4 * (first + second));
         for (size_t k = 0; k < drawn.segments; ++k) {

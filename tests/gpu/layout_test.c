@@ -168,6 +168,18 @@ static const struct member members[] = {
     FLOAT(hair_strand_look, most_aside),
     FLOAT(hair_strand_look, most_width),
     UINT(hair_strand_look, unused),
+    UINT(hair_strand, follower),
+    UINT(hair_strand, segments),
+    FLOAT(hair_strand, width),
+    FLOAT(hair_strand, whole),
+    UINT(hair_draw_command, count),
+    UINT(hair_draw_command, instances),
+    UINT(hair_draw_command, first),
+    UINT(hair_draw_command, base_vertex),
+    UINT(hair_draw_command, base_instance),
+    UINT(hair_draw_command, unused0),
+    UINT(hair_draw_command, unused1),
+    UINT(hair_draw_command, unused2),
     MAT4(hair_draw_params, view),
     MAT4(hair_draw_params, view_to_clip),
     MAT4(hair_draw_params, shadow),
@@ -218,7 +230,8 @@ static const struct {
     STRUCT(hair_history),      STRUCT(hair_capsule),     STRUCT(hair_body),        STRUCT(hair_substep),
     STRUCT(hair_step_params),  STRUCT(hair_follower),    STRUCT(hair_patch),       STRUCT(hair_draw_params),
     STRUCT(hair_field_params), STRUCT(hair_field_solid), STRUCT(hair_field_brick), STRUCT(hair_crowd_params),
-    STRUCT(hair_share),        STRUCT(hair_cubic),       STRUCT(hair_strand_look),
+    STRUCT(hair_share),        STRUCT(hair_cubic),       STRUCT(hair_strand_look), STRUCT(hair_strand),
+    STRUCT(hair_draw_command),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)
@@ -375,6 +388,15 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
         STORAGE(VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
         DRAW(EXPAND),
+        STORAGE(EXPAND, "expanded_buffer", EXPANDED, sizeof(hair_vec4)),
+        STORAGE(EXPAND, "expanded_tangent_buffer", EXPANDED_TANGENT, 2 * sizeof(hair_uint)),
+        DRAW(COUNT),
+        STORAGE(COUNT, "start_buffer", START, sizeof(hair_uint)),
+        STORAGE(COUNT, "command_buffer", COMMAND, sizeof(struct hair_draw_command)),
+        STORAGE(LIST, "start_buffer", START, sizeof(hair_uint)),
+        STORAGE(LIST, "strand_buffer", STRAND, sizeof(struct hair_strand)),
+        DRAW(INSTANCED_FIBRES_RIBBONS),
+        DRAW(EXPANDED_FIBRES_RIBBONS),
         DRAW(TESSELLATED_FIBRES_RIBBONS)};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));

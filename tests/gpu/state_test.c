@@ -135,12 +135,13 @@ static hair_result teleport(struct fixture* f)
 static hair_result draw(struct fixture* f)
 {
     hair_result result = HAIR_OK;
-    for (int i = 0; i < 16 && !result; ++i) {
+    for (int i = 0; i < 16 * 3 && !result; ++i) {
         hair_view view      = hair_view_default();
         view.pass           = (hair_pass)(i % 4);
         view.primitive      = (hair_primitive)(i / 4 % 2);
         view.slice          = (hair_slice)(i / 4 % 2);
-        view.shadow_texture = i / 8 ? f->shadow : 0;
+        view.shadow_texture = i / 8 % 2 ? f->shadow : 0;
+        view.path           = (hair_path)(i / 16);
         result              = hair_draw(f->hair, &view);
     }
     return result;
@@ -222,9 +223,13 @@ static void plant_an_error(struct fixture* f)
 // What a context with HAIR_GL_CLOBBER may change, as hair.h lists it.
 static int may_change(const char* name)
 {
-    static const char* const listed[] = {"GL_CURRENT_PROGRAM", "GL_VERTEX_ARRAY_BINDING",
+    static const char* const listed[] = {"GL_CURRENT_PROGRAM",
+                                         "GL_VERTEX_ARRAY_BINDING",
                                          "GL_ELEMENT_ARRAY_BUFFER_BINDING", // of the vertex array
-                                         "GL_PATCH_VERTICES", "GL_CULL_FACE"};
+                                         "GL_PATCH_VERTICES",
+                                         "GL_CULL_FACE",
+                                         "GL_PRIMITIVE_RESTART",
+                                         "GL_DRAW_INDIRECT_BUFFER_BINDING"};
     for (size_t i = 0; i < sizeof listed / sizeof *listed; ++i)
         if (strcmp(name, listed[i]) == 0) return 1;
     const char* number = strrchr(name, ' ');

@@ -88,7 +88,7 @@ static const struct row rows[] = {
     {"wind.z", "", FLOAT, {AT(physics.wind[2])}, {0}},
     {"friction", "Coulomb's coefficient with solids", FLOAT, {AT(physics.friction)}, {0}},
 
-    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation"}},
+    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"lod", "level of detail", COUNT, {AT(has_lod)}, {"off", "on"}},
     {"lod.strands", "share of the strands drawn, at most", FLOAT, {AT(lod.strands)}, {0}},

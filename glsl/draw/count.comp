@@ -1,0 +1,54 @@
+// count.comp - where in the list of drawn strands those of each patch begin, and the command that draws them all. One work
+// group, each of whose threads counts a run of patches.
+#version 450 core
+#include "patch.glsl"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_COUNT_THREADS) in;
+
+layout(std430, binding = HAIR_BIND_START) restrict buffer start_buffer { uint start[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer { hair_draw_command command[]; };
+
+shared uint sums[HAIR_COUNT_THREADS];
+shared uint most; // segments of a strand
+
+// Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. There are indices for strands of all the
+// segments, of half as many, and so on (lib/draw/listed.c): the fewest that do.
+void write_commands(uint strands)
+{
+    uint each = draw.segments, first = 0u;
+    while (each > 1u && most <= (each + 1u) / 2u) {
+        first += HAIR_INSTANCE_STRANDS * 2u * each;
+        each = (each + 1u) / 2u;
+    }
+    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, instances = whole / HAIR_INSTANCE_STRANDS;
+    command[0] = hair_draw_command(HAIR_INSTANCE_STRANDS * 2u * each, instances, first, 0u, 0u, 0u, 0u, 0u);
+    command[1] = hair_draw_command(left * 2u * each, 1u, first, whole * (draw.segments + 1u), 0u, 0u, 0u, 0u);
+}
+
+void main()
+{
+    uint i       = gl_LocalInvocationID.x;
+    uint patches = uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS;
+    uint each    = (patches + HAIR_COUNT_THREADS - 1u) / HAIR_COUNT_THREADS;
+    uint first   = min(i * each, patches), end = min(first + each, patches), sum = 0u, longest = 0u;
+    for (uint number = first; number < end; ++number) {
+        hair_patch_lines lines = find_lines(number);
+        start[number]          = sum;
+        sum += lines.strands;
+        if (lines.strands > 0u) longest = max(longest, lines.segments);
+    }
+
+    // Sums over all threads up to this one (Hillis and Steele 1986).
+    sums[i] = sum;
+    if (i == 0u) most = 0u;
+    for (uint reach = 1u; reach < HAIR_COUNT_THREADS; reach *= 2u) {
+        synchronise();
+        uint more = i >= reach ? sums[i - reach] : 0u;
+        synchronise();
+        sums[i] += more;
+    }
+    atomicMax(most, longest);
+    synchronise();
+    for (uint number = first; number < end; ++number) start[number] += sums[i] - sum;
+    if (i == HAIR_COUNT_THREADS - 1u) write_commands(sums[i]);
+}

@@ -1,0 +1,102 @@
+// expanded.c - followers as vertices: written once by compute, then drawn for any number of views, or read back.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+static size_t count_vertices(const struct hair_draw* draw)
+{
+    return (size_t)draw->followers * (draw->look.segments + 1);
+}
+
+static hair_result make(struct hair_draw* draw)
+{
+    struct hair_gl*       gl       = draw->gl;
+    struct hair_expanded* expanded = &draw->expanded;
+    size_t                vertices = count_vertices(draw);
+    if (expanded->vertices == vertices) return HAIR_OK;
+    hair_draw_free_expanded(draw);
+    hair_result result =
+        hair_gl_storage(gl, "hair expanded", vertices * sizeof(hair_vec4), NULL, &expanded->position);
+    if (!result)
+        result = hair_gl_storage(gl, "hair expanded tangents", vertices * 8, NULL, &expanded->tangent);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair expanded", GL_RGBA32F, expanded->position,
+                                        &expanded->position_texture);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair expanded tangents", GL_RGBA16, expanded->tangent,
+                                        &expanded->tangent_texture);
+    if (result)
+        hair_draw_free_expanded(draw);
+    else
+        expanded->vertices = vertices;
+    return result;
+}
+
+void hair_draw_free_expanded(struct hair_draw* draw)
+{
+    struct hair_expanded* expanded = &draw->expanded;
+    hair_gl_free_texture(draw->gl, &expanded->position_texture);
+    hair_gl_free_texture(draw->gl, &expanded->tangent_texture);
+    hair_gl_free_buffer(draw->gl, &expanded->position);
+    hair_gl_free_buffer(draw->gl, &expanded->tangent);
+    expanded->vertices = 0;
+    expanded->there    = 0;
+}
+
+// Whatever moves or changes followers has them looked at for solids again.
+static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
+{
+    const struct hair_expanded* expanded = &draw->expanded;
+    return expanded->there && hair_draw_has_met_solids(draw, smooth) && expanded->met == draw->hits.met &&
+           expanded->made == draw->gl->made;
+}
+
+hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth)
+{
+    struct hair_gl*       gl       = draw->gl;
+    struct hair_expanded* expanded = &draw->expanded;
+    hair_gl_pass          pass     = HAIR_GL_EXPAND;
+    hair_result           result   = make(draw);
+    if (!result) result = hair_draw_need(draw, &pass);
+    if (result || is_fresh(draw, smooth)) return result;
+    struct hair_draw_params params;
+    hair_draw_write_params(draw, NULL, NULL, &params);
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    hair_draw_bind(draw, smooth, 0);
+    GLuint buffers[] = {expanded->position, expanded->tangent};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, buffers);
+    hair_gl_run(gl, pass, (uint32_t)((expanded->vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
+    // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, NULL);
+    expanded->there = 1;
+    expanded->met   = draw->hits.met;
+    expanded->made  = gl->made;
+    return HAIR_OK;
+}
+
+void hair_draw_bind_expanded(struct hair_draw* draw)
+{
+    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
+    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
+}
+
+hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)
+{
+    struct hair_gl* gl       = draw->gl;
+    int             kept     = draw->expanded.there;
+    size_t          count    = count_vertices(draw);
+    hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
+    if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
+    hair_result result = hair_draw_need_expanded(draw, smooth);
+    if (!result)
+        gl->GetNamedBufferSubData(draw->expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
+                                  vertices);
+    if (!kept) hair_draw_free_expanded(draw); // Only drawing is worth the memory.
+    if (result) {
+        hair_free(&gl->host, vertices);
+        return result;
+    }
+    *out = vertices;
+    return HAIR_OK;
+}

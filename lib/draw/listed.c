@@ -1,0 +1,104 @@
+// listed.c - strands that are drawn without a tessellator: those that patches want drawn are listed by compute, and drawn
+// as both ends of every segment, which the driver makes once for the two segments that share them.
+#include "lib/draw/draw.h"
+
+static hair_result make_lists(struct hair_draw* draw)
+{
+    struct hair_gl*     gl     = draw->gl;
+    struct hair_listed* listed = &draw->listed;
+    hair_result         result = HAIR_OK;
+    if (!listed->start)
+        result =
+            hair_gl_storage(gl, "hair strand starts", draw->patches * sizeof(uint32_t), NULL, &listed->start);
+    if (!result && !listed->strand)
+        result = hair_gl_storage(gl, "hair strands", draw->followers * sizeof(struct hair_strand), NULL,
+                                 &listed->strand);
+    if (!result && !listed->strand_texture)
+        result =
+            hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, listed->strand, &listed->strand_texture);
+    if (!result && !listed->command)
+        result = hair_gl_storage(gl, "hair commands", 2 * sizeof(struct hair_draw_command), NULL,
+                                 &listed->command);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_COUNT);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_LIST);
+    return result;
+}
+
+// Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them.
+// 16 bits are enough: 64 strands of 256 segments have 16,448 vertices.
+static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, size_t* count)
+{
+    size_t at = 0;
+    *count    = 2 * HAIR_INSTANCE_STRANDS;
+    for (uint32_t each = segments; each > 1; each = (each + 1) / 2)
+        *count += 2 * HAIR_INSTANCE_STRANDS * each;
+    uint16_t* indices = hair_alloc(&gl->host, *count, sizeof *indices);
+    for (uint32_t each = segments; indices && each; each = each > 1 ? (each + 1) / 2 : 0)
+        for (uint32_t strand = 0; strand < HAIR_INSTANCE_STRANDS; ++strand)
+            for (uint32_t i = 0; i < each; ++i)
+                for (uint32_t end = 0; end < 2; ++end)
+                    indices[at++] = (uint16_t)(strand * (segments + 1) + i + end);
+    return indices;
+}
+
+static hair_result make_indices(struct hair_draw* draw)
+{
+    struct hair_gl*     gl       = draw->gl;
+    struct hair_listed* listed   = &draw->listed;
+    uint32_t            segments = draw->look.segments;
+    if (listed->segments == segments) return HAIR_OK;
+    listed->segments = 0;
+    hair_gl_free_buffer(gl, &listed->index);
+    size_t    count;
+    uint16_t* indices = write_indices(gl, segments, &count);
+    if (!indices) return hair_fail_memory(&gl->host, "the segments of strands");
+    hair_result result =
+        hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &listed->index);
+    hair_free(&gl->host, indices);
+    if (result) return result;
+    if (!listed->vertex_array) gl->CreateVertexArrays(1, &listed->vertex_array);
+    if (!listed->vertex_array)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no vertex array for strands");
+    gl->VertexArrayElementBuffer(listed->vertex_array, listed->index);
+    listed->segments = segments;
+    return HAIR_OK;
+}
+
+hair_result hair_draw_make_listed(struct hair_draw* draw)
+{
+    hair_result result = make_lists(draw);
+    return result ? result : make_indices(draw);
+}
+
+void hair_draw_free_listed(struct hair_draw* draw)
+{
+    struct hair_listed* listed = &draw->listed;
+    struct hair_gl*     gl     = draw->gl;
+    if (listed->vertex_array) gl->DeleteVertexArrays(1, &listed->vertex_array);
+    listed->vertex_array = 0;
+    hair_gl_free_texture(gl, &listed->strand_texture);
+    hair_gl_free_buffer(gl, &listed->start);
+    hair_gl_free_buffer(gl, &listed->strand);
+    hair_gl_free_buffer(gl, &listed->command);
+    hair_gl_free_buffer(gl, &listed->index);
+}
+
+void hair_draw_list(struct hair_draw* draw)
+{
+    struct hair_gl*     gl        = draw->gl;
+    struct hair_listed* listed    = &draw->listed;
+    GLuint              buffers[] = {listed->start, listed->strand, listed->command};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
+    hair_gl_run(gl, HAIR_GL_COUNT, 1);
+    hair_gl_run(gl, HAIR_GL_LIST, draw->patches);
+}
+
+void hair_draw_listed(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
+    gl->BindVertexArray(draw->listed.vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);
+    gl->Disable(GL_PRIMITIVE_RESTART);
+    gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_SHORT, NULL, 2, sizeof(struct hair_draw_command));
+}
