@@ -25,8 +25,8 @@ struct hair_point {
 
 struct guide_point {
     vec3  position, tangent;
-    vec3  bend;   // slope of the tangent by u
-    float length; // of the guide, m; to a few digits
+    vec3  bend;         // slope of the tangent by u
+    float guide_length; // m; to a few digits
 };
 
 struct guide_place { // between a sample of a smoothed guide and the next
@@ -106,7 +106,7 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
         float       w1 = follower.weight1, w2 = follower.weight2, w0 = 1.0 - w1 - w2;
         vec3        own     = vec3(follower.offset[1].w, follower.offset[2].w, follower.offset[3].w);
         vec3        blended = w0 * g0.position + w1 * g1.position + w2 * g2.position;
-        vec3        beside  = w0 * along + follower.length_ratio * (w1 * g1.length * g1.tangent + w2 * g2.length * g2.tangent);
+        vec3        beside  = w0 * along + follower.length_ratio * (w1 * g1.guide_length * g1.tangent + w2 * g2.guide_length * g2.tangent);
         along    = mix(along, beside, multi) + multi_slope * (blended - position);
         position = mix(position, blended, multi);
         slope    = (1.0 - multi) * slope + multi_slope * (own - offset);
