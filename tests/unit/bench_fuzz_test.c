@@ -1,0 +1,45 @@
+// bench_fuzz_test.c - a few of the random scenes of hair-bench stability: the ten thousand take hours.
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-bench"
+#define FUZZ "$T stability --case fuzz --scene 0-7 --csv - --method "
+#define ROW " | tail -1 | cut -d, -f2,4,13,15" // method, finite, scenes, pass
+
+static int make_folder(void** state)
+{
+    (void)state;
+    return hair_test_shell_start(TOOL);
+}
+
+static int remove_folder(void** state)
+{
+    (void)state;
+    return hair_test_shell_finish();
+}
+
+static void direct_stretches_nothing_in_random_scenes(void** state)
+{
+    (void)state;
+    hair_test_shell_expect(0, FUZZ "direct" ROW, "direct,true,8,true");
+}
+
+static void accurate_stretches_nothing_in_random_scenes(void** state)
+{
+    (void)state;
+    hair_test_shell_expect(0, FUZZ "accurate" ROW, "accurate,true,8,true");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(direct_stretches_nothing_in_random_scenes),
+        cmocka_unit_test(accurate_stretches_nothing_in_random_scenes),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
