@@ -534,7 +534,8 @@ typedef enum hair_pass {
 typedef enum hair_path {
     HAIR_PATH_TESSELLATION = 0, ///< Isolines, from one-point patches.
     HAIR_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
-    HAIR_PATH_EXPANDED   ///< Vertices written once, for all views until hair moves. 24 bytes each, kept.
+    HAIR_PATH_EXPANDED   ///< Vertices written once, for all views until hair moves: 24 bytes each. With a
+                         ///< hair_lod as HAIR_PATH_INSTANCED.
 } hair_path;
 
 typedef enum hair_primitive {

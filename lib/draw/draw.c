@@ -78,15 +78,21 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
+// Levels of detail leave out most vertices, and want others.
+static hair_path path_of(const hair_view* view)
+{
+    return view->path == HAIR_PATH_EXPANDED && view->lod ? HAIR_PATH_INSTANCED : view->path;
+}
+
 // Of the rows of a DRAW_PASS, two each.
-static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view)
+static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view, hair_path path)
 {
     int depth = view->pass == HAIR_PASS_DEPTH, fibres = !depth && draw->look.shading == HAIR_SHADING_FIBRES;
     int row                           = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
     static const hair_gl_pass first[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED_RIBBONS,
                                          [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED_RIBBONS,
                                          [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED_RIBBONS};
-    return first[view->path] + (hair_gl_pass)(2 * row);
+    return first[path] + (hair_gl_pass)(2 * row);
 }
 
 static void draw_guides(struct hair_draw* draw)
@@ -113,9 +119,10 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
                           const struct hair_pose* head, const hair_view* view)
 {
     int          guides   = view->pass == HAIR_PASS_GUIDES;
-    int          listed   = view->path != HAIR_PATH_TESSELLATION;
-    int          expanded = view->path == HAIR_PATH_EXPANDED;
-    hair_gl_pass pass     = pass_of(draw, view);
+    hair_path    path     = path_of(view);
+    int          listed   = path != HAIR_PATH_TESSELLATION;
+    int          expanded = path == HAIR_PATH_EXPANDED;
+    hair_gl_pass pass     = pass_of(draw, view, path);
     hair_result  result   = HAIR_OK;
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     if (!guides) result = hair_draw_need(draw, &pass);

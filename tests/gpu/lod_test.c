@@ -56,8 +56,9 @@ static hair_view view_from(float distance, float turn)
 {
     static const float target[3] = {0, 1.55f, 0};
     hair_view          view      = hair_view_default();
-    float              s = sinf(turn), c = cosf(turn);
-    const float        rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    view.path                    = HAIR_PATH_TESSELLATION; // The others make segments without length.
+    float       s = sinf(turn), c = cosf(turn);
+    const float rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int i = 0; i < 3; ++i) {
         view.view[12 + i] = i == 2 ? -distance : 0;
         for (int k = 0; k < 3; ++k) {
