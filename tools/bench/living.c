@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 static hair_result make_groom(struct bench_living* living)
 {
     const struct bench_scene* scene = living->scene;
@@ -192,7 +191,7 @@ static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_
 static bool run_frames(struct bench_living* living, uint32_t frames,
                        const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
-    bool        software            = living->bench->software;
+    bool        software                  = living->bench->software;
     hair_timing before[BENCH_MOST_PASSES] = {{0}};
     if (hair_reset(living->hair)) return false;
     glFinish();

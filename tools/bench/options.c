@@ -41,7 +41,8 @@ static const struct row {
     {"case", CASE, "NAME", "only this case of the suite"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
-     "                   none, switch, push, compute or prepass; of render, only this path"},
+     "                   none, switch, push, compute or prepass; of render, only this path:\n"
+     "                   tessellation, instanced or expanded"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
     {"strands", STRANDS, "N",
      "copies of the strand that are timed; 1000; of render and table, strands\n"
@@ -58,8 +59,9 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
-static const char* const methods[]  = {"direct", "accurate", "follow",  "redblack",     "none", "switch",
-                                       "push",   "compute",  "prepass", "tessellation", NULL};
+static const char* const methods[]  = {"direct",    "accurate", "follow",  "redblack", "none",
+                                       "switch",    "push",     "compute", "prepass",  "tessellation",
+                                       "instanced", "expanded", NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)

@@ -38,7 +38,9 @@ static const struct subject {
 static const struct path {
     const char* name;
     hair_path   path;
-} paths[] = {{"tessellation", HAIR_PATH_TESSELLATION}};
+} paths[] = {{"tessellation", HAIR_PATH_TESSELLATION},
+             {"instanced", HAIR_PATH_INSTANCED},
+             {"expanded", HAIR_PATH_EXPANDED}};
 
 static const struct primitive {
     const char*    name;
