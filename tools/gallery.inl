@@ -19,3 +19,31 @@ PICTURE("The third: strands of a third and of twice the thickness", "tools/scene
 ROW("Solids from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
         "tools/scenes/bullet.json --show hair,head,solids")
+
+ROW("Three ways to make followers of the same guides")
+PICTURE("Single strand: offsets from one guide (interpolation=single)", "--scene demo --set interpolation=single")
+PICTURE("Multi strand: between three guides (interpolation=multi)", "--scene demo --set interpolation=multi")
+PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
+
+ROW("Random variation")
+PICTURE("None", "--scene demo --set tip_strays=0 --set strays=0")
+PICTURE("30 % stray near their tips, 10 % all along (the default)", "--scene demo")
+PICTURE("Every strand kinks as well (look=frizzy)", "--scene demo --set look=frizzy")
+
+ROW("Looks of one haircut")
+PICTURE("look=straight", "--scene demo --set look=straight")
+PICTURE("look=wavy", "--scene demo --set look=wavy")
+PICTURE("look=curly", "--scene demo --set look=curly")
+PICTURE("look=coily", "--scene demo --set look=coily")
+PICTURE("look=short", "--scene demo --set look=short")
+
+ROW("Colours")
+PICTURE("color=brown (the default)", "--scene demo")
+PICTURE("color=dark_brown", "--scene demo --set color=dark_brown")
+PICTURE("color=black", "--scene demo --set color=black")
+PICTURE("color=blond", "--scene demo --set color=blond")
+PICTURE("color=red", "--scene demo --set color=red")
+PICTURE("color=auburn", "--scene demo --set color=auburn")
+PICTURE("color=gray", "--scene demo --set color=gray")
+PICTURE("color=white", "--scene demo --set color=white")
+PICTURE("color=blue", "--scene demo --set color=blue")

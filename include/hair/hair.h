@@ -397,6 +397,44 @@ typedef struct hair_look {
 } hair_look;
 HAIR_DESC(hair_look)
 
+typedef enum hair_look_kind {
+    HAIR_LOOK_NATURAL = 0, ///< The defaults.
+    HAIR_LOOK_STRAIGHT,    ///< Sleek: hardly a strand strays.
+    HAIR_LOOK_WAVY,        ///< Locks in flat waves of 85 mm.
+    HAIR_LOOK_CURLY,       ///< Locks that turn, 24 mm wide, every 50 mm.
+    HAIR_LOOK_COILY,       ///< Strands that turn, 9 mm wide, every 18 mm.
+    HAIR_LOOK_FRIZZY,      ///< Every strand kinks its own way.
+    HAIR_LOOK_SHORT,       ///< A third of the length, unevenly.
+    HAIR_LOOK_COUNT
+} hair_look_kind;
+
+/// Make `look`, which its default function has made, of a kind: sets what is from taper to curl_z, raises segments to what
+/// turns need in hair of 0.4 m, and leaves the rest. [any thread]
+HAIR_API hair_result hair_look_preset(hair_look* look, hair_look_kind kind);
+HAIR_API const char* hair_look_name(hair_look_kind kind); ///< "natural", "straight", … NULL beyond the last.
+
+typedef enum hair_color {
+    HAIR_COLOR_BROWN = 0, ///< The defaults.
+    HAIR_COLOR_DARK_BROWN,
+    HAIR_COLOR_BLACK,
+    HAIR_COLOR_BLOND,
+    HAIR_COLOR_RED,
+    HAIR_COLOR_AUBURN,
+    HAIR_COLOR_GRAY,
+    HAIR_COLOR_WHITE,
+    HAIR_COLOR_BLUE, ///< Dyed.
+    HAIR_COLOR_COUNT
+} hair_color;
+
+/// Colour `look`: sets root_color, tip_color and color_spread. [any thread]
+HAIR_API hair_result hair_look_color(hair_look* look, hair_color color);
+HAIR_API const char* hair_color_name(hair_color color); ///< "brown", "dark_brown", … NULL beyond the last.
+
+/// Curl `look` as an example does: one turn or wave of a strand, as [3, 65536] vertices of xyz, m, which is repeated. Its
+/// axis runs as from its first vertex to its last, [0.001, 10] m apart; no vertex is farther from it than 0.1 m. Sets curls,
+/// curl_x, curl_z, curl_radius, curl_wavelength and curl_turns. [any thread]
+HAIR_API hair_result hair_look_curl_like(hair_look* look, const float* positions, uint32_t vertex_count);
+
 typedef enum hair_mapping {
     HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
     HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other.

@@ -1,5 +1,6 @@
 // reach.c - where the hair of an instance can be.
 #include "lib/api/api.h"
+#include "lib/draw/params.h"
 
 #define GIVE 1.05f // hair may stretch a little, and followers stray from their guides
 

@@ -7,6 +7,7 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
+#include "lib/draw/params.h"
 #include "lib/reference/reference.h"
 #include "tests/support/handmade.h"
 
@@ -165,6 +166,83 @@ static void any_look_is_as_in_the_reference(void** state)
     finish(&f);
 }
 
+// As evaluate.glsl has them for what draws.
+static GLuint link_tangents(const struct fixture* f)
+{
+    static const char main[] =
+        "layout(local_size_x = 64) in;\n"
+        "layout(std430, binding = 0) writeonly buffer tangent_buffer { vec4 tangents[]; };\n"
+        "void main()\n"
+        "{\n"
+        "    uint i = gl_GlobalInvocationID.x, each = draw.segments + 1u;\n"
+        "    if (i >= tangents.length()) return;\n"
+        "    float t = float(i % each) / float(draw.segments);\n"
+        "    tangents[i] = vec4(evaluate(fetch_follower(i / each), i / each, t).tangent, 0.0);\n"
+        "}\n";
+    struct hair_gl_source source;
+    GLint                 linked = 0;
+    assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "evaluate.glsl", "", &source), HAIR_OK);
+    const char* text[]  = {"#version 450 core\n#define HAIR_STYLED 1\n", source.text, main};
+    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    hair_free(&f->test->host.host, source.text);
+    assert_true(linked);
+    return program;
+}
+
+static void compare_tangents(struct fixture* f, const hair_look* look, GLuint program)
+{
+    struct hair_draw*       draw   = &f->hair->draw;
+    struct hair_gl*         gl     = draw->gl;
+    GLuint                  buffer = 0;
+    uint32_t                count  = f->groom->info.follower_count * (look->segments + 1);
+    hair_vec4*              got    = malloc(count * sizeof *got);
+    struct hair_draw_params params;
+    double                  worst = 0, square = 0;
+    hair_test_ok(f->test, hair_set_look(f->hair, look));
+    hair_gl_enter(gl);
+    hair_test_ok(f->test, hair_gl_storage(gl, "tangents", count * sizeof *got, NULL, &buffer));
+    hair_draw_write_params(draw, NULL, NULL, &params);
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    hair_draw_bind(draw, &f->hair->smooth, 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
+    glUseProgram(program);
+    glDispatchCompute((count + 63) / 64, 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *got), got);
+    hair_gl_leave(gl);
+    hair_gl_free_buffer(gl, &buffer);
+    for (uint32_t i = 0; i < count; ++i) {
+        struct hair_reference_point expected;
+        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
+                                2 * f->groom->most_vertices - 1, f->samples,
+                                (double)(i % (look->segments + 1)) / look->segments, NULL, &expected);
+        double off[3] = {(double)got[i].x - expected.tangent[0], (double)got[i].y - expected.tangent[1],
+                         (double)got[i].z - expected.tangent[2]};
+        for (int k = 0; k < 3; ++k) {
+            worst = fmax(worst, fabs(off[k]));
+            square += off[k] * off[k] / count;
+        }
+    }
+    print_message("    tangents off by %.2g, up to %.2g\n", sqrt(square), worst);
+    // These guides go every way: where three of them cancel each other out, little decides.
+    assert_true(sqrt(square) < 1e-3 && worst < 0.05);
+    free(got);
+}
+
+static void tangents_of_any_look_are_as_in_the_reference(void** state)
+{
+    struct fixture f       = start(state);
+    uint32_t       random  = 70;
+    GLuint         program = link_tangents(&f);
+    for (int i = 0; i < 6; ++i) {
+        hair_look look = any_look(&random);
+        compare_tangents(&f, &look, program);
+    }
+    glDeleteProgram(program);
+    finish(&f);
+}
+
 // Far out in the world, positions are as near as floats of the world allow.
 static void what_is_read_is_in_the_world(void** state)
 {
@@ -208,9 +286,8 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(followers_are_where_the_reference_has_them),
-        HAIR_TEST(any_look_is_as_in_the_reference),
-        HAIR_TEST(what_is_read_is_in_the_world),
+        HAIR_TEST(followers_are_where_the_reference_has_them),   HAIR_TEST(any_look_is_as_in_the_reference),
+        HAIR_TEST(tangents_of_any_look_are_as_in_the_reference), HAIR_TEST(what_is_read_is_in_the_world),
         HAIR_TEST(no_more_than_the_capacity_is_written),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

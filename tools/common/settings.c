@@ -11,9 +11,10 @@
 
 #define MAX_TARGETS 3
 #define MAX_CHOICES 4
+#define MAX_EXAMPLE ((size_t)16 << 20) // bytes
 #define CURVE_PLACES (int)(sizeof(hair_curve) / sizeof(float))
 
-enum kind { FLOAT, COUNT, CURVE, PRESET };
+enum kind { FLOAT, COUNT, CURVE, PRESET, LOOK, COLOR, LIKE };
 
 // Where one key goes. Several places where several descs ask the same question.
 struct row {
@@ -103,6 +104,8 @@ static const struct row rows[] = {
     {"slice", "of the field, with --show solids", COUNT, {AT(view.slice)}, {"none", "x", "y", "z"}},
     {"slice_at", "where, as a share of the field's box", FLOAT, {AT(view.slice_at)}, {0}},
     {"field_voxel", "side of a voxel of the field, m", FLOAT, {AT(desc.field_voxel)}, {0}},
+    {"look", "kind of look, which sets numbers from taper to curls below", LOOK, {AT(look)}, {0}},
+    {"color", "of hair, which sets the next seven", COLOR, {AT(look)}, {0}},
     {"root_color.r", "diffuse reflectance at the root", FLOAT, {AT(look.root_color[0])}, {0}},
     {"root_color.g", "", FLOAT, {AT(look.root_color[1])}, {0}},
     {"root_color.b", "", FLOAT, {AT(look.root_color[2])}, {0}},
@@ -145,6 +148,7 @@ static const struct row rows[] = {
     {"curl_lock_phase", "how far apart guides are, turns", FLOAT, {AT(look.curl_lock_phase)}, {0}},
     {"curl_phase", "and strands of one guide, turns", FLOAT, {AT(look.curl_phase)}, {0}},
     {"curl_spread", "of radius and length of turns", FLOAT, {AT(look.curl_spread)}, {0}},
+    {"curl_like", "a turn of the first strand of this file (.hair, .tfx), m", LIKE, {AT(look)}, {0}},
     {"curls", "the course of a turn", COUNT, {AT(look.curls)}, {"helix", "example"}},
     {"absorption", "of light by hair, 1/m", FLOAT, {AT(look.absorption)}, {0}},
     {"density", "share of the followers drawn", FLOAT, {AT(look.density)}, {0}},
@@ -205,11 +209,36 @@ static bool set_choice(struct hair_settings* settings, const struct row* row, co
     return false;
 }
 
-static bool set_preset(struct hair_settings* settings, const char* value)
+// The i-th name of what sets several numbers at once, or NULL.
+static const char* preset_of(enum kind kind, int i)
+{
+    if (kind == PRESET) return hair_preset_name((hair_preset)i);
+    return kind == LOOK ? hair_look_name((hair_look_kind)i) : hair_color_name((hair_color)i);
+}
+
+static bool set_preset(struct hair_settings* settings, enum kind kind, const char* value)
 {
     int preset = 0;
-    while (preset < HAIR_PRESET_COUNT && strcmp(hair_preset_name((hair_preset)preset), value)) ++preset;
-    return hair_physics_preset(&settings->physics, (hair_preset)preset) == HAIR_OK;
+    while (preset_of(kind, preset) && strcmp(preset_of(kind, preset), value)) ++preset;
+    if (kind == PRESET) return hair_physics_preset(&settings->physics, (hair_preset)preset) == HAIR_OK;
+    if (kind == LOOK) return hair_look_preset(&settings->look, (hair_look_kind)preset) == HAIR_OK;
+    return hair_look_color(&settings->look, (hair_color)preset) == HAIR_OK;
+}
+
+// Of the first strand of a file all is one turn.
+static bool set_curl_like(struct hair_settings* settings, const char* path)
+{
+    struct hair_bytes bytes;
+    hair_asset*       asset = NULL;
+    hair_asset_desc   desc  = hair_asset_desc_default();
+    hair_asset_info   info  = hair_asset_info_default();
+    if (!hair_file_read("curl_like", path, MAX_EXAMPLE, &bytes)) return false;
+    hair_result result = hair_asset_read(&desc, bytes.data, bytes.size, &asset);
+    if (!result) result = hair_asset_describe(asset, &info);
+    if (!result) result = hair_look_curl_like(&settings->look, info.positions, info.strand_vertices[0]);
+    hair_asset_destroy(asset);
+    free(bytes.data);
+    return result == HAIR_OK;
 }
 
 static bool set_number(struct hair_settings* settings, const struct row* row, const char* value)
@@ -258,14 +287,16 @@ static bool set_curve(struct hair_settings* settings, const struct row* row, con
 static bool set_value(struct hair_settings* settings, const struct row* row, const char* value)
 {
     if (row->kind == CURVE) return set_curve(settings, row, value);
-    if (row->kind == PRESET) return set_preset(settings, value);
+    if (row->kind == PRESET || row->kind == LOOK || row->kind == COLOR)
+        return set_preset(settings, row->kind, value);
+    if (row->kind == LIKE) return set_curl_like(settings, value);
     return row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value);
 }
 
 // The i-th name that a row takes, or NULL.
 static const char* choice_of(const struct row* row, int i)
 {
-    if (row->kind == PRESET) return hair_preset_name((hair_preset)i);
+    if (row->kind == PRESET || row->kind == LOOK || row->kind == COLOR) return preset_of(row->kind, i);
     return i < MAX_CHOICES ? row->choice[i] : NULL;
 }
 
@@ -286,6 +317,7 @@ static void complain_of_value(const char* tool, const struct row* row, const cha
         return;
     }
     const char* kind = row->kind == COUNT   ? "a whole number"
+                       : row->kind == LIKE  ? "a file whose first strand is a turn of 1 mm to 10 m"
                        : row->kind == CURVE ? "one to eight finite numbers with commas between"
                                             : "a finite number";
     hair_complain(tool, "%s is %s, not %s", row->key, *value ? value : "empty", kind);
@@ -327,7 +359,9 @@ void hair_settings_print(FILE* file)
         memcpy(&number, value, sizeof number);
         char text[64], names[128];
         if (choice_of(row, 0))
-            snprintf(text, sizeof text, "%s", choice_of(row, row->kind == PRESET ? 0 : (int)count));
+            snprintf(text, sizeof text, "%s", choice_of(row, row->kind == COUNT ? (int)count : 0));
+        else if (row->kind == LIKE)
+            snprintf(text, sizeof text, "none");
         else if (row->kind == CURVE)
             print_curve(value, text, sizeof text);
         else if (row->kind == COUNT)

@@ -1,0 +1,204 @@
+// look_test.c - kinds of looks, colours and curls like an example are looks that the library takes; and what they make of a
+// strand has the slopes that it should.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/base/math.h"
+#include "lib/reference/reference.h"
+
+static void the_first_kind_and_the_first_color_are_the_defaults(void** state)
+{
+    (void)state;
+    hair_look look = hair_look_default(), untouched = look;
+    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_NATURAL), HAIR_OK);
+    assert_int_equal(hair_look_color(&look, HAIR_COLOR_BROWN), HAIR_OK);
+    assert_memory_equal(&look, &untouched, sizeof look);
+}
+
+static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
+{
+    (void)state;
+    hair_look kind[HAIR_LOOK_COUNT], color[HAIR_COLOR_COUNT];
+    for (int i = 0; i < HAIR_LOOK_COUNT; ++i) {
+        kind[i] = hair_look_default();
+        hair_look_color(&kind[i], HAIR_COLOR_RED);
+        hair_look red   = kind[i];
+        kind[i].density = 0.5f;
+        for (int again = 0; again < 2; ++again) // Whatever was set before.
+            assert_int_equal(
+                hair_look_preset(&kind[i], (hair_look_kind)(again ? i : (i + 1) % HAIR_LOOK_COUNT)), HAIR_OK);
+        assert_memory_equal(kind[i].root_color, red.root_color, sizeof red.root_color);
+        assert_true(kind[i].density == 0.5f && kind[i].color_spread == red.color_spread);
+        for (int k = 0; k < i; ++k)
+            assert_memory_not_equal(&kind[i].taper, &kind[k].taper,
+                                    offsetof(hair_look, absorption) - offsetof(hair_look, taper));
+    }
+    for (int i = 0; i < HAIR_COLOR_COUNT; ++i) {
+        color[i]             = hair_look_default();
+        color[i].curl_radius = 0.01f;
+        assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
+        assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
+        assert_true(color[i].curl_radius == 0.01f);
+        for (int k = 0; k < i; ++k) assert_memory_not_equal(&color[i], &color[k], sizeof color[i]);
+    }
+}
+
+static void each_has_a_name_of_its_own(void** state)
+{
+    (void)state;
+    for (int i = 0; i < HAIR_LOOK_COUNT; ++i)
+        for (int k = 0; k < i; ++k)
+            assert_string_not_equal(hair_look_name((hair_look_kind)i), hair_look_name((hair_look_kind)k));
+    for (int i = 0; i < HAIR_COLOR_COUNT; ++i)
+        for (int k = 0; k < i; ++k)
+            assert_string_not_equal(hair_color_name((hair_color)i), hair_color_name((hair_color)k));
+    assert_null(hair_look_name(HAIR_LOOK_COUNT));
+    assert_null(hair_color_name(HAIR_COLOR_COUNT));
+}
+
+// A turn of a helix of 7 mm in 40 mm, about an axis that is none of the world's.
+static void make_helix(float* positions, uint32_t vertices, double radius, double height)
+{
+    for (uint32_t i = 0; i < vertices; ++i) {
+        double t = (double)i / (vertices - 1), x = radius * cos(6.283185307179586 * t),
+               y = radius * sin(6.283185307179586 * t), z = height * t;
+        positions[3 * i + 0] = (float)(3 + 0.36 * x - 0.8 * y + 0.48 * z);
+        positions[3 * i + 1] = (float)(1 + 0.48 * x + 0.6 * y + 0.64 * z);
+        positions[3 * i + 2] = (float)(2 - 0.8 * x + 0.6 * z);
+    }
+}
+
+static void a_turn_of_a_helix_is_recognized(void** state)
+{
+    (void)state;
+    static float positions[3 * 200];
+    hair_look    look = hair_look_default();
+    make_helix(positions, 200, 0.007, 0.04);
+    assert_int_equal(hair_look_curl_like(&look, positions, 200), HAIR_OK);
+    assert_int_equal(look.curls, HAIR_CURLS_EXAMPLE);
+    hair_test_near("radius", 0, look.curl_radius, 0.007, 2e-5);
+    hair_test_near("wavelength", 0, look.curl_wavelength, 0.04, 1e-6);
+    double start = atan2((double)look.curl_z[0], (double)look.curl_x[0]), hand = 0;
+    for (int i = 0; i < 16; ++i) {
+        double angle = atan2((double)look.curl_z[i], (double)look.curl_x[i]) - start;
+        if (i == 1) hand = sin(angle) > 0 ? 1 : -1;
+        hair_test_near("radius", i, hypot((double)look.curl_x[i], (double)look.curl_z[i]), 1, 0.003);
+        hair_test_near("angle", i, cos(hand * angle - 6.283185307179586 * i / 16), 1, 1e-4);
+    }
+}
+
+static void examples_that_are_none_are_refused(void** state)
+{
+    (void)state;
+    static float positions[3 * 70000];
+    hair_look    look = hair_look_default(), untouched = look;
+    make_helix(positions, 70000, 0.007, 0.04);
+    assert_int_equal(hair_look_curl_like(NULL, positions, 20), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_curl_like(&look, NULL, 20), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_curl_like(&look, positions, 2), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_curl_like(&look, positions, 70000), HAIR_ERROR_ARGUMENT);
+    make_helix(positions, 30, 0.007, 0.0001); // As good as closed.
+    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    make_helix(positions, 30, 0.2, 0.04);
+    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    static const float wrong[] = {NAN, INFINITY, -INFINITY, 1e30f};
+    for (int i = 0; i < 4; ++i) {
+        make_helix(positions, 30, 0.007, 0.04);
+        positions[40] = wrong[i];
+        assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    }
+    assert_memory_equal(&look, &untouched, sizeof look);
+    make_helix(positions, 30, 0, 0.04); // Straight: no curl, and nothing that is not a number.
+    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_OK);
+    assert_true(look.curl_radius < 1e-6f);
+    for (int i = 0; i < 30; ++i) memcpy(positions + 3 * i, positions, 12); // No length.
+    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_COUNT), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_preset(NULL, HAIR_LOOK_CURLY), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_color(&look, HAIR_COLOR_COUNT), HAIR_ERROR_ARGUMENT);
+    memset(&look, 0, sizeof look); // Not made by the default function.
+    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_CURLY), HAIR_ERROR_VERSION);
+    assert_int_equal(hair_look_color(&look, HAIR_COLOR_RED), HAIR_ERROR_VERSION);
+}
+
+// Three guides that go round circles of their own, of 64 samples each.
+#define SAMPLES 64
+static void make_guides(struct hair_reference_sample* samples, double bend)
+{
+    static const double root[3][3] = {{0, 0, 0}, {0.02, 0, 0}, {0, 0, 0.03}};
+    for (int g = 0; g < 3; ++g)
+        for (int k = 0; k < SAMPLES; ++k) {
+            struct hair_reference_sample* sample = &samples[g * SAMPLES + k];
+            double                        length = 0.2 + 0.03 * g, s = length * k / (SAMPLES - 1);
+            double curve = bend * (1 + 0.2 * g), angle = curve * s, c = cos(angle / 2), half = sin(angle / 2);
+            *sample = (struct hair_reference_sample){.to_root = s, .tangent = {sin(angle), cos(angle), 0}};
+            sample->position[0] = root[g][0] + (curve > 0 ? (1 - cos(angle)) / curve : 0);
+            sample->position[1] = root[g][1] + (curve > 0 ? sin(angle) / curve : s);
+            sample->position[2] = root[g][2];
+            sample->frame[2] = -half, sample->frame[3] = c;
+        }
+}
+
+// The greatest angle between a tangent and the way from shortly before to shortly after.
+static double worst_tangent(hair_look look, double bend, double step)
+{
+    static struct hair_reference_sample samples[3 * SAMPLES];
+    double                              worst = 0;
+    make_guides(samples, bend);
+    for (uint32_t seed = 0; seed < 40; ++seed)
+        for (double t = 0.011; t < 0.98; t += 0.0173) {
+            struct hair_follower        follower = {.guide1       = 1,
+                                                    .guide2       = 2,
+                                                    .seed         = hair_hash(seed),
+                                                    .weight1      = 0.3f,
+                                                    .weight2      = 0.3f,
+                                                    .length_ratio = 0.9f,
+                                                    .multi        = 1,
+                                                    .offset       = {{0.004f, 0, 0.005f, 1},
+                                                                     {0.004f, 0, 0.001f, 0.001f},
+                                                                     {0.001f, 0, 0.002f, 0},
+                                                                     {0, 0, 0.001f, 0.002f}}};
+            struct hair_reference_point before, at, after;
+            hair_reference_follower(&follower, &look, SAMPLES, samples, t - step, NULL, &before);
+            hair_reference_follower(&follower, &look, SAMPLES, samples, t, NULL, &at);
+            hair_reference_follower(&follower, &look, SAMPLES, samples, t + step, NULL, &after);
+            double way[3], length = 0, along = 0;
+            for (int i = 0; i < 3; ++i) way[i] = after.position[i] - before.position[i];
+            for (int i = 0; i < 3; ++i) length += way[i] * way[i], along += way[i] * at.tangent[i];
+            worst = fmax(worst, acos(fmin(along / sqrt(length), 1)));
+        }
+    return worst;
+}
+
+static void tangents_are_the_slopes_of_positions(void** state)
+{
+    (void)state;
+    for (int kind = 0; kind < HAIR_LOOK_COUNT; ++kind)
+        for (int mode = 0; mode <= HAIR_INTERPOLATION_MULTI; ++mode) {
+            hair_look look = hair_look_default();
+            assert_int_equal(hair_look_preset(&look, (hair_look_kind)kind), HAIR_OK);
+            look.interpolation = (hair_interpolation)mode;
+            double straight = worst_tangent(look, 0, 1e-6), bent = worst_tangent(look, 10, 1e-6);
+            print_message("    %s %d: %.2g rad, with bent guides %.2g\n",
+                          hair_look_name((hair_look_kind)kind), mode, straight, bent);
+            assert_true(straight < 1e-3);
+            // Positions go straight from sample to sample of a guide, tangents do not: half of 10 rad/m times 3.5 mm.
+            assert_true(bent < 0.05);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_first_kind_and_the_first_color_are_the_defaults),
+        cmocka_unit_test(kinds_and_colors_differ_and_leave_each_other_alone),
+        cmocka_unit_test(each_has_a_name_of_its_own),
+        cmocka_unit_test(a_turn_of_a_helix_is_recognized),
+        cmocka_unit_test(examples_that_are_none_are_refused),
+        cmocka_unit_test(tangents_are_the_slopes_of_positions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
