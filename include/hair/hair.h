@@ -292,6 +292,10 @@ typedef struct hair_physics {
     /// dense at the foot of a height of volume / gravity. At most what crosses half a cell of the grid, 1 cm or
     /// more, in 1/120 s.
     float volume; ///< m^2/s^2. [0, 100]. Default 0.
+    /// Level of detail: the share of the solver's own substeps that is made, in halves: 1, 1/2, 1/4, … They are as much
+    /// longer, but none is longer than 1/60 s; steps that complete none only move on what is drawn, which is one
+    /// substep behind. Of redblack, which stretches the more the fewer they are, nothing is left out.
+    float rate; ///< [0.0625, 1]. Default 1.
 } hair_physics;
 HAIR_DESC(hair_physics)
 

@@ -11,11 +11,15 @@ struct hair_rods {
     int                     curved;
     int                     stiff;  // for SHAKE, some
     int                     struck; // made for: sim->struck,
-    uint32_t                tied;   // and sim->ties.which
+    uint32_t                tied;   // and sim->ties.which;
+    uint32_t                longer; // and substeps so many times as long as the solver wants them
 };
 
 // Below this, radians at a vertex, a strand is straight: what rounding leaves of one in any direction.
 #define STRAIGHT 5e-5f
+
+#define LONGEST                                                                                              \
+    (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
 
 #define CONTACT_MARGIN                                                                                       \
     1.6 // of substeps. Measured: from 1.5 on nothing falls back in a head's shake over solids
@@ -55,6 +59,14 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     return result;
 }
 
+// By doubling, so that little is made anew while a level of detail changes.
+static uint32_t times_longer(const struct hair_sim* sim)
+{
+    uint32_t longer = 1;
+    while (2 * (float)longer * sim->physics.rate <= 1) longer *= 2;
+    return longer;
+}
+
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
 static hair_result make(struct hair_sim* sim, int struck)
 {
@@ -68,6 +80,8 @@ static hair_result make(struct hair_sim* sim, int struck)
         // Impacts stir what bending in explicit steps can only just bear.
         if (struck && sim->solver == HAIR_SOLVER_ACCURATE) substep /= CONTACT_MARGIN;
     }
+    uint32_t longer = times_longer(sim);
+    if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
     hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
                     &rods->report);
     hair_rods_tie(rods->guides, rods->rest, sim->ties.knot, sim->ties.count, &sim->physics, sim->solver,
@@ -86,6 +100,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->made_for = sim->physics;
         rods->struck   = struck;
         rods->tied     = sim->ties.which;
+        rods->longer   = longer;
         rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
         rods->stiff    = is_stiff(sim, rod);
         sim->substep   = substep;
@@ -132,15 +147,28 @@ hair_result hair_sim_need_crowd(struct hair_sim* sim)
     return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
 }
 
+// 1: solids have come, and the accurate solver's own substep is another then.
+static int is_struck_anew(const struct hair_sim* sim, int struck)
+{
+    return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;
+}
+
+int hair_sim_is_other_rate(const struct hair_sim* sim)
+{
+    const struct hair_rods* rods = sim->rods;
+    if (!rods || rods->longer == times_longer(sim)) return 0;
+    return sim->ties.which == rods->tied && !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
+           !hair_rods_differ(&rods->made_for, &sim->physics);
+}
+
 hair_result hair_sim_renew_rods(struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
     int struck = sim->struck || hair_sim_contacts(sim) > 0;
-    int other  = sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != rods->struck;
-    other |= sim->ties.which != rods->tied;
-    hair_result result =
-        other || hair_rods_differ(&rods->made_for, &sim->physics) ? make(sim, struck) : HAIR_OK;
+    int other  = rods->longer != times_longer(sim) || is_struck_anew(sim, struck) ||
+                sim->ties.which != rods->tied || hair_rods_differ(&rods->made_for, &sim->physics);
+    hair_result result = other ? make(sim, struck) : HAIR_OK;
     if (!result) sim->struck = struck;
     return result;
 }

@@ -401,6 +401,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     *sim        = loaded;
     sim->solids = solids;
     hair_ties_take(sim, c.ties.knot, c.ties.count);
+    sim->next_substep = 0;
     if (!sim->crowd.push) sim->crowd.beat = 0;
     hair_sim_show(sim);
     return HAIR_OK;

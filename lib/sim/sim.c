@@ -5,6 +5,7 @@
 
 #define TWO_PI 6.28318530718f
 #define REDBLACK_SUBSTEP (1.0 / 120)
+#define EARLY 1e-6         // of a substep
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
@@ -145,7 +146,8 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
 {
     hair_vec3 moved           = hair_pose_offset(&sim->last_after, &sim->last_before);
     int       far             = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
-    params->alpha             = far ? 1 : (float)fmin(sim->left / sim->last_substep, 1);
+    double    span            = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
+    params->alpha             = far ? 1 : (float)fmin(sim->left / span, 1);
     params->rotation_before   = vec4_of_quat(sim->last_before.rotation);
     params->rotation_after    = vec4_of_quat(sim->last_after.rotation);
     params->rotation_now      = vec4_of_quat(sim->head.rotation);
@@ -166,12 +168,12 @@ void hair_sim_show(struct hair_sim* sim)
     upload(sim, &params);
 }
 
-// The next `count` substeps, of which the first ends `first` seconds into a step of `dt`.
-static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count,
-                           double first, double dt)
+// The next `count` substeps, of which the first begins `from` seconds into a step of `dt`, or before it.
+static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
+                           double dt)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        double share                = fmin((first + i * sim->substep) / dt, 1);
+        double share                = fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
         sim->last_before            = sim->last_after;
         sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share);
         params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
@@ -198,27 +200,25 @@ static void write_solids(const struct hair_sim* sim, struct hair_step_params* pa
             *(i < 32 ? &params->bodies0 : &params->bodies1) |= 1u << i % 32;
 }
 
-hair_result hair_sim_step(struct hair_sim* sim, double dt)
+static hair_result need(struct hair_sim* sim)
+{
+    hair_result result = hair_ties_write(sim);
+    if (!result) result = hair_sim_need_crowd(sim);
+    return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
+}
+
+// `total` substeps, after which sim->left is what is left of the step.
+static void advance(struct hair_sim* sim, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
-    hair_result             result = hair_sim_renew_rods(sim);
     hair_gl_pass            pass   = solver_pass(sim);
     int                     crowd  = hair_crowd_is_on(sim);
-    if (!result) result = hair_ties_write(sim);
-    if (!result) result = hair_sim_need_crowd(sim);
-    if (!result) result = hair_gl_need(sim->gl, pass);
-    if (result) return result;
+    sim->next_substep              = sim->substep;
     write_physics(sim, &params);
     write_solids(sim, &params);
-
-    double   left = fmin(sim->left, sim->substep), time = left + dt; // Substeps may have become shorter.
-    uint32_t total =
-        (uint32_t)(time / sim->substep + 1e-6); // A hair's breadth early, so that 2/120 s holds two 1/120 s.
-    double first = sim->substep - left;
-    sim->left    = fmax(time - total * sim->substep, 0);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
-    params.share_start = (float)fmax(-(sim->substep - first) / dt, -1);
+    params.share_start = (float)fmin(fmax(from / dt, -1), 1);
     for (uint32_t done = 0; done < total;) {
         uint32_t most  = substeps_at_once(sim);
         uint32_t block = crowd ? hair_crowd_left(sim) : most;
@@ -226,7 +226,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         if (block < count) count = block;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         sim->last_substep     = sim->substep;
-        write_substeps(sim, &params, count, first + done * sim->substep, dt);
+        write_substeps(sim, &params, count, from + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
         uint32_t groups =
@@ -244,6 +244,34 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         upload(sim, &params);
     }
     if (!crowd) sim->crowd.beat = 0;
+}
+
+// A hair's breadth early, so that 2/120 s holds two 1/120 s.
+static uint32_t count_substeps(const struct hair_sim* sim, double time)
+{
+    return (uint32_t)(time / sim->substep + EARLY);
+}
+
+hair_result hair_sim_step(struct hair_sim* sim, double dt)
+{
+    // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
+    int    waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
+    double from  = -sim->left;
+    hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
+    if (!result) result = need(sim);
+    if (result) return result;
+    if (waits && count_substeps(sim, dt - from) > 0) {
+        double end = from + sim->substep;
+        sim->left  = fmax(dt - end, 0);
+        advance(sim, 1, from, dt);
+        from   = end;
+        result = hair_sim_renew_rods(sim);
+        if (!result) result = need(sim);
+        if (result) return result;
+    }
+    uint32_t total = count_substeps(sim, dt - from);
+    sim->left      = fmax(dt - from - total * sim->substep, 0);
+    advance(sim, total, from, dt);
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
     return HAIR_OK;
@@ -254,8 +282,8 @@ static void settle(struct hair_sim* sim)
 {
     sim->last_before = sim->last_after = sim->at_step = sim->head;
     sim->left                                         = 0;
-    sim->last_substep                                 = sim->substep;
-    sim->crowd.beat                                   = 0;
+    sim->last_substep = sim->next_substep = sim->substep;
+    sim->crowd.beat                       = 0;
     hair_solids_settle(&sim->solids);
 }
 

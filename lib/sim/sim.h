@@ -22,6 +22,7 @@ struct hair_sim {
     int                by_thread;                         // a thread per guide, not a work group
     int                struck; // there have been solids: the accurate solver's own substep is for impacts
     double             last_substep; // s: of the last substep done, which displacements are over
+    double             next_substep; // s: of the one under way; 0: not known, as of what was loaded
     uint32_t           guides, guide_vertices, smooth_vertices;
     uint32_t           most_vertices; // of a guide
     uint32_t           layout;        // hash of how many vertices each guide has
@@ -50,7 +51,8 @@ void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the gui
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
 hair_result hair_sim_renew_rods(struct hair_sim* sim); // if physics or what ties hold have changed so
 const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
-hair_result hair_sim_need_crowd(struct hair_sim* sim); // what physics with cohesion or volume take
+int         hair_sim_is_other_rate(const struct hair_sim* sim); // 1: of the physics nothing else has changed
+hair_result hair_sim_need_crowd(struct hair_sim* sim);          // what physics with cohesion or volume take
 void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);
 void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);

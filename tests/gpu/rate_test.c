@@ -1,0 +1,223 @@
+// rate_test.c - hair of which fewer and longer substeps are made moves as it would, as smoothly, for less.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <hair/hair_egl.h>
+
+#include "lib/api/api.h"
+#include "tests/support/handmade.h"
+
+enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MOST = 1024 };
+
+// Where the tips are drawn in every frame, seen from the head.
+struct run {
+    hair_vec3 tip[FRAMES][GUIDES];
+    uint32_t  runs; // of the solver
+};
+
+struct fixture {
+    struct hair_test* test;
+    hair_context*     context;
+    hair_groom*       groom;
+};
+
+static struct fixture start(void** state)
+{
+    struct fixture            f      = {.test = *state};
+    hair_context_desc         desc   = hair_context_desc_default();
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    desc.host                        = &f.test->host.host;
+    desc.get_proc                    = hair_egl_get_proc;
+    desc.timings                     = 1;
+    wanted.guides                    = GUIDES;
+    wanted.turn                      = 0.1f;
+    f.groom                          = hair_test_groom(desc.host, wanted);
+    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_context_destroy(f->context);
+    hair_groom_destroy(f->groom);
+}
+
+// The head turns to and fro for two seconds, at most by half a radian, beginning and ending softly; then it is still.
+static float angle_at(uint32_t frame)
+{
+    float s = sinf(3.14159265f * (float)frame / (2 * PER_SECOND));
+    return frame < 2 * PER_SECOND ? 0.5f * s * s * sinf(2 * 3.14159265f * (float)frame / PER_SECOND) : 0;
+}
+
+static uint32_t count_runs(hair_context* context)
+{
+    hair_timing timings[1024];
+    uint32_t    count = hair_timings(context, timings, 1024), runs = 0;
+    for (uint32_t i = 0; i < count && i < 1024; ++i)
+        if (!strncmp(timings[i].pass, "sim/direct", 10)) runs += timings[i].runs;
+    return runs;
+}
+
+static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUIDES])
+{
+    float    at[3 * MOST];
+    uint32_t count = 0, each = hair->sim.smooth_vertices;
+    hair_test_ok(f->test, hair_read(hair, HAIR_READ_SMOOTH, at, MOST, &count));
+    assert_int_equal(count, GUIDES * each);
+    for (uint32_t i = 0; i < GUIDES; ++i) tip[i] = hair_load3(at + 3 * ((i + 1) * each - 1));
+}
+
+// `rate_at`: of a frame.
+static void run(struct fixture* f, float (*rate_at)(uint32_t frame), struct run* out)
+{
+    hair_physics   physics = hair_physics_default();
+    hair_desc      desc    = hair_desc_default();
+    hair_instance* hair    = NULL;
+    physics.rate           = rate_at(0);
+    desc.physics           = &physics;
+    hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &hair));
+    uint32_t before = count_runs(f->context);
+    for (uint32_t i = 0; i < FRAMES; ++i) {
+        float angle    = angle_at(i);
+        float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
+                          sinf(angle), 0, cosf(angle),  0, 0, 0, 0, 1};
+        physics.rate   = rate_at(i);
+        hair_test_ok(f->test, hair_set_physics(hair, &physics));
+        hair_test_ok(f->test, hair_set_transform(hair, head));
+        hair_test_ok(f->test, hair_step(hair, 1.0f / PER_SECOND));
+        read_tips(f, hair, out->tip[i]);
+        for (int g = 0; g < GUIDES; ++g) {
+            hair_vec3 t = out->tip[i][g];
+            out->tip[i][g] =
+                hair_v3(cosf(angle) * t.x - sinf(angle) * t.z, t.y, sinf(angle) * t.x + cosf(angle) * t.z);
+        }
+    }
+    out->runs          = count_runs(f->context) - before;
+    hair_health health = hair_health_default();
+    hair_test_ok(f->test, hair_get_health(hair, &health));
+    assert_int_equal(health.euler, 0);
+    assert_int_equal(health.follow, 0);
+    assert_int_equal(health.reset, 0);
+    hair_destroy(hair);
+}
+
+static float at_one(uint32_t frame)
+{
+    return (void)frame, 1;
+}
+static float at_half(uint32_t frame)
+{
+    return (void)frame, 0.5f;
+}
+static float at_quarter(uint32_t frame)
+{
+    return (void)frame, 0.25f;
+}
+// There and back, twice while the head turns.
+static float at_any(uint32_t frame)
+{
+    static const float rates[] = {1, 0.5f, 0.25f, 0.5f};
+    return rates[frame * 16 / FRAMES % 4];
+}
+
+// How far tips are on average from where they are on average, and that.
+static double swing_of(const struct run* run, hair_vec3 mean[GUIDES])
+{
+    double sum = 0;
+    for (int g = 0; g < GUIDES; ++g) {
+        mean[g] = hair_v3(0, 0, 0);
+        for (uint32_t i = 0; i < FRAMES; ++i)
+            mean[g] = hair_add(mean[g], hair_scale(run->tip[i][g], 1.0f / FRAMES));
+        for (uint32_t i = 0; i < FRAMES; ++i)
+            sum += (double)hair_distance(run->tip[i][g], mean[g]) / (FRAMES * GUIDES);
+    }
+    return sum;
+}
+
+// The greatest change of a tip's step from a frame to the next.
+static double jerk_of(const struct run* run)
+{
+    double most = 0;
+    for (uint32_t i = 2; i < FRAMES; ++i)
+        for (int g = 0; g < GUIDES; ++g) {
+            hair_vec3 step   = hair_sub(run->tip[i][g], run->tip[i - 1][g]);
+            hair_vec3 before = hair_sub(run->tip[i - 1][g], run->tip[i - 2][g]);
+            most             = fmax(most, (double)hair_distance(step, before));
+        }
+    return most;
+}
+
+static double fastest_of(const struct run* run)
+{
+    double most = 0;
+    for (uint32_t i = 1; i < FRAMES; ++i)
+        for (int g = 0; g < GUIDES; ++g)
+            most = fmax(most, (double)hair_distance(run->tip[i][g], run->tip[i - 1][g]));
+    return most;
+}
+
+// How far off a run at a lower rate may be.
+struct bounds {
+    double swing;      // share
+    double mean, last; // m, of tips on average and at the end
+    double step;       // share of the longest step of a frame that a step may differ from the one before
+};
+
+static void compare(const char* name, const struct run* full, const struct run* low, struct bounds bounds)
+{
+    hair_vec3 mean[2][GUIDES];
+    double    swing[2] = {swing_of(full, mean[0]), swing_of(low, mean[1])}, off = 0, last = 0;
+    double    step = jerk_of(low) / fastest_of(full);
+    for (int g = 0; g < GUIDES; ++g) {
+        off  = fmax(off, (double)hair_distance(mean[0][g], mean[1][g]));
+        last = fmax(last, (double)hair_distance(full->tip[FRAMES - 1][g], low->tip[FRAMES - 1][g]));
+    }
+    print_message(
+        "    %s: %u runs for %u; swing %.2f mm for %.2f; tips on average %.2f mm off, at the end %.2f; "
+        "steps change by %.2f of the longest, at rate 1 by %.2f\n",
+        name, low->runs, full->runs, 1e3 * swing[1], 1e3 * swing[0], 1e3 * off, 1e3 * last, step,
+        jerk_of(full) / fastest_of(full));
+    assert_true(fabs(swing[1] / swing[0] - 1) <= bounds.swing);
+    assert_true(off <= bounds.mean);
+    assert_true(last <= bounds.last);
+    assert_true(step <= bounds.step);
+}
+
+static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
+{
+    static struct run full, low;
+    struct fixture    f = start(state);
+    run(&f, at_one, &full);
+    assert_int_equal(full.runs, FRAMES);
+    run(&f, at_half, &low);
+    compare("half", &full, &low, (struct bounds){0.04, 5e-4, 1e-4, 0.15});
+    assert_int_equal(low.runs, FRAMES / 2);
+    run(&f, at_quarter, &low);
+    compare("quarter", &full, &low, (struct bounds){0.08, 1e-3, 2.5e-4, 0.2});
+    assert_int_equal(low.runs, FRAMES / 4);
+    finish(&f);
+}
+
+// While substeps become shorter, time is drawn at most twice as fast; while they become longer, at half the pace.
+static void nothing_jumps_where_the_rate_changes(void** state)
+{
+    static struct run full, low;
+    struct fixture    f = start(state);
+    run(&f, at_one, &full);
+    run(&f, at_any, &low);
+    compare("changing", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(at_lower_rates_hair_moves_the_same_way_for_less),
+        HAIR_TEST(nothing_jumps_where_the_rate_changes),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
