@@ -47,3 +47,12 @@ PICTURE("color=auburn", "--scene demo --set color=auburn")
 PICTURE("color=gray", "--scene demo --set color=gray")
 PICTURE("color=white", "--scene demo --set color=white")
 PICTURE("color=blue", "--scene demo --set color=blue")
+
+ROW("Level of detail: fewer strands, as much wider, of fewer segments")
+PICTURE("Full level of detail", "tools/scenes/far.json")
+PICTURE("A lower one: 15 % of the strands, half the segments",
+        "tools/scenes/far.json --set lod=on --set lod.dynamic=0 --set lod.strands=0.15 --set lod.segments=0.5")
+PICTURE("The lower one, zoomed in",
+        "tools/scenes/near.json --set lod=on --set lod.dynamic=0 --set lod.strands=0.15 --set lod.segments=0.5")
+PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
+        "tools/scenes/near.json --set lod=on")
