@@ -18,7 +18,7 @@ layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { 
 #define ROUNDS 10u        // of pushing, between looks at the length
 #define LENGTHS 4u        // times that the length is looked at
 #define SHALLOW 0.002     // m: so deep a strand keeps its guides,
-#define DEEP 0.012        // and so deep it is freed of them
+#define DEEP 0.025        // and so deep it is freed of them; the nearer the two, the faster a strand leaves its guides
 #define AHEAD 1           // intervals that it is freed above a vertex inside
 
 shared vec4  control[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_THREADS];
@@ -49,7 +49,7 @@ float look(int own, hair_follower follower, uint samples, out float deepest)
         vec3  p = interpolate(follower, t, UNTOUCHED).position;
         if (i > 0u) {
             float depth = -field_distance(p);
-            float freed = smoothstep(SHALLOW, DEEP, depth);
+            float freed = clamp((depth - SHALLOW) / (DEEP - SHALLOW), 0.0, 1.0);
             int   from  = clamp(int(t * float(HAIR_REPAIR_INTERVALS)) - AHEAD, 0, HAIR_REPAIR_CONTROLS - 1);
             int   at    = from * HAIR_REPAIR_THREADS + own;
             control[at].w = max(control[at].w, freed);

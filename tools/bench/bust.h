@@ -5,7 +5,7 @@
 #include "tools/bench/bench.h"
 #include "tools/common/rig.h"
 
-#define BUST_FPS 30
+#define BUST_FPS 240
 
 struct bench_bust {
     struct bench*     bench;

@@ -157,11 +157,11 @@ static void add_row(struct bench_bust* bust, hair_collision collision, uint32_t 
     bench_set_count(row, "runs", runs);
 }
 
-// Every tenth frame, and the one after it, which tells what jumps.
+// Three times a second, and 1/240 s after that, which tells what jumps.
 static bool run_frames(struct bench_bust* bust, hair_collision collision, struct frame* frame)
 {
-    enum { EVERY = 10 };
-    uint32_t        frames = bust->bench->options.quick ? 12 : 111, looked_at = 0, runs = 0;
+    enum { EVERY = BUST_FPS / 3 };
+    uint32_t        frames = bust->bench->options.quick ? EVERY + 1 : 11 * EVERY + 1, looked_at = 0, runs = 0;
     struct found    found = {0};
     hair_field_info field = hair_field_info_default();
     double          ms    = 0;
