@@ -218,7 +218,10 @@ static json_t* find_row(json_t* rows, const char* primitive, int segments, int s
 static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** state)
 {
     (void)state;
-    expect(0, "$T render --quick --case long --size 64 --strands 400 --json $D/r.json --csv /dev/null", "");
+    expect(0,
+           "$T render --quick --case long --method tessellation --size 64 --strands 400 --json $D/r.json "
+           "--csv /dev/null",
+           "");
     json_t* root = read_json("r.json");
     json_t* rows = json_object_get(root, "rows");
     json_t *one = find_row(rows, "ribbons", 32, 1), *many = find_row(rows, "ribbons", 32, 4);
