@@ -96,7 +96,11 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_STRAND 4   // hair_strand[], likewise, in place of patches where there is no tessellator
 #define HAIR_UNIT_SHADOW 5   // the host's shadow map
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
+#define HAIR_UNIT_CONTACT 1  // of the same: hair_contact[], unsigned as followers are,
 #define HAIR_UNIT_TIE 2      // hair_held[], of the same, where guides are tied
+#define HAIR_UNIT_CELL 3     // uint[]: of each cell of the grid the place of its first member, from the array's
+                             // start on; after the last cell's, where its members end; then the members
+#define HAIR_UNIT_NODE 4     // float[]: HAIR_BIND_NODE
 #define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_EXPANDED 6         // of what draws expanded followers, in place of what they were made with
@@ -119,7 +123,11 @@ typedef uint32_t hair_uint;
 #define HAIR_INSTANCE_STRANDS 64     // drawn as one instance, without a tessellator
 #define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
-#define HAIR_STEP_SOLIDS 64
+#define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,
+#define HAIR_CELL_SOLIDS 64        // and in a cell of the grid where it has not
+#define HAIR_CONTACT_TEXELS 12
+#define HAIR_MEMBER_NUMBER 1048575u // of a member of a cell: which hair_contact,
+#define HAIR_MEMBER_WALKED 16777216u // and whether it is no sphere or capsule
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_PATCH_TEXELS 4
 #define HAIR_MAP_SETS 4 // of a groom, at most
@@ -227,6 +235,16 @@ struct hair_body {
 };
 HAIR_SIZE(hair_body, 80)
 
+// One of any number of solids.
+struct hair_contact {
+    HAIR_STRUCT(hair_capsule) around; // it, or a sphere around it
+    HAIR_STRUCT(hair_body) body;      // size.x of a form: how many times as large it is
+    hair_vec4 grid; // of a form: xyz: its first node, w: from node to node, m
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint first; // of its nodes
+};
+HAIR_SIZE(hair_contact, 16 * HAIR_CONTACT_TEXELS)
+
 // One substep: where the head is at its end.
 struct hair_substep {
     hair_vec4 rotation;     // unit quaternion
@@ -264,11 +282,15 @@ struct hair_step_params {
     float     rescale;     // of displacements, where the substep's length has changed; else 1
     hair_uint vertices; // of all guides
     hair_uint bodies0, bodies1; // a bit for each solid that is no capsule
+    // Of the grid in which any number of solids are looked up, from the head's origin.
+    hair_vec4 cells_lower; // xyz: its corner, m; w: 1 / side of a cell, 1/m
+    hair_uint cells_x, cells_y, cells_z;
+    float     cells_give; // m: half the way of a vertex on all of which it finds what it can touch
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
     HAIR_STRUCT(hair_body) body[HAIR_STEP_SOLIDS];
 };
-HAIR_SIZE(hair_step_params, 208 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
+HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
 
 // What a guide vertex puts into the crowd's grid, in its units.
 struct hair_share {

@@ -6,12 +6,35 @@
 
 vec4 body_turn(uint k, float share)
 {
-    return normalize(mix(params.body[k].rotation[0], params.body[k].rotation[1], share));
+    return normalize(mix(BODY_ROTATION(k, 0), BODY_ROTATION(k, 1), share));
 }
 
 vec3 body_place(uint k, float share)
 {
-    return mix(params.body[k].position[0].xyz, params.body[k].position[1].xyz, share);
+    return mix(BODY_POSITION(k, 0).xyz, BODY_POSITION(k, 1).xyz, share);
+}
+
+#ifdef HAIR_ANY
+#include "form_distance.glsl"
+#define SHAPE_FORM 6u // as hair_shape
+
+form_grid form_of(uint k)
+{
+    uvec4 nodes = contact_bits(k, 11u);
+    return form_grid(contact_part(k, 10u), nodes.xyz, nodes.w);
+}
+#else
+#define form_grid uint // There are none.
+#define form_of(k) 0u
+#endif
+
+// Without rounding, in its own space.
+float body_distance(vec4 size, form_grid form, vec3 at, out vec3 gradient)
+{
+#ifdef HAIR_ANY
+    if (uint(size.w) == SHAPE_FORM) return size.x * form_distance(form, at / size.x, gradient);
+#endif
+    return shape_distance(uint(size.w), size.xyz, at, gradient);
 }
 
 // As depth_in, for a vertex that goes from `start` to `end`. Where it may have gone right through, the way is walked in
@@ -22,10 +45,12 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, out vec3 norm
     vec3  place_then = body_place(k, share_then), place_after = body_place(k, share_now);
     vec3  a = rotate(quat_conjugate(turn_then), start - place_then);
     vec3  b = rotate(quat_conjugate(turn_after), end - place_after), outwards = vec3(0.0, 1.0, 0.0);
-    float around = params.body[k].position[0].w + params.margin, way = length(b - a), t = 1.0, depth = 0.0, was = 0.0;
+    vec4  size = BODY_SIZE(k);
+    form_grid form = form_of(k);
+    float around = BODY_POSITION(k, 0).w + params.margin, way = length(b - a), t = 1.0, depth = 0.0, was = 0.0;
     for (uint i = 0u; i < BODY_STEPS && t <= 1.0; ++i) {
         vec3  gradient, at = mix(a, b, t);
-        float distance = shape_distance(uint(params.body[k].size.w), params.body[k].size.xyz, at, gradient) - around;
+        float distance = body_distance(size, form, at, gradient) - around;
         if (i == 0u) {
             depth    = -distance;
             outwards = gradient;

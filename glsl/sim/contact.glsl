@@ -3,6 +3,8 @@
 // The reaction of a solid is what is done minus what is wanted. Its part along the normal may only push; its part
 // along the surface is at most `friction` times that, and against the slip. Where that suffices there is no slip at
 // all: a strand at rest does not creep.
+#include "sim/solids.glsl"
+
 #define FREE 0.0
 #define SLIDES 1.0
 #define GLIDES 2.0 // between two solids, along both
@@ -22,8 +24,8 @@ struct capsule { // a solid at one moment
 
 capsule solid_at(uint k, float share)
 {
-    vec4 a = mix(params.solid[k].start[0], params.solid[k].end[0], share);
-    vec4 b = mix(params.solid[k].start[1], params.solid[k].end[1], share);
+    vec4 a = mix(SOLID_START(k, 0), SOLID_END(k, 0), share);
+    vec4 b = mix(SOLID_START(k, 1), SOLID_END(k, 1), share);
     return capsule(a.xyz, b.xyz - a.xyz, a.w + params.margin);
 }
 
@@ -45,36 +47,6 @@ float swept_by(uint k, capsule now)
     return max(length(start), length(start + now.axis - then.axis));
 }
 
-// The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
-// again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.
-void find_solids(vec3 head_moved)
-{
-    if (!SOLIDS) return;
-    uvec2 near    = uvec2(0u);
-    float longest = guide_length + length(root_moved - head_moved) + 0.02;
-    if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
-    for (uint k = lane; k < params.solids; k += lanes) {
-        capsule solid = solid_at(k, share_now);
-        if (length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid))
-            near[k / 32u] |= 1u << (k % 32u);
-    }
-    near = all_bits(near);
-    EACH(guide_count) {
-        own(reachable) = own(met) = uvec2(0u);
-        if (own(slack) > 0.0) {
-            vec3  position = root_now + GET(place) + own(wanted) - root_moved;
-            float reach    = 0.02 + length(own(wanted) - head_moved);
-            for (int word = 0; word < 2; ++word)
-                for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
-                    uint    k     = 32u * uint(word) + uint(findLSB(bits));
-                    capsule solid = solid_at(k, share_now);
-                    if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid))
-                        own(reachable)[word] |= bits & -bits;
-                }
-        }
-    }
-}
-
 // How deep in one solid the displacement d from `start`, both from the head's origin, leads; below 0: how far off it
 // stays. And the normal there, and what the surface does. A vertex that goes right through is stopped where it goes in.
 float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out vec3 surface)
@@ -94,7 +66,7 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out
     depth -= max(then.radius - length(out_a) - EMERGE * params.gravity.w, 0.0);
     float along = nearest_share(end, now);
     surface     = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
-              cross(params.solid[k].spin.xyz * (share_now - share_then), normal * now.radius);
+              cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
     return depth;
 }
 
@@ -107,7 +79,7 @@ vec4 left_of(vec4 freedom, vec3 normal)
     return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
 }
 
-#ifdef HAIR_BODIES
+#if defined(HAIR_BODIES) || defined(HAIR_ANY)
 #include "sim/body.glsl"
 #endif
 
@@ -126,32 +98,11 @@ uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3
     return 1u;
 }
 
-// Out of one solid after the other, capsules first; returns of how many.
-uint push_out(vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
-{
-    uint  contacts = 0u;
-#ifdef HAIR_BODIES
-    uvec2 bodies = uvec2(params.bodies0, params.bodies1);
+#ifdef HAIR_ANY
+#include "sim/contact_any.glsl"
 #else
-    const uvec2 bodies = uvec2(0u);
+#include "sim/contact_few.glsl"
 #endif
-    vec3  normal, surface;
-    for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
-            uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in(k, start, d, head_moved, normal, surface);
-            contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
-        }
-#ifdef HAIR_BODIES
-    for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
-            uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
-            contacts += push_from(word, bits & -bits, params.body[k].position[1].w, depth, normal, surface, kept, d, freedom, met);
-        }
-#endif
-    return contacts;
-}
 
 // What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
 // would have to pull. Out of a second solid may lead into the first: then out of them once more.
@@ -160,8 +111,13 @@ vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out v
     vec3 d     = want;
     vec3 start = root_now - root_moved + head_moved + GET(place);
     freedom    = vec4(0.0, 0.0, 0.0, FREE);
-    if (push_out(start, solids, kept, head_moved, d, freedom, met) > 1u)
-        push_out(start, solids, kept, head_moved, d, freedom, met);
+#ifdef HAIR_ANY // In a loop, so that a compiler need not make so much of it twice.
+    uint contacts = 2u;
+    for (uint n = 0u; n < 2u && contacts > 1u; ++n) contacts = push_out(i, start, solids, kept, head_moved, d, freedom, met);
+#else
+    if (push_out(i, start, solids, kept, head_moved, d, freedom, met) > 1u)
+        push_out(i, start, solids, kept, head_moved, d, freedom, met);
+#endif
     return d;
 }
 

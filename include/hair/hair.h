@@ -508,8 +508,10 @@ static inline hair_solid hair_solid_default(void)
 
 /// Replace the solids; `stride` is sizeof(hair_solid). count in [0, 1048576]. A solid moves from where the one of
 /// its key was at the last step; of those without a key the i-th from where the i-th was, so keep their order. One
-/// that was not there, or had another shape, starts where it is. Guides collide with the 64 nearest to the head that
-/// are no forms, those of redblack with spheres and capsules only; followers and the field with all.
+/// that was not there, or had another shape, starts where it is. Guides collide with all of them, forms too; of more
+/// than 64 within some centimetres of a vertex with the 64 nearest there. Those of redblack collide with spheres and
+/// capsules only, the 64 nearest to the head. A guide meets a solid at its vertices: a rod, or the edge of a plate,
+/// that is thinner than its segments are long may come between two of them. Followers and the field know all solids.
 HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count,
                                      size_t stride);
 

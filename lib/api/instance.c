@@ -35,12 +35,13 @@ static void tell_stiffened(hair_instance* hair)
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
                         const hair_desc* desc)
 {
-    const hair_host* host   = &context->host;
-    hair->context           = context;
-    hair->max_dt            = (double)desc->max_dt;
-    hair->sim.asked_substep = (double)desc->substep;
-    hair->sim.solver        = desc->solver;
-    hair->draw.hits.prepass = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
+    const hair_host* host    = &context->host;
+    hair->context            = context;
+    hair->max_dt             = (double)desc->max_dt;
+    hair->sim.asked_substep  = (double)desc->substep;
+    hair->sim.contacts.forms = &context->forms;
+    hair->sim.solver         = desc->solver;
+    hair->draw.hits.prepass  = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
@@ -135,11 +136,11 @@ hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint3
     hair->draw.hits.fresh = 0;
     hair_result result    = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
     uint32_t    contacts  = hair_sim_contacts(&hair->sim);
-    if (!result && count > contacts && !hair->has_left_out) {
+    if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
-        hair_log(host, HAIR_LOG_WARNING, "%s: of %u solids guides collide with %u: the nearest %d, and no %s",
-                 hair->label, count, contacts, HAIR_STEP_SOLIDS,
-                 hair->sim.rods ? "forms" : "others than spheres and capsules");
+        hair_log(host, HAIR_LOG_WARNING,
+                 "%s: of %u solids guides collide with %u: the nearest %d, and none but spheres and capsules",
+                 hair->label, count, contacts, HAIR_STEP_SOLIDS);
     }
     return result;
 }

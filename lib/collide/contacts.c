@@ -1,4 +1,5 @@
-// contacts.c - solids as guides meet them: between two poses of the head, the nearest ones.
+// contacts.c - solids as guides meet them: between two poses of the head, all or the nearest ones.
+#include "lib/collide/form.h"
 #include "lib/collide/solid.h"
 
 #define EVERYWHERE 1e7f // m: the radius of what is around a half-space
@@ -16,11 +17,32 @@ static hair_quat turn_of(const hair_solid* solid)
         (hair_quat){solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]});
 }
 
+// The middle of a solid in its own axes, and from there half its sides.
+void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* half)
+{
+    const float* size = solid->size;
+    *middle           = hair_v3(0, 0, 0);
+    switch (solid->shape) {
+    case HAIR_SHAPE_CAPSULE: *half = hair_v3(size[0], size[0] + size[1], size[0]); return;
+    case HAIR_SHAPE_BOX: *half = hair_load3(size); return;
+    case HAIR_SHAPE_CYLINDER:
+    case HAIR_SHAPE_CONE: *half = hair_v3(size[0], size[1], size[0]); return;
+    case HAIR_SHAPE_PLANE: *half = hair_v3(EVERYWHERE, EVERYWHERE, EVERYWHERE); return;
+    case HAIR_SHAPE_FORM: break;
+    default: *half = hair_v3(size[0], size[0], size[0]); return;
+    }
+    hair_vec3 lower = hair_load3(solid->form->info.lower), upper = hair_load3(solid->form->info.upper);
+    *middle = hair_scale(hair_lerp(lower, upper, 0.5f), solid->scale);
+    *half   = hair_scale(hair_sub(upper, lower), 0.5f * solid->scale);
+}
+
 // Without rounding.
 static float radius_around(const hair_solid* solid)
 {
     const float* size = solid->size;
+    hair_vec3    middle, half;
     switch (solid->shape) {
+    case HAIR_SHAPE_FORM: hair_solid_extent(solid, &middle, &half); return hair_length(half);
     case HAIR_SHAPE_BOX: return hair_length(hair_load3(size));
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: return hypotf(size[0], size[1]);
@@ -32,10 +54,14 @@ static float radius_around(const hair_solid* solid)
 // A sphere or capsule, or what is around another solid.
 static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
 {
-    hair_vec3 center = from_head(solid, head);
+    hair_vec3 center = from_head(solid, head), middle, sides;
     float     half   = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
     float     radius = radius_around(solid) + solid->rounding;
     hair_vec3 axis   = hair_rotate(turn_of(solid), hair_v3(0, half, 0));
+    if (solid->shape == HAIR_SHAPE_FORM) {
+        hair_solid_extent(solid, &middle, &sides);
+        center = hair_add(center, hair_rotate(turn_of(solid), middle));
+    }
     hair_vec3 a = hair_sub(center, axis), b = hair_add(center, axis);
     ends[0] = (hair_vec4){a.x, a.y, a.z, radius};
     ends[1] = (hair_vec4){b.x, b.y, b.z, radius};
@@ -130,4 +156,24 @@ uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_
                             struct hair_body out[HAIR_STEP_SOLIDS])
 {
     return fill(solids, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
+}
+
+struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32_t i,
+                                        const struct hair_pose* head_before, const struct hair_pose* head_now)
+{
+    const hair_solid* now    = &solids->now.solid[i];
+    hair_solid        before = *hair_solids_before(solids, i);
+    before.form = now->form, before.scale = now->scale; // It may have had another.
+    struct hair_contact contact = {.body = body_of(&before, now, head_before, head_now)};
+    place(&before, head_before, contact.around.start);
+    place(now, head_now, contact.around.end);
+    contact.around.spin = spin_between(&before, now);
+    if (now->shape != HAIR_SHAPE_FORM) return contact;
+    const hair_form* form = now->form;
+    contact.body.size     = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_FORM};
+    contact.grid          = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
+    contact.nodes_x       = form->size[0];
+    contact.nodes_y       = form->size[1];
+    contact.nodes_z       = form->size[2];
+    return contact;
 }

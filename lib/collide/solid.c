@@ -116,12 +116,17 @@ static void put(struct hair_solid_list* list, const hair_solid* from, uint32_t c
 
 static void count_contacts(struct hair_solids* solids)
 {
-    solids->capsules = solids->bodies = 0;
-    for (uint32_t i = 0; i < solids->now.count && solids->capsules < HAIR_STEP_SOLIDS; ++i) {
-        hair_shape shape = solids->now.solid[i].shape;
-        solids->capsules += shape <= HAIR_SHAPE_CAPSULE;
-        solids->bodies += shape <= HAIR_SHAPE_PLANE && solids->bodies < HAIR_STEP_SOLIDS;
+    uint32_t capsules = 0, bodies = 0, forms = 0;
+    for (uint32_t i = 0; i < solids->now.count; ++i) {
+        const hair_solid* solid = &solids->now.solid[i];
+        capsules += solid->shape <= HAIR_SHAPE_CAPSULE;
+        bodies += solid->shape <= HAIR_SHAPE_PLANE;
+        forms += solid->shape == HAIR_SHAPE_FORM && solid->form;
     }
+    solids->contacts = bodies + forms;
+    solids->forms    = forms;
+    solids->capsules = capsules < HAIR_STEP_SOLIDS ? capsules : HAIR_STEP_SOLIDS;
+    solids->bodies   = bodies < HAIR_STEP_SOLIDS ? bodies : HAIR_STEP_SOLIDS;
 }
 
 static hair_result check_list(const hair_host* host, const hair_solid* from, uint32_t count, size_t stride)

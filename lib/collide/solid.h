@@ -20,6 +20,8 @@ struct hair_solids {
     uint32_t               capacity;    // of pair
     uint32_t               capsules;    // what hair_solids_capsules will return,
     uint32_t               bodies;      // and what hair_solids_bodies will
+    uint32_t               contacts;    // all but forms without their mesh,
+    uint32_t               forms;       // and the forms among them
 };
 
 #define HAIR_UNPAIRED UINT32_MAX
@@ -45,6 +47,14 @@ uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hai
 uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_pose* head_before,
                             const struct hair_pose* head_now, struct hair_capsule around[HAIR_STEP_SOLIDS],
                             struct hair_body out[HAIR_STEP_SOLIDS]);
+
+// The same of the i-th, which may be a form with its mesh. Where the form's nodes are is left open.
+struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32_t i,
+                                        const struct hair_pose* head_before,
+                                        const struct hair_pose* head_now);
+
+// In its own axes, without rounding: the middle of the box around it, and from there half its sides.
+void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* half);
 
 // The step is over: now becomes before.
 void hair_solids_settle(struct hair_solids* solids);

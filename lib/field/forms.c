@@ -31,6 +31,7 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
     if (room < LEAST_ROOM) room = LEAST_ROOM;
     hair_result result = hair_gl_storage(forms->gl, "hair forms", room * sizeof(float), NULL, &buffer);
     if (result) return result;
+    hair_gl_free_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
     forms->nodes = buffer;
     forms->room  = room;
@@ -63,6 +64,7 @@ static void free_if_empty(struct hair_forms* forms)
 {
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form) return;
+    hair_gl_free_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
     hair_free(&forms->gl->host, forms->pooled);
     *forms = (struct hair_forms){.gl = forms->gl};
@@ -95,4 +97,10 @@ void hair_forms_drop(struct hair_forms* forms, uint32_t place)
     hair_form_release(pooled->form);
     pooled->form = NULL;
     free_if_empty(forms);
+}
+
+hair_result hair_forms_need_texture(struct hair_forms* forms)
+{
+    if (forms->texture || !forms->nodes) return HAIR_OK;
+    return hair_gl_buffer_texture(forms->gl, "hair forms", GL_R32F, forms->nodes, &forms->texture);
 }

@@ -14,6 +14,7 @@ struct hair_pooled_form {
 struct hair_forms {
     struct hair_gl*          gl;
     GLuint                   nodes;      // buffer: float[], m
+    GLuint                   texture;    // the same; 0 until hair_forms_need_texture
     size_t                   used, room; // nodes
     struct hair_pooled_form* pooled;
     uint32_t                 count, capacity; // of places
@@ -22,5 +23,8 @@ struct hair_forms {
 // One solid more that has the form, at `place` for as long as it has.
 hair_result hair_forms_take(struct hair_forms* forms, const hair_form* form, uint32_t* place);
 void        hair_forms_drop(struct hair_forms* forms, uint32_t place);
+
+// For passes that have no storage buffer to spare.
+hair_result hair_forms_need_texture(struct hair_forms* forms);
 
 #endif

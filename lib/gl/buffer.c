@@ -61,7 +61,8 @@ void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {
-    GLint64 size = 0, texel = format == GL_R32F ? 4 : format == GL_RGBA16F || format == GL_RGBA16 ? 8 : 16;
+    GLint64 wide = format == GL_RGBA16F || format == GL_RGBA16 ? 8 : 16;
+    GLint64 size = 0, texel = format == GL_R32F || format == GL_R32UI ? 4 : wide;
     GLint   most = 0;
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);

@@ -21,13 +21,15 @@ static uint32_t lesser(uint32_t a, uint32_t b)
 
 static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t solids = hair_sim_contacts(sim),
-             others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
-    uint32_t met    = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
+    const struct hair_cells* cells  = &sim->contacts.cells;
+    uint32_t                 solids = hair_sim_contacts(sim), look = 3 * (solids + 1);
+    uint32_t                 others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
+    uint32_t met = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
     uint32_t drawn = sim->ties.count ? 40 : 0; // By ties, more often.
-    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + 3 * (solids + 1);
-    return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + 3 * (solids + 1);
+    if (sim->contacts.any) met = 44 * (cells->rounds + 20) + 3 * cells->longest, look = 0;
+    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + look;
+    return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + look;
 }
 
 // Where a thread would have too much to do, it is a work group's.
@@ -43,7 +45,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids and with bodies, curved, by thread, in a crowd, tied.
+// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -54,10 +56,21 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     };
     hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
     int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
-    int kind = met + 3 * hair_sim_is_curved(sim) + 6 * is_by_thread(sim) + 12 * hair_crowd_is_on(sim) +
-               24 * (sim->ties.count > 0);
+    if (sim->contacts.any) met = 3;
+    int kind = met + 4 * hair_sim_is_curved(sim) + 8 * is_by_thread(sim) + 16 * hair_crowd_is_on(sim) +
+               32 * (sim->ties.count > 0);
     if (sim->rods) pass += 4 * (hair_gl_pass)kind;
     return hair_gl_pass_for(pass, sim->most_vertices);
+}
+
+static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
+{
+    for (uint32_t i = 0; i < sim->guides; ++i) {
+        const struct hair_guide* guide = &groom->guides[i];
+        hair_vec4                root  = groom->rest[guide->first].position;
+        float                    reach = hair_length(hair_v3(root.x, root.y, root.z)) + guide->arc_length;
+        sim->reach                     = fmaxf(sim->reach, reach);
+    }
 }
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
@@ -68,6 +81,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
+    find_reach(sim, groom);
     size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
     hair_result result = HAIR_OK;
     if (!result)
@@ -99,6 +113,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->health);
     hair_gl_free_buffer(sim->gl, &sim->step);
     hair_ties_free(sim);
+    hair_contacts_free(sim);
     hair_sim_free_rods(sim);
 }
 
@@ -185,11 +200,15 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
 
 uint32_t hair_sim_contacts(const struct hair_sim* sim)
 {
-    return sim->rods ? sim->solids.bodies : sim->solids.capsules;
+    return sim->rods ? sim->solids.contacts : sim->solids.capsules;
 }
 
 static void write_solids(const struct hair_sim* sim, struct hair_step_params* params)
 {
+    if (sim->contacts.any) {
+        hair_contacts_write(sim, params);
+        return;
+    }
     if (!sim->rods) {
         params->solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params->solid);
         return;
@@ -200,10 +219,17 @@ static void write_solids(const struct hair_sim* sim, struct hair_step_params* pa
             *(i < 32 ? &params->bodies0 : &params->bodies1) |= 1u << i % 32;
 }
 
-static hair_result need(struct hair_sim* sim)
+static float share_of(double from, double dt)
 {
+    return (float)fmin(fmax(from / dt, -1), 1);
+}
+
+static hair_result need(struct hair_sim* sim, double from, double dt)
+{
+    sim->contacts.any  = hair_contacts_are_any(sim);
     hair_result result = hair_ties_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
+    if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
     return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
 }
 
@@ -216,9 +242,10 @@ static void advance(struct hair_sim* sim, uint32_t total, double from, double dt
     sim->next_substep              = sim->substep;
     write_physics(sim, &params);
     write_solids(sim, &params);
+    if (sim->contacts.any) hair_contacts_bind(sim);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
-    params.share_start = (float)fmin(fmax(from / dt, -1), 1);
+    params.share_start = share_of(from, dt);
     for (uint32_t done = 0; done < total;) {
         uint32_t most  = substeps_at_once(sim);
         uint32_t block = crowd ? hair_crowd_left(sim) : most;
@@ -258,7 +285,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     int    waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
     double from  = -sim->left;
     hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
-    if (!result) result = need(sim);
+    if (!result) result = need(sim, from, dt);
     if (result) return result;
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
@@ -266,7 +293,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         advance(sim, 1, from, dt);
         from   = end;
         result = hair_sim_renew_rods(sim);
-        if (!result) result = need(sim);
+        if (!result) result = need(sim, from, dt);
         if (result) return result;
     }
     uint32_t total = count_substeps(sim, dt - from);

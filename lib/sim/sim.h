@@ -3,37 +3,50 @@
 #define HAIR_SIM_SIM_H
 
 #include "lib/base/pose.h"
-#include "lib/collide/solid.h"
+#include "lib/collide/cells.h"
+#include "lib/field/forms.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/groom.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/ties.h"
 
+// What guides collide with where that may be anything: forms, any number of them. All 0 until then.
+struct hair_contacts {
+    int                any;   // whether it is so in this step
+    struct hair_forms* forms; // of the context
+    struct hair_cells  cells;
+    GLuint             solid, solid_texture, cell, cell_texture; // buffers, and the same as shaders read them
+    uint32_t*          held;                                     // places of forms
+    uint32_t           holds;
+};
+
 struct hair_sim {
-    struct hair_gl*    gl;
-    hair_solver        solver;
-    hair_physics       physics;
-    double             asked_substep;                     // s; 0: as the solver wants
-    double             substep;                           // s
-    GLuint             guide, rest, state, health, step;  // buffers, as in shared.h
-    GLuint             rod, history, material, reduction; // the same; 0 under redblack
-    struct hair_rods*  rods;                              // under redblack NULL
-    int                by_thread;                         // a thread per guide, not a work group
-    int                struck; // there have been solids: the accurate solver's own substep is for impacts
-    double             last_substep; // s: of the last substep done, which displacements are over
-    double             next_substep; // s: of the one under way; 0: not known, as of what was loaded
-    uint32_t           guides, guide_vertices, smooth_vertices;
-    uint32_t           most_vertices; // of a guide
-    uint32_t           layout;        // hash of how many vertices each guide has
-    double             left;          // s: since the end of the last substep, less than a substep
-    struct hair_pose   last_before;   // the head at the start of the last substep,
-    struct hair_pose   last_after;    // at its end,
-    struct hair_pose   at_step;       // at the last step, and
-    struct hair_pose   head;          // where it is to be at the next
-    struct hair_solids solids;
-    struct hair_crowd  crowd;
-    struct hair_ties   ties;
+    struct hair_gl*      gl;
+    hair_solver          solver;
+    hair_physics         physics;
+    double               asked_substep;                     // s; 0: as the solver wants
+    double               substep;                           // s
+    GLuint               guide, rest, state, health, step;  // buffers, as in shared.h
+    GLuint               rod, history, material, reduction; // the same; 0 under redblack
+    struct hair_rods*    rods;                              // under redblack NULL
+    int                  by_thread;                         // a thread per guide, not a work group
+    int                  struck; // there have been solids: the accurate solver's own substep is for impacts
+    double               last_substep; // s: of the last substep done, which displacements are over
+    double               next_substep; // s: of the one under way; 0: not known, as of what was loaded
+    uint32_t             guides, guide_vertices, smooth_vertices;
+    uint32_t             most_vertices; // of a guide
+    uint32_t             layout;        // hash of how many vertices each guide has
+    double               left;          // s: since the end of the last substep, less than a substep
+    struct hair_pose     last_before;   // the head at the start of the last substep,
+    struct hair_pose     last_after;    // at its end,
+    struct hair_pose     at_step;       // at the last step, and
+    struct hair_pose     head;          // where it is to be at the next
+    float                reach;         // no guide is farther from the head's origin. m
+    struct hair_solids   solids;
+    struct hair_contacts contacts;
+    struct hair_crowd    crowd;
+    struct hair_ties     ties;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
@@ -46,6 +59,14 @@ void        hair_sim_reset(struct hair_sim* sim);                         // res
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
 void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
 void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+
+// contacts.c: solids where they may be anything. `find` is for a step of dt that has been done up to a share of it, which
+// may be below 0; `write` fills in what it found of the parameters.
+int         hair_contacts_are_any(const struct hair_sim* sim);
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start);
+void        hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params);
+void        hair_contacts_bind(const struct hair_sim* sim);
+void        hair_contacts_free(struct hair_sim* sim);
 
 // rods.c: what the solvers of rods need beside the state. `write` fills in their share of the parameters.
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);

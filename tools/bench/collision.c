@@ -1,6 +1,7 @@
 // collision.c - the suite `collision`: followers inside a head and shoulders though no guide is, and what is done about
-// it (figure 6 of Tariq 2010); how long it takes to find them.
+// it (figure 6 of Tariq 2010); how long it takes to find them; what guides pay for many solids.
 #include "tools/bench/bust.h"
+#include "tools/bench/many.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +30,7 @@ static const char* const columns[] = {"case",
                                       "solids",
                                       "objects",
                                       "ms",
+                                      "ms_host",
                                       "runs",
                                       "ratio",
                                       "limit",
@@ -233,6 +235,7 @@ static void run_suite(struct bench* bench)
     double compute = measure_first_hit(bench, HAIR_FIRST_HIT_COMPUTE, 0);
     measure_first_hit(bench, HAIR_FIRST_HIT_PREPASS, compute);
     bench_measure_world(bench);
+    bench_many_solids(bench);
 }
 
 const struct bench_suite bench_collision = {

@@ -1,0 +1,29 @@
+// form_distance.glsl - the distance to a form's surface between the nodes of its grid, in its own space, below 0 inside;
+// and the unit vector along which it grows. Beyond the grid as from the surface nearest to where it ends.
+// lib/collide/distance.c says the same. NODE(i) is the i-th of all forms' nodes.
+struct form_grid {
+    vec4  place; // xyz: its first node, w: from node to node, m
+    uvec3 size;  // nodes along x, y and z
+    uint  first;
+};
+
+float form_distance(form_grid form, vec3 p, out vec3 gradient)
+{
+    uvec3 size   = form.size;
+    vec3  last   = vec3(size - 1u);
+    vec3  at     = (p - form.place.xyz) / form.place.w, within = clamp(at, vec3(0.0), last);
+    uvec3 corner = min(uvec3(within), size - 2u);
+    vec3  t      = within - vec3(corner);
+    uint  i      = form.first + corner.x + size.x * (corner.y + size.y * corner.z), row = size.x, layer = size.x * size.y;
+    vec4  near   = vec4(NODE(i), NODE(i + 1u), NODE(i + row), NODE(i + row + 1u));
+    vec4  far    = vec4(NODE(i + layer), NODE(i + layer + 1u), NODE(i + layer + row), NODE(i + layer + row + 1u));
+    vec4  flat_  = mix(near, far, t.z), steps = far - near;
+    vec2  line   = mix(flat_.xy, flat_.zw, t.y), rise = flat_.zw - flat_.xy;
+    float value  = mix(line.x, line.y, t.x);
+    vec3  slope  = vec3(line.y - line.x, mix(rise.x, rise.y, t.x), mix(mix(steps.x, steps.y, t.x), mix(steps.z, steps.w, t.x), t.y));
+    gradient     = direction_or(slope, vec3(0.0, 1.0, 0.0));
+    if (at == within) return value;
+    vec3 away = form.place.w * (at - within) + value * gradient;
+    gradient  = direction_or(away, gradient);
+    return length(away);
+}

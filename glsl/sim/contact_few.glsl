@@ -1,0 +1,58 @@
+// contact_few.glsl - solids that are in the step's parameters, HAIR_STEP_SOLIDS at most: which a guide can touch, and out
+// of them, one after the other.
+// The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
+// again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.
+void find_solids(vec3 head_moved)
+{
+    if (!SOLIDS) return;
+    uvec2 near    = uvec2(0u);
+    float longest = guide_length + length(root_moved - head_moved) + 0.02;
+    if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
+    for (uint k = lane; k < params.solids; k += lanes) {
+        capsule solid = solid_at(k, share_now);
+        if (length(from_axis(root_now, solid)) < solid.radius + longest + swept_by(k, solid))
+            near[k / 32u] |= 1u << (k % 32u);
+    }
+    near = all_bits(near);
+    EACH(guide_count) {
+        own(reachable) = own(met) = uvec2(0u);
+        if (own(slack) > 0.0) {
+            vec3  position = root_now + GET(place) + own(wanted) - root_moved;
+            float reach    = 0.02 + length(own(wanted) - head_moved);
+            for (int word = 0; word < 2; ++word)
+                for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
+                    uint    k     = 32u * uint(word) + uint(findLSB(bits));
+                    capsule solid = solid_at(k, share_now);
+                    if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid))
+                        own(reachable)[word] |= bits & -bits;
+                }
+        }
+    }
+}
+
+// Out of one solid after the other, capsules first; returns of how many.
+uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
+{
+    uint  contacts = 0u;
+#ifdef HAIR_BODIES
+    uvec2 bodies = uvec2(params.bodies0, params.bodies1);
+#else
+    const uvec2 bodies = uvec2(0u);
+#endif
+    vec3  normal, surface;
+    for (uint word = 0u; word < 2u; ++word)
+        for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
+            uint  k     = 32u * word + uint(findLSB(bits));
+            float depth = depth_in(k, start, d, head_moved, normal, surface);
+            contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+        }
+#ifdef HAIR_BODIES
+    for (uint word = 0u; word < 2u; ++word)
+        for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
+            uint  k     = 32u * word + uint(findLSB(bits));
+            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
+            contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+        }
+#endif
+    return contacts;
+}

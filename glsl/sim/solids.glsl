@@ -1,0 +1,36 @@
+// solids.glsl - where solids are read from: the step's parameters; or of any number of them a texture, by the grid that says
+// which can be met where (lib/collide/cells.h).
+#ifdef HAIR_ANY
+layout(binding = HAIR_UNIT_CONTACT) uniform usamplerBuffer contact_texture;
+layout(binding = HAIR_UNIT_CELL) uniform usamplerBuffer cell_texture;
+layout(binding = HAIR_UNIT_NODE) uniform samplerBuffer node_texture;
+
+uvec4 contact_bits(uint k, uint part) { return texelFetch(contact_texture, int(uint(HAIR_CONTACT_TEXELS) * k + part)); }
+vec4  contact_part(uint k, uint part) { return uintBitsToFloat(contact_bits(k, part)); }
+uint  cell_entry(uint i) { return texelFetch(cell_texture, int(i)).x; }
+
+#define NODE(i) texelFetch(node_texture, int(i)).x
+#define SOLID_START(k, n) contact_part(k, uint(n))
+#define SOLID_END(k, n) contact_part(k, 2u + uint(n))
+#define SOLID_SPIN(k) contact_part(k, 4u)
+#define BODY_POSITION(k, n) contact_part(k, 5u + uint(n))
+#define BODY_ROTATION(k, n) contact_part(k, 7u + uint(n))
+#define BODY_SIZE(k) contact_part(k, 9u)
+
+// The members of the cell around a place: the first, and the end.
+uvec2 cell_members(vec3 place)
+{
+    uvec3 cells = uvec3(params.cells_x, params.cells_y, params.cells_z);
+    vec3  at    = (place - params.cells_lower.xyz) * params.cells_lower.w;
+    uvec3 cell  = min(uvec3(clamp(at, vec3(0.0), vec3(cells))), cells - 1u);
+    uint  i     = cell.x + cells.x * (cell.y + cells.y * cell.z);
+    return uvec2(cell_entry(i), cell_entry(i + 1u));
+}
+#else
+#define SOLID_START(k, n) params.solid[k].start[n]
+#define SOLID_END(k, n) params.solid[k].end[n]
+#define SOLID_SPIN(k) params.solid[k].spin
+#define BODY_POSITION(k, n) params.body[k].position[n]
+#define BODY_ROTATION(k, n) params.body[k].rotation[n]
+#define BODY_SIZE(k) params.body[k].size
+#endif

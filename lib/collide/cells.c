@@ -1,0 +1,116 @@
+// cells.c - what guides can meet in a step, and the boxes around all that it does in it.
+#include "lib/collide/cells.h"
+
+#define WALK 12 // rounds: BODY_STEPS of glsl/sim/body.glsl, and what begins and ends it
+
+uint32_t hair_member_rounds(uint32_t member)
+{
+    return member & HAIR_MEMBER_WALKED ? WALK : 1;
+}
+
+// Room ------------------------------------------------------------------------------------------------------
+
+static hair_result make_room(const hair_host* host, struct hair_cells* cells, uint32_t count)
+{
+    if (count <= cells->room) return HAIR_OK;
+    uint32_t room = count + count / 2;
+    hair_free(host, cells->contact);
+    hair_free(host, cells->solid);
+    hair_free(host, cells->bounds);
+    hair_free(host, cells->member);
+    cells->contact = hair_alloc(host, room, sizeof *cells->contact);
+    cells->solid   = hair_alloc(host, room, sizeof *cells->solid);
+    cells->bounds  = hair_alloc(host, room, sizeof *cells->bounds);
+    cells->member  = hair_alloc(host, room, sizeof *cells->member);
+    int whole      = cells->contact && cells->solid && cells->bounds && cells->member;
+    cells->room    = whole ? room : 0;
+    return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
+}
+
+void hair_cells_free(const hair_host* host, struct hair_cells* cells)
+{
+    hair_free(host, cells->contact);
+    hair_free(host, cells->solid);
+    hair_free(host, cells->bounds);
+    hair_free(host, cells->member);
+    hair_free(host, cells->entry);
+    hair_free(host, cells->last);
+    *cells = (struct hair_cells){0};
+}
+
+// Contacts --------------------------------------------------------------------------------------------------
+
+// At the start or the end of the step, without rounding.
+static struct hair_cell_bounds box_around(const struct hair_contact* contact, const hair_solid* solid,
+                                          int end)
+{
+    const hair_vec4 *at = &contact->body.position[end], *q = &contact->body.rotation[end];
+    hair_quat        turn = {q->x, q->y, q->z, q->w};
+    hair_vec3        middle, half;
+    if (solid->shape <= HAIR_SHAPE_CAPSULE) {
+        const hair_vec4* ends = end ? contact->around.end : contact->around.start;
+        return (struct hair_cell_bounds){
+            {fminf(ends[0].x, ends[1].x) - solid->size[0], fminf(ends[0].y, ends[1].y) - solid->size[0],
+             fminf(ends[0].z, ends[1].z) - solid->size[0]},
+            {fmaxf(ends[0].x, ends[1].x) + solid->size[0], fmaxf(ends[0].y, ends[1].y) + solid->size[0],
+             fmaxf(ends[0].z, ends[1].z) + solid->size[0]}};
+    }
+    hair_solid_extent(solid, &middle, &half);
+    hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
+              z = hair_rotate(turn, hair_v3(0, 0, half.z)), m = hair_rotate(turn, middle);
+    const float c[3] = {at->x + m.x, at->y + m.y, at->z + m.z};
+    const float h[3] = {fabsf(x.x) + fabsf(y.x) + fabsf(z.x), fabsf(x.y) + fabsf(y.y) + fabsf(z.y),
+                        fabsf(x.z) + fabsf(y.z) + fabsf(z.z)};
+    return (struct hair_cell_bounds){{c[0] - h[0], c[1] - h[1], c[2] - h[2]},
+                                     {c[0] + h[0], c[1] + h[1], c[2] + h[2]}};
+}
+
+// How far what turns leaves the straight way between its ends, at most.
+static float bulge_of(const struct hair_contact* contact, const hair_solid* solid)
+{
+    const hair_vec4 *a = &contact->body.rotation[0], *b = &contact->body.rotation[1];
+    float            x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, w = b->w - a->w;
+    hair_vec3        middle, half;
+    hair_solid_extent(solid, &middle, &half);
+    return (hair_length(middle) + hair_length(half)) * fminf(4 * (x * x + y * y + z * z + w * w), 2);
+}
+
+// Of all that hair within reach can have to do with in the step.
+static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, const hair_solid* solid,
+                                         const struct hair_cells_desc* desc)
+{
+    struct hair_cell_bounds a = box_around(contact, solid, 0), b = box_around(contact, solid, 1);
+    float around = bulge_of(contact, solid) + contact->body.position[0].w + desc->margin + desc->give;
+    for (int k = 0; k < 3; ++k) {
+        float lower = a.lower[k] + desc->share_start * (b.lower[k] - a.lower[k]);
+        float upper = a.upper[k] + desc->share_start * (b.upper[k] - a.upper[k]);
+        b.lower[k]  = fminf(lower, b.lower[k]) - around;
+        b.upper[k]  = fmaxf(upper, b.upper[k]) + around;
+    }
+    return b;
+}
+
+hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
+                              const struct hair_solids* solids, const struct hair_pose* head_before,
+                              const struct hair_pose* head_now, const struct hair_cells_desc* desc)
+{
+    cells->contacts    = 0;
+    hair_result result = make_room(host, cells, solids->now.count);
+    for (uint32_t i = 0; i < solids->now.count && !result; ++i) {
+        const hair_solid* solid = &solids->now.solid[i];
+        if (solid->shape == HAIR_SHAPE_FORM && !solid->form) continue;
+        struct hair_contact     contact = hair_solids_contact(solids, i, head_before, head_now);
+        struct hair_cell_bounds bounds  = bounds_of(&contact, solid, desc);
+        int                     far     = 0;
+        for (int k = 0; k < 3; ++k)
+            far |= !(bounds.lower[k] <= desc->reach && bounds.upper[k] >= -desc->reach);
+        if (far) continue;
+        cells->contact[cells->contacts] = contact;
+        cells->bounds[cells->contacts]  = bounds;
+        cells->solid[cells->contacts]   = i;
+        cells->member[cells->contacts] =
+            cells->contacts | (solid->shape > HAIR_SHAPE_CAPSULE ? HAIR_MEMBER_WALKED : 0);
+        ++cells->contacts;
+    }
+    return result;
+}

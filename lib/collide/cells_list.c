@@ -1,0 +1,276 @@
+// cells_list.c - solids sorted into a grid: list after list, in their order.
+#include "lib/collide/cells.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_CELLS 32         // along an axis
+#define MOST_PAIRS (1u << 21) // of a solid and a cell, unless there are more solids
+
+static hair_shape shape_of(const struct hair_contact* contact)
+{
+    return (hair_shape)contact->body.size.w;
+}
+
+// Around all but half-spaces, which are everywhere, as far as hair reaches.
+static void lay_grid(struct hair_cells* cells, const struct hair_cells_desc* desc, float scale)
+{
+    float lower[3], upper[3], longest = 0;
+    for (int k = 0; k < 3; ++k) {
+        lower[k] = INFINITY, upper[k] = -INFINITY;
+        for (uint32_t i = 0; i < cells->contacts; ++i) {
+            if (shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE) continue;
+            lower[k] = fminf(lower[k], cells->bounds[i].lower[k]);
+            upper[k] = fmaxf(upper[k], cells->bounds[i].upper[k]);
+        }
+        lower[k] = fmaxf(lower[k], -desc->reach);
+        upper[k] = fminf(upper[k], desc->reach);
+        if (!(lower[k] < upper[k])) lower[k] = 0, upper[k] = 0;
+        longest = fmaxf(longest, upper[k] - lower[k]);
+    }
+    cells->size  = scale * fmaxf(longest / MOST_CELLS, desc->give);
+    cells->lower = hair_load3(lower);
+    for (int k = 0; k < 3; ++k)
+        cells->cells[k] =
+            (uint32_t)fminf(fmaxf(ceilf((upper[k] - lower[k]) / cells->size - 1e-3f), 1), MOST_CELLS);
+}
+
+struct range {
+    uint32_t first[3], last[3];
+};
+
+static struct range range_of(const struct hair_cells* cells, const struct hair_cell_bounds* bounds)
+{
+    const float  lower[3] = {cells->lower.x, cells->lower.y, cells->lower.z};
+    struct range range;
+    for (int k = 0; k < 3; ++k) {
+        float most     = (float)(cells->cells[k] - 1);
+        range.first[k] = (uint32_t)fminf(fmaxf((bounds->lower[k] - lower[k]) / cells->size, 0), most);
+        range.last[k]  = (uint32_t)fminf(fmaxf((bounds->upper[k] - lower[k]) / cells->size, 0), most);
+    }
+    return range;
+}
+
+static uint64_t count_pairs(const struct hair_cells* cells)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < cells->contacts; ++i) {
+        struct range r = range_of(cells, &cells->bounds[i]);
+        count += (uint64_t)(r.last[0] - r.first[0] + 1) * (r.last[1] - r.first[1] + 1) *
+                 (r.last[2] - r.first[2] + 1);
+    }
+    return count;
+}
+
+static float from_axis(hair_vec3 at, const hair_vec4 ends[2])
+{
+    hair_vec3 a = {ends[0].x, ends[0].y, ends[0].z}, b = {ends[1].x, ends[1].y, ends[1].z};
+    hair_vec3 axis = hair_sub(b, a), arm = hair_sub(at, a);
+    float     t = hair_dot(arm, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
+    return hair_length(hair_sub(arm, hair_scale(axis, fminf(fmaxf(t, 0), 1))));
+}
+
+static hair_vec3 middle_of(const struct hair_cells* cells, uint32_t x, uint32_t y, uint32_t z)
+{
+    return hair_add(cells->lower,
+                    hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), cells->size));
+}
+
+static float moved_by(const hair_vec4* from, const hair_vec4* to)
+{
+    return hair_length(hair_v3(to->x - from->x, to->y - from->y, to->z - from->z));
+}
+
+// The solids of a cell's list, of those whose box touches it: what is round is farther from its box's corners.
+static float reach_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
+{
+    const struct hair_capsule* around = &cells->contact[i].around;
+    float                      moved =
+        fmaxf(moved_by(&around->start[0], &around->end[0]), moved_by(&around->start[1], &around->end[1]));
+    return fmaxf(around->start[0].w, around->end[0].w) + desc->margin + desc->give +
+           (1 - desc->share_start) * moved + 0.87f * cells->size;
+}
+
+// Pairs -----------------------------------------------------------------------------------------------------
+
+struct pairs {
+    uint32_t *cell, *contact; // each contact with all of its cells, one after the other
+    uint32_t  count;
+};
+
+static void find_pairs(const struct hair_cells* cells, const struct hair_cells_desc* desc, struct pairs* out)
+{
+    for (uint32_t i = 0; i < cells->contacts; ++i) {
+        const struct hair_capsule* around = &cells->contact[i].around;
+        int                        all    = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE;
+        float                      reach  = reach_of(cells, desc, i);
+        struct range               r      = range_of(cells, &cells->bounds[i]);
+        for (uint32_t z = r.first[2]; z <= r.last[2]; ++z)
+            for (uint32_t y = r.first[1]; y <= r.last[1]; ++y)
+                for (uint32_t x = r.first[0]; x <= r.last[0]; ++x) {
+                    if (!all && from_axis(middle_of(cells, x, y, z), around->end) > reach) continue;
+                    out->cell[out->count]      = x + cells->cells[0] * (y + cells->cells[1] * z);
+                    out->contact[out->count++] = i;
+                }
+    }
+}
+
+struct candidate {
+    float    distance;
+    uint32_t contact;
+};
+
+static int by_distance(const void* a, const void* b)
+{
+    const struct candidate *p = a, *q = b;
+    if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
+    return p->contact < q->contact ? -1 : p->contact > q->contact;
+}
+
+static int by_number(const void* a, const void* b)
+{
+    const struct candidate *p = a, *q = b;
+    return p->contact < q->contact ? -1 : p->contact > q->contact;
+}
+
+// The nearest of a list that is too long, in their order. Returns how many.
+static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uint32_t cell,
+                       const uint32_t* contact, uint32_t count, struct candidate* candidate)
+{
+    uint32_t  x = cell % cells->cells[0], yz = cell / cells->cells[0], rounds = 0, kept = 0;
+    hair_vec3 middle = middle_of(cells, x, yz % cells->cells[1], yz / cells->cells[1]);
+    for (uint32_t i = 0; i < count; ++i) {
+        const hair_vec4* ends = cells->contact[contact[i]].around.end;
+        candidate[i]          = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
+    }
+    qsort(candidate, count, sizeof *candidate, by_distance);
+    while (kept < count && kept < HAIR_CELL_SOLIDS) {
+        rounds += hair_member_rounds(cells->member[candidate[kept].contact]);
+        if (rounds > most_rounds) break;
+        ++kept;
+    }
+    qsort(candidate, kept, sizeof *candidate, by_number);
+    return kept;
+}
+
+static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
+{
+    uint32_t rounds = 0, count = cells->entries - first;
+    for (uint32_t i = first; i < cells->entries; ++i) rounds += hair_member_rounds(cells->entry[i]);
+    if (rounds > cells->rounds) cells->rounds = rounds;
+    if (count > cells->longest) cells->longest = count;
+    cells->entry[cell + 1] = cells->entries;
+}
+
+// `end` is of each cell where its contacts end in `sorted`.
+static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* desc, const uint32_t* end,
+                        const uint32_t* sorted, struct candidate* candidate)
+{
+    uint32_t all    = cells->cells[0] * cells->cells[1] * cells->cells[2];
+    cells->entries  = all + 1;
+    cells->entry[0] = cells->entries;
+    cells->rounds = cells->longest = cells->left_out = 0;
+    for (uint32_t cell = 0; cell < all; ++cell) {
+        uint32_t begin = cell ? end[cell - 1] : 0, count = end[cell] - begin, first = cells->entries,
+                 rounds = 0;
+        for (uint32_t i = 0; i < count; ++i) rounds += hair_member_rounds(cells->member[sorted[begin + i]]);
+        if (count > HAIR_CELL_SOLIDS || rounds > desc->most_rounds) {
+            uint32_t kept = choose(cells, desc->most_rounds, cell, sorted + begin, count, candidate);
+            for (uint32_t i = 0; i < kept; ++i)
+                cells->entry[cells->entries++] = cells->member[candidate[i].contact];
+            cells->left_out = count - kept > cells->left_out ? count - kept : cells->left_out;
+        } else {
+            for (uint32_t i = 0; i < count; ++i)
+                cells->entry[cells->entries++] = cells->member[sorted[begin + i]];
+        }
+        end_list(cells, cell, first);
+    }
+}
+
+static hair_result sort(const hair_host* host, struct hair_cells* cells, const struct hair_cells_desc* desc,
+                        uint32_t most)
+{
+    uint32_t  all = cells->cells[0] * cells->cells[1] * cells->cells[2], longest = 0;
+    uint32_t* numbers = hair_alloc(host, (size_t)all + 1 + 3 * (size_t)most, sizeof *numbers);
+    if (!numbers) return hair_fail_memory(host, "what guides collide with");
+    uint32_t *   end = numbers, *sorted = end + all + 1;
+    struct pairs pairs = {sorted + most, sorted + 2 * (size_t)most, 0};
+    find_pairs(cells, desc, &pairs);
+    for (uint32_t i = 0; i < pairs.count; ++i) ++end[pairs.cell[i] + 1];
+    for (uint32_t i = 0; i < all; ++i) {
+        longest = end[i + 1] > longest ? end[i + 1] : longest;
+        end[i + 1] += end[i];
+    }
+    // Where each begins becomes, contact after contact, where it ends.
+    for (uint32_t i = 0; i < pairs.count; ++i) sorted[end[pairs.cell[i]]++] = pairs.contact[i];
+
+    struct candidate* candidate = hair_alloc(host, longest, sizeof *candidate);
+    uint32_t          room      = all + 1 + pairs.count;
+    if (room > cells->entry_room) {
+        hair_free(host, cells->entry);
+        cells->entry      = hair_alloc(host, room + room / 2, sizeof *cells->entry);
+        cells->entry_room = cells->entry ? room + room / 2 : 0;
+    }
+    int whole = candidate && cells->entry;
+    if (whole) write_lists(cells, desc, end, sorted, candidate);
+    hair_free(host, candidate);
+    hair_free(host, numbers);
+    return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
+}
+
+// The whole -------------------------------------------------------------------------------------------------
+
+static int is_still(const struct hair_contact* contact)
+{
+    const struct hair_capsule* around = &contact->around;
+    const struct hair_body*    body   = &contact->body;
+    return !memcmp(around->start, around->end, sizeof around->start) &&
+           !memcmp(&body->rotation[0], &body->rotation[1], sizeof body->rotation[0]);
+}
+
+// What the lists are of is what it was. When the step began does not matter to what does not move.
+static int is_as_before(const struct hair_cells* cells, const struct hair_cells_desc* desc)
+{
+    struct hair_cells_desc made_for = cells->made_for;
+    if (!cells->entries || cells->contacts != cells->last_contacts) return 0;
+    if (cells->contacts && memcmp(cells->contact, cells->last, cells->contacts * sizeof *cells->last))
+        return 0;
+    int same             = made_for.share_start == desc->share_start;
+    made_for.share_start = desc->share_start;
+    for (uint32_t i = 0; i < cells->contacts && !same; ++i)
+        if (!is_still(&cells->contact[i])) return 0;
+    return !memcmp(&made_for, desc, sizeof made_for);
+}
+
+static hair_result keep(const hair_host* host, struct hair_cells* cells, const struct hair_cells_desc* desc)
+{
+    if (cells->contacts > cells->last_room) {
+        hair_free(host, cells->last);
+        cells->last      = hair_alloc(host, cells->room, sizeof *cells->last);
+        cells->last_room = cells->last ? cells->room : 0;
+        if (!cells->last) return hair_fail_memory(host, "what guides collide with");
+    }
+    if (cells->contacts) memcpy(cells->last, cells->contact, cells->contacts * sizeof *cells->last);
+    cells->last_contacts = cells->contacts;
+    cells->made_for      = *desc;
+    return HAIR_OK;
+}
+
+hair_result hair_cells_list(const hair_host* host, struct hair_cells* cells,
+                            const struct hair_cells_desc* desc, int* changed)
+{
+    *changed = !is_as_before(cells, desc);
+    if (!*changed) return HAIR_OK;
+    cells->entries = 0;
+    uint64_t pairs, most = cells->contacts > MOST_PAIRS ? cells->contacts : MOST_PAIRS;
+    float    scale = 1;
+    do {
+        lay_grid(cells, desc, scale);
+        pairs = count_pairs(cells);
+        scale *= 2;
+    } while (pairs > most);
+    hair_result result = sort(host, cells, desc, (uint32_t)pairs);
+    if (!result) result = keep(host, cells, desc);
+    if (result) cells->entries = 0;
+    return result;
+}

@@ -1,0 +1,147 @@
+// contacts.c - solids as guides meet them where they may be anything: on the GPU with the lists that say which are where.
+#include "lib/sim/sim.h"
+
+#define FIT                                                                                                  \
+    0.02f // m: farther than it would go freely no vertex is moved, as glsl/sim/contact_any.glsl has it
+#define FASTEST 5.0f    // m/s: hair relative to the head; what is faster may pass through what is thin
+#define MOST_GIVE 0.1f  // m
+#define LOOSE 1.05f     // hair may stretch a little
+#define FARTHEST 1e4f   // m: as glsl/sim/rod.glsl has it
+#define MOST_ROUNDS 950 // of a list on a software rasteriser: see rounds_of_substep in sim.c
+
+static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, float share_start)
+{
+    hair_vec3 moved = hair_pose_offset(&sim->head, &sim->at_step);
+    float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
+    float far = LOOSE * sim->reach;
+    return (struct hair_cells_desc){
+        .reach  = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count ? FARTHEST : fminf(far, FARTHEST),
+        .give   = FIT + fminf(half, MOST_GIVE),
+        .margin = sim->physics.margin,
+        .share_start = share_start,
+        .most_rounds = sim->gl->software ? MOST_ROUNDS : UINT32_MAX,
+    };
+}
+
+// Or else they are few, and none is a form.
+int hair_contacts_are_any(const struct hair_sim* sim)
+{
+    return sim->rods && (sim->solids.forms || sim->solids.contacts > HAIR_STEP_SOLIDS);
+}
+
+static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) hair_forms_drop(sim->contacts.forms, held[i]);
+}
+
+// The forms of this step's contacts instead of those of the last step's.
+static hair_result hold_forms(struct hair_sim* sim)
+{
+    struct hair_contacts* contacts = &sim->contacts;
+    struct hair_cells*    cells    = &contacts->cells;
+    uint32_t              count = 0, taken = 0;
+    hair_result           result = HAIR_OK;
+    for (uint32_t i = 0; i < cells->contacts; ++i) count += cells->contact[i].body.size.w == HAIR_SHAPE_FORM;
+    if (!count && !contacts->holds) return HAIR_OK;
+    uint32_t* held = hair_alloc(&sim->gl->host, count, sizeof *held);
+    if (!held) return hair_fail_memory(&sim->gl->host, "the forms of solids");
+    for (uint32_t i = 0; i < cells->contacts && !result; ++i) {
+        if (cells->contact[i].body.size.w != HAIR_SHAPE_FORM) continue;
+        result = hair_forms_take(contacts->forms, sim->solids.now.solid[cells->solid[i]].form, &held[taken]);
+        if (!result) ++taken;
+    }
+    if (result) {
+        let_go(sim, held, taken);
+        hair_free(&sim->gl->host, held);
+        return result;
+    }
+    let_go(sim, contacts->held, contacts->holds);
+    hair_free(&sim->gl->host, contacts->held);
+    contacts->held  = held;
+    contacts->holds = taken;
+    if (taken) result = hair_forms_need_texture(contacts->forms);
+    for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // Taking may have moved them all.
+        if (cells->contact[i].body.size.w == HAIR_SHAPE_FORM)
+            cells->contact[i].first = contacts->forms->pooled[held[k++]].first;
+    return result;
+}
+
+static hair_result put(struct hair_gl* gl, const char* label, GLenum format, size_t size, const void* data,
+                       GLuint* buffer, GLuint* texture)
+{
+    size_t      texel  = format == GL_R32UI ? 4 : 16;
+    hair_result result = HAIR_OK;
+    GLint       most   = 0;
+    GLint64     got    = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    if (size / texel > (size_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
+                         label, size / texel, most);
+    if (!*buffer) result = hair_gl_uniform(gl, label, 16, buffer);
+    if (!result && !*texture) result = hair_gl_buffer_texture(gl, label, format, *buffer, texture);
+    if (result) return result;
+    hair_gl_write_uniform(gl, *buffer, size, data);
+    gl->GetNamedBufferParameteri64v(*buffer, GL_BUFFER_SIZE, &got);
+    if (got == (GLint64)size) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
+}
+
+static hair_result upload(struct hair_sim* sim)
+{
+    struct hair_contacts*     contacts = &sim->contacts;
+    const struct hair_cells*  cells    = &contacts->cells;
+    const struct hair_contact none     = {.grid = {0, 0, 0, 0}};
+    hair_result               result =
+        put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
+            cells->contacts ? cells->contact : &none, &contacts->solid, &contacts->solid_texture);
+    if (!result)
+        result = put(sim->gl, "hair contact cells", GL_R32UI, cells->entries * sizeof *cells->entry,
+                     cells->entry, &contacts->cell, &contacts->cell_texture);
+    return result;
+}
+
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start)
+{
+    const hair_host*       host   = &sim->gl->host;
+    struct hair_cells*     cells  = &sim->contacts.cells;
+    struct hair_cells_desc desc   = describe(sim, dt, share_start);
+    int                    others = 0;
+    hair_result result = hair_cells_gather(host, cells, &sim->solids, &sim->at_step, &sim->head, &desc);
+    if (!result) result = hold_forms(sim);
+    if (!result) result = hair_cells_list(host, cells, &desc, &others);
+    if (!result && others) result = upload(sim);
+    if (result) cells->entries = 0; // What is on the GPU may be anything.
+    return result;
+}
+
+void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
+{
+    const struct hair_cells* cells = &sim->contacts.cells;
+    params->solids                 = cells->contacts;
+    params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
+    params->cells_x     = cells->cells[0];
+    params->cells_y     = cells->cells[1];
+    params->cells_z     = cells->cells[2];
+    params->cells_give  = cells->made_for.give - FIT;
+}
+
+void hair_contacts_bind(const struct hair_sim* sim)
+{
+    const struct hair_contacts* contacts = &sim->contacts;
+    sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->solid_texture);
+    sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
+    if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->forms->texture);
+}
+
+void hair_contacts_free(struct hair_sim* sim)
+{
+    struct hair_contacts* contacts = &sim->contacts;
+    let_go(sim, contacts->held, contacts->holds);
+    hair_free(&sim->gl->host, contacts->held);
+    hair_gl_free_texture(sim->gl, &contacts->solid_texture);
+    hair_gl_free_buffer(sim->gl, &contacts->solid);
+    hair_gl_free_texture(sim->gl, &contacts->cell_texture);
+    hair_gl_free_buffer(sim->gl, &contacts->cell);
+    hair_cells_free(&sim->gl->host, &contacts->cells);
+    *contacts = (struct hair_contacts){.forms = contacts->forms};
+}

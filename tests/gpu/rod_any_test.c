@@ -1,0 +1,349 @@
+// rod_any_test.c - strands as rods, and forms, and a thousand solids: swept, spun in, begun in, come upon.
+#include "lib/collide/distance.h"
+#include "tests/support/living.h"
+#include "tests/support/meshes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define SOLVERS HAIR_SOLVER_REDBLACK // all before it
+#define MARGIN 1e-3
+#define VOXEL 5e-3 // m: of the field, by default
+
+static hair_solid body(hair_shape shape, float x, float y, float z)
+{
+    hair_solid solid  = hair_solid_default();
+    solid.shape       = shape;
+    solid.position[0] = x;
+    solid.position[1] = y;
+    solid.position[2] = z;
+    return solid;
+}
+
+static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
+{
+    hair_form*     form = NULL;
+    hair_form_desc desc = hair_form_desc_default();
+    desc.host           = &test->host.host;
+    desc.positions      = mesh.positions;
+    desc.triangles      = mesh.triangles;
+    desc.vertex_count   = mesh.vertex_count;
+    desc.triangle_count = mesh.triangle_count;
+    desc.resolution     = resolution;
+    hair_test_ok(test, hair_form_create(&desc, &form));
+    hair_test_mesh_free(&mesh);
+    return form;
+}
+
+// A box of these half sides: itself, or a form of its mesh at half the size, twice as large.
+static hair_solid box_of(struct hair_test* test, int is_form, float x, float y, float z)
+{
+    const float half[] = {x / 2, y / 2, z / 2};
+    hair_solid  solid  = body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
+    if (is_form) {
+        solid.form  = form_of(test, hair_test_box_mesh(half), 48);
+        solid.scale = 2;
+    } else
+        solid.size[0] = x, solid.size[1] = y, solid.size[2] = z;
+    return solid;
+}
+
+static hair_solid ball_of(struct hair_test* test, int is_form, float radius)
+{
+    hair_solid solid = body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE, 0, 0, 0);
+    if (is_form)
+        solid.form = form_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
+    else
+        solid.size[0] = radius;
+    return solid;
+}
+
+static void at(hair_solid* solid, double x, double y, double z)
+{
+    solid->position[0] = (float)x, solid->position[1] = (float)y, solid->position[2] = (float)z;
+}
+
+static void turn(hair_solid* solid, int axis, double angle)
+{
+    for (int k = 0; k < 3; ++k) solid->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
+    solid->rotation[3] = (float)cos(angle / 2);
+}
+
+static void put(struct hair_test_living* living, const hair_solid* solid, uint32_t count)
+{
+    hair_test_ok(living->test, hair_set_solids(living->hair, solid, count, sizeof *solid));
+}
+
+// How far a vertex is in a solid at most; negative: how near.
+static double depth(const struct hair_test_living* living, const hair_solid* solid)
+{
+    double most = -INFINITY;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
+             ++i) {
+            hair_vec3    p     = hair_test_at(living, g, i);
+            const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
+            most               = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
+        }
+    return most;
+}
+
+static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_physics* physics,
+                 struct hair_test_living* out)
+{
+    struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
+    hair_desc                desc    = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+}
+
+// Four strands that hang from a row.
+static void live_row(struct hair_test* test, int solver, const hair_physics* physics,
+                     struct hair_test_living* out)
+{
+    struct hair_test_strands strands = hair_test_strands_make(4, 32);
+    for (int k = 0; k < 4; ++k)
+        hair_test_add_straight(&strands, 32, hair_v3(0, 0, 0.02f * (float)k - 0.03f), hair_v3(0, -1, 0),
+                               0.3f);
+    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_AUTO, 0, physics);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+}
+
+// At rest ---------------------------------------------------------------------------------------------------
+
+// A strand begins level and comes to hang over an edge, or over a ball.
+static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
+{
+    hair_physics physics = hair_test_loose(0.5f);
+    physics.damping      = 10;
+    for (int n = 0; n < 4; ++n) {
+        int                     solver = n == 3 ? HAIR_SOLVER_FOLLOW : HAIR_SOLVER_DIRECT;
+        struct hair_test_living living;
+        hair_solid solid   = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
+        double     deepest = -INFINITY;
+        at(&solid, 0.08, n % 2 ? -0.08 : -0.05, 0);
+        if (n == 2) turn(&solid, 2, 0.3);
+        live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &living);
+        put(&living, &solid, 1);
+        for (int k = 0; k < 150; ++k) {
+            hair_test_wait(&living, 1);
+            hair_test_read_guides(&living);
+            deepest = fmax(deepest, depth(&living, &solid) + MARGIN);
+        }
+        double touching = depth(&living, &solid) + MARGIN;
+        hair_test_wait(&living, 60);
+        hair_test_read_guides(&living);
+        print_message(
+            "    form %d: up to %.2g m deep in the margin, at last %.2g m, in the last half second %.2g m\n",
+            n, deepest, touching, hair_test_moved(&living));
+        assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 4e-3 : 1e-3));
+        assert_true(touching > -1e-3);
+        assert_true(hair_test_moved(&living) < 1e-4);
+        hair_test_die(&living);
+        hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+    }
+}
+
+// On a slope of 0.4 rad, of which Coulomb holds what has a coefficient above its tangent, 0.42.
+static void a_form_has_friction(void** state)
+{
+    static const float factors[] = {0, 0.5f, 2};
+    hair_physics       physics   = hair_test_loose(0.3f);
+    physics.root                 = HAIR_ROOT_FREE;
+    physics.damping              = 0;
+    hair_solid slope             = box_of(*state, 1, 1, 0.1f, 0.5f);
+    turn(&slope, 2, 0.4);
+    at(&slope, (0.1 + MARGIN) * sin(0.4), -(0.1 + MARGIN) * cos(0.4), 0);
+    for (int n = 0; n < 3; ++n) {
+        struct hair_test_living living;
+        double a = 9.81 * (sin(0.4) - 0.3 * (double)factors[n] * cos(0.4)), far = fmax(a, 0) * 0.125;
+        slope.friction = factors[n];
+        live(*state, 0, hair_v3(0, 0, 1), &physics, &living);
+        hair_test_read_guides(&living);
+        double before = (double)hair_test_at(&living, 0, 10).x;
+        put(&living, &slope, 1);
+        hair_test_wait(&living, 30);
+        hair_test_read_guides(&living);
+        double slid = (before - (double)hair_test_at(&living, 0, 10).x) / cos(0.4);
+        print_message("    friction %g: slides %.4f m of %.4f m\n", 0.3 * (double)factors[n], slid, far);
+        hair_test_near("slid", (size_t)n, slid, far, 0.02 * far + 1e-4);
+        hair_test_die(&living);
+    }
+    hair_form_destroy((hair_form*)(uintptr_t)slope.form);
+}
+
+static void forms_that_move_and_spin_carry_hair_along(void** state)
+{
+    hair_physics physics = hair_test_loose(0.8f);
+    physics.root         = HAIR_ROOT_FREE;
+    physics.damping      = 0;
+    for (int spins = 0; spins < 2; ++spins) {
+        struct hair_test_living living;
+        hair_solid solid = spins ? ball_of(*state, 1, 0.5f) : box_of(*state, 1, 0.5f, 0.1f, 0.5f);
+        double     below = spins ? 0.5 : 0.1, way = 0;
+        struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
+        hair_desc                desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_test_live(*state, &strands, &desc, &living);
+        at(&solid, 0, -below - MARGIN, 0);
+        put(&living, &solid, 1);
+        hair_test_wait(&living, 10);
+        for (int k = 1; k <= 30; ++k) {
+            way += 0.2 * fmin(k / 10.0, 1) / 60;
+            if (spins)
+                turn(&solid, 2, -way / below);
+            else
+                at(&solid, way, -below - MARGIN, 0);
+            put(&living, &solid, 1);
+            hair_test_wait(&living, 1);
+        }
+        hair_test_read_guides(&living);
+        double carried  = (double)hair_test_at(&living, 0, 2).x,
+               expected = spins ? below * sin(way / below) : way;
+        print_message("    carried %.5f m of %.5f m\n", carried, expected);
+        assert_true(fabs(carried / expected - 1) < 0.03);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+        hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+    }
+}
+
+// Stress ----------------------------------------------------------------------------------------------------
+
+// 0.1 s after: nothing deeper than a voxel, all as long as it was; and a second later, when it is gone, all hang.
+static void check_after(struct hair_test_living* living, const hair_solid* solid, const char* what,
+                        int solver)
+{
+    hair_test_wait(living, 6);
+    hair_test_read_guides(living);
+    double      left = depth(living, solid), stretch = hair_test_stretch(living);
+    hair_health health = hair_test_health(living);
+    put(living, NULL, 0);
+    hair_test_wait(living, 60);
+    hair_test_read_guides(living);
+    double highest = -INFINITY;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        highest = fmax(highest, (double)hair_test_tip(living, g).y);
+    print_message("    %s, shape %d, solver %d: 0.1 s later %.2g m deep, stretch %.2g, resets %u, then tips "
+                  "at %.3f m\n",
+                  what, (int)solid->shape, solver, left, stretch, health.reset, highest);
+    assert_true(left < VOXEL);
+    assert_true(stretch < 0.02);
+    assert_true(highest < -0.25);
+}
+
+static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** state)
+{
+    hair_physics physics = hair_test_loose(0.3f);
+    for (int n = 0; n < 8; ++n)
+        for (int solver = 0; solver < (n == 1 ? SOLVERS : 1); ++solver) {
+            static const char* const names[] = {"swept", "spun", "begun inside", "came upon"};
+            struct hair_test_living  living;
+            int                      is_form = n % 2, what = n / 2;
+            hair_solid               solid =
+                what == 1 ? box_of(*state, is_form, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_form, 0.05f);
+            live_row(*state, solver, &physics, &living);
+            if (what == 0) // 5 m/s, and there it stops.
+                for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
+                    at(&solid, x, -0.15, 0);
+                    put(&living, &solid, 1);
+                    hair_test_wait(&living, 1);
+                }
+            if (what == 1) // 21 rad/s
+                for (int k = 0; k < 45; ++k) {
+                    at(&solid, 0.03, -0.18, 0);
+                    turn(&solid, 2, 0.35 * k);
+                    put(&living, &solid, 1);
+                    hair_test_wait(&living, 1);
+                }
+            if (what == 2) at(&solid, 0.004, -0.15, 0), put(&living, &solid, 1);
+            if (what == 3) {
+                at(&solid, 2, 3, 1);
+                put(&living, &solid, 1);
+                hair_test_wait(&living, 2);
+                at(&solid, 0.004, -0.15, 0);
+                put(&living, &solid, 1);
+            }
+            check_after(&living, &solid, names[what], solver);
+            hair_test_die(&living);
+            if (is_form) hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+        }
+}
+
+// Many ------------------------------------------------------------------------------------------------------
+
+#define MANY 1000
+
+static void place_many(hair_solid* solids, const hair_form* form)
+{
+    uint32_t random = 5;
+    for (int i = 0; i < MANY; ++i) {
+        float p[3];
+        for (int k = 0; k < 3; ++k) {
+            random = random * 1664525u + 1013904223u;
+            p[k]   = (float)(random >> 8) / 16777216.0f - 0.5f;
+        }
+        solids[i] = body(i % 50 == 7 ? HAIR_SHAPE_FORM
+                         : i % 3     ? HAIR_SHAPE_SPHERE
+                                     : HAIR_SHAPE_BOX,
+                         0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
+        if (solids[i].shape == HAIR_SHAPE_FORM) {
+            solids[i].form = form;
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) solids[i].size[k] = i % 3 && k ? 0 : 0.012f;
+    }
+}
+
+static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded(void** state)
+{
+    static hair_solid solids[MANY];
+    hair_physics      physics = hair_test_loose(0.3f);
+    hair_form*        form    = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
+    place_many(solids, form);
+    struct hair_test_living living[2];
+    size_t                  size = 0;
+    void*                   bytes;
+    for (int run = 0; run < 2; ++run) {
+        struct hair_test_strands strands = hair_test_strands_make(8, 32);
+        for (int k = 0; k < 8; ++k)
+            hair_test_add_straight(&strands, 32, hair_v3(-0.1f + 0.03f * (float)k, 0, 0.003f * (float)k),
+                                   hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_test_live(*state, &strands, &desc, &living[run]);
+        hair_test_strands_free(&strands);
+        put(&living[run], solids, MANY);
+    }
+    hair_test_wait(&living[0], 20);
+    hair_save(living[0].hair, NULL, 0, &size);
+    bytes = malloc(size);
+    hair_test_ok(*state, hair_save(living[0].hair, bytes, size, &size));
+    hair_test_ok(*state, hair_load(living[1].hair, bytes, size));
+    free(bytes);
+    for (int run = 0; run < 2; ++run) {
+        hair_test_wait(&living[run], 40);
+        hair_test_read_guides(&living[run]);
+    }
+    double deepest = -INFINITY;
+    for (int i = 0; i < MANY; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
+    print_message("    up to %.2g m deep, stretch %.2g\n", deepest, hair_test_stretch(&living[0]));
+    assert_true(deepest < 1e-3);
+    assert_true(hair_test_stretch(&living[0]) < 0.02);
+    assert_memory_equal(living[0].positions, living[1].positions, 12 * living[0].vertices);
+    hair_test_die(&living[0]);
+    hair_test_die(&living[1]);
+    hair_form_destroy(form);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(what_lies_on_a_form_stays_out_of_it_and_comes_to_rest),
+        HAIR_TEST(a_form_has_friction),
+        HAIR_TEST(forms_that_move_and_spin_carry_hair_along),
+        HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
+        HAIR_TEST(among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}

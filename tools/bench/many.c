@@ -1,0 +1,205 @@
+// many.c - what a step costs by how many solids the guides collide with: ten, a thousand, ten thousand balls as large as
+// each other, all of them among the hair and in motion; the same of forms.
+#include "tools/bench/many.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/base/host.h"
+#include "tools/common/stats.h"
+
+#define VERTICES 32
+#define LENGTH 0.3f // m
+#define SIDE 0.4f   // m: of the square that roots are on
+#define RADIUS 0.01f
+#define MOST_RUNS 41
+
+struct subject {
+    struct bench*  bench;
+    hair_groom*    groom;
+    hair_instance* hair;
+    hair_form*     form;
+    hair_solid*    solids;
+    uint32_t       count, guides, frame;
+};
+
+static float random_in(uint32_t* state, float least, float most)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return least + (most - least) * (float)(*state >> 8) / 16777216.0f;
+}
+
+// Straight strands that hang from a level square.
+static hair_result make_groom(struct subject* subject)
+{
+    uint32_t  row = (uint32_t)sqrt((double)subject->guides), count = row * row;
+    float*    positions = malloc(sizeof(float) * 3 * VERTICES * count);
+    uint32_t* vertices  = malloc(sizeof *vertices * count);
+    for (uint32_t i = 0; i < count && positions && vertices; ++i) {
+        vertices[i] = VERTICES;
+        for (uint32_t k = 0; k < VERTICES; ++k) {
+            float* at = positions + 3 * (VERTICES * i + k);
+            at[0]     = SIDE * ((float)(i % row) / (float)row - 0.5f);
+            at[1]     = -LENGTH * (float)k / (VERTICES - 1);
+            at[2]     = SIDE * ((float)(i / row) / (float)row - 0.5f);
+        }
+    }
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host            = &subject->bench->host;
+    desc.positions       = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count    = count;
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices  = VERTICES;
+    desc.follower_count  = 0;
+    hair_result result =
+        positions && vertices ? hair_groom_create(&desc, &subject->groom) : HAIR_ERROR_MEMORY;
+    subject->guides = count;
+    free(positions);
+    free(vertices);
+    return result;
+}
+
+// An octahedron, each of whose faces is cut into four: nearly a ball.
+static hair_result make_form(struct subject* subject)
+{
+    static const float corners[6][3]  = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const uint32_t faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                         {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    float                 positions[8 * 6 * 3];
+    uint32_t              triangles[8 * 4 * 3];
+    for (uint32_t f = 0; f < 8; ++f) {
+        static const uint32_t cut[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+        for (uint32_t c = 0; c < 6; ++c) {
+            const float *a = corners[faces[f][c % 3]], *b = corners[faces[f][c < 3 ? c : (c + 1) % 3]];
+            float        v[3], l                          = 0;
+            for (int k = 0; k < 3; ++k) v[k] = a[k] + b[k], l += v[k] * v[k];
+            for (int k = 0; k < 3; ++k) positions[3 * (6 * f + c) + (uint32_t)k] = RADIUS * v[k] / sqrtf(l);
+        }
+        for (uint32_t t = 0; t < 4; ++t)
+            for (uint32_t k = 0; k < 3; ++k) triangles[3 * (4 * f + t) + k] = 6 * f + cut[t][k];
+    }
+    hair_form_desc desc = hair_form_desc_default();
+    desc.host           = &subject->bench->host;
+    desc.positions      = positions;
+    desc.triangles      = triangles;
+    desc.vertex_count   = 8 * 6;
+    desc.triangle_count = 8 * 4;
+    desc.resolution     = 24;
+    return hair_form_create(&desc, &subject->form);
+}
+
+static void die(struct subject* subject)
+{
+    hair_destroy(subject->hair);
+    hair_form_destroy(subject->form);
+    hair_groom_destroy(subject->groom);
+    free(subject->solids);
+}
+
+static bool live(struct bench* bench, uint32_t guides, uint32_t count, bool forms, struct subject* out)
+{
+    *out             = (struct subject){.bench = bench, .count = count, .guides = guides};
+    hair_desc   desc = hair_desc_default();
+    hair_result result;
+    uint32_t    random = 7;
+    desc.mapping       = bench->options.mapping;
+    out->solids        = malloc(sizeof *out->solids * count);
+    result             = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
+    if (!result && forms) result = make_form(out);
+    if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
+    for (uint32_t i = 0; i < count && !result; ++i) {
+        hair_solid solid  = hair_solid_default();
+        solid.shape       = forms ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
+        solid.form        = out->form;
+        solid.size[0]     = forms ? 0 : RADIUS;
+        solid.position[0] = random_in(&random, -SIDE / 2, SIDE / 2);
+        solid.position[1] = random_in(&random, -LENGTH, -0.03f);
+        solid.position[2] = random_in(&random, -SIDE / 2, SIDE / 2);
+        out->solids[i]    = solid;
+    }
+    if (!result) return true;
+    die(out);
+    return false;
+}
+
+static double time_of_passes(hair_context* context)
+{
+    hair_timing now[BENCH_MOST_PASSES];
+    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
+    double      ms    = 0;
+    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
+        if (strncmp(now[i].pass, "sim/", 4) == 0) ms += now[i].total_ms;
+    return ms;
+}
+
+// Of the GPU, and of the thread that asks it to.
+static bool run_frame(struct subject* subject, double* ms, double* ms_host)
+{
+    float  way    = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
+    double passes = time_of_passes(subject->bench->context), start = hair_now();
+    for (uint32_t i = 0; i < subject->count; ++i) subject->solids[i].position[i % 3] += way;
+    if (hair_set_solids(subject->hair, subject->solids, subject->count, sizeof *subject->solids) ||
+        hair_step(subject->hair, 1.0f / 60))
+        return false;
+    *ms_host = hair_now() - start;
+    glFinish();
+    *ms = subject->bench->software ? hair_now() - start : time_of_passes(subject->bench->context) - passes;
+    return !bench_was_interrupted();
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+// Returns ms of a frame, or 0.
+static double measure(struct bench* bench, uint32_t count, bool forms, double of_ten)
+{
+    const char*    method = forms ? "forms" : "balls";
+    struct subject subject;
+    double         ms[MOST_RUNS], host[MOST_RUNS], none;
+    uint32_t       runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
+    uint32_t guides = bench->options.strands ? bench->options.strands : bench->options.quick ? 16 : 1024;
+    if (!bench_begin(bench, "many solids", method)) return 0;
+    if (!live(bench, guides, count, forms, &subject)) {
+        bench_refuse(bench, "many solids", method);
+        return 0;
+    }
+    bool whole = true;
+    for (uint32_t k = 0; k < 3 && whole; ++k) whole = run_frame(&subject, &none, &none);
+    for (; runs < most && whole; runs += whole) whole = run_frame(&subject, &ms[runs], &host[runs]);
+    if (!runs || !whole) {
+        bench_refuse(bench, "many solids", method);
+        die(&subject);
+        return 0;
+    }
+    qsort(ms, runs, sizeof *ms, compare);
+    qsort(host, runs, sizeof *host, compare);
+    json_t* row = bench_rows_add(&bench->rows);
+    bench_set_text(row, "case", "many solids");
+    bench_set_text(row, "method", method);
+    bench_set_count(row, "strands", subject.guides);
+    bench_set_count(row, "vertices", VERTICES);
+    bench_set_count(row, "solids", count);
+    bench_set_number(row, "ms", ms[runs / 2]);
+    bench_set_number(row, "ms_host", host[runs / 2]);
+    bench_set_count(row, "runs", runs);
+    if (of_ten > 0) bench_set_number(row, "ratio", ms[runs / 2] / of_ten);
+    die(&subject);
+    return ms[runs / 2];
+}
+
+void bench_many_solids(struct bench* bench)
+{
+    bool   quick = bench->options.quick;
+    double balls = measure(bench, 10, false, 0);
+    if (!quick) measure(bench, 100, false, balls);
+    measure(bench, 1000, false, balls);
+    if (!quick) measure(bench, 10000, false, balls);
+    double forms = measure(bench, 10, true, 0);
+    measure(bench, quick ? 100 : 1000, true, forms);
+}

@@ -1,0 +1,9 @@
+// many.h - the case `many solids` of the suite `collision`.
+#ifndef HAIR_TOOLS_BENCH_MANY_H
+#define HAIR_TOOLS_BENCH_MANY_H
+
+#include "tools/bench/bench.h"
+
+void bench_many_solids(struct bench* bench);
+
+#endif
