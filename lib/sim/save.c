@@ -228,9 +228,9 @@ static void walk_ties(struct cursor* c, struct hair_ties* ties)
                           c->at, count);
             return;
         }
-        knot = c->ties.knot = hair_alloc(c->host, count, sizeof *knot);
-        c->ties.count       = count;
-        if (!knot) c->result = hair_fail_memory(c->host, "the ties to load");
+        if (count) knot = c->ties.knot = hair_alloc(c->host, count, sizeof *knot);
+        c->ties.count = count;
+        if (count && !c->ties.knot) c->result = hair_fail_memory(c->host, "the ties to load");
     }
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_knot(c, &knot[i]);
 }
