@@ -19,7 +19,7 @@ static const struct point {
 } points[] = {
     {"guides", 64, 4096, true, true},       {"guides", 166, 4096, false, true},
     {"guides", 512, 4096, true, true},      {"guides", 2048, 4096, false, true},
-    {"guides", 8192, 4096, false, false},   {"followers", 166, 1024, true, true},
+    {"guides", 4096, 4096, false, false},   {"followers", 166, 1024, true, true},
     {"followers", 166, 4096, true, true},   {"followers", 166, 16384, false, true},
     {"followers", 166, 65536, false, true}, {"followers", 166, 262144, false, false},
 };
