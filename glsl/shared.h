@@ -54,6 +54,14 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_LIMIT 6    // float[]        per node, never written: volume from which it presses
 #define HAIR_BIND_PUSH 7     // hair_vec4[]    per guide vertex: acceleration, m/s^2
 
+// The passes that let roots ride on a skinned scalp have guides, the rest shape, and:
+#define HAIR_BIND_GIVEN 2      // float[]     what holds the scalp's positions, as it is given
+#define HAIR_BIND_RIDE 3       // hair_ride[]     per guide
+#define HAIR_BIND_SCALP 4      // float[]     xyz per vertex, as it is given
+#define HAIR_BIND_SCALP_REST 5 // float[]     and at rest, in groom space, never written
+#define HAIR_BIND_SEAT 6       // hair_seat[]     of guides, then of followers, never written
+#define HAIR_BIND_FOLLOWER 7   // hair_follower[]
+
 // Of the passes that look for followers inside solids:
 #define HAIR_BIND_HIT 3    // float[]     per follower: the first vertex inside, HAIR_NO_HIT if none is
 #define HAIR_BIND_REPAIR 4 // uvec2[]     per follower and control point of repair.glsl: four halves
@@ -85,6 +93,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_DRAW 1         // hair_draw_params
 #define HAIR_BIND_FIELD 2        // hair_field_params
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
+#define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, likewise
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids and the field
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
@@ -101,6 +110,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_CELL 3     // uint[]: of each cell of the grid the place of its first member, from the array's
                              // start on; after the last cell's, where its members end; then the members
 #define HAIR_UNIT_NODE 4     // float[]: HAIR_BIND_NODE
+#define HAIR_UNIT_RIDE 6     // of the passes that need to know where a skinned scalp has roots: HAIR_BIND_RIDE
 #define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_EXPANDED 6         // of what draws expanded followers, in place of what they were made with
@@ -326,6 +336,49 @@ struct hair_follower {
     hair_vec4 offset[4]; // xyz: control points in guide 0's frame, m; [0].w: radius, as a share of the look's
 };
 HAIR_SIZE(hair_follower, 96)
+
+// Where on the scalp a root sits, at rest.
+struct hair_seat {
+    hair_uint corner0, corner1, corner2; // of its triangle: vertices of the scalp
+    float     weight1, weight2;          // barycentric, of the last two
+    float     away_x, away_y, away_z;    // from there to the root, m
+};
+HAIR_SIZE(hair_seat, 32)
+
+#define HAIR_RIDE_THEN 0   // where the last substep before this step left it
+#define HAIR_RIDE_START 1  // at the start of this step
+#define HAIR_RIDE_END 2    // and at its end
+#define HAIR_RIDE_BEFORE 3 // at the start of the last substep done
+#define HAIR_RIDE_AFTER 4  // and at its end
+#define HAIR_RIDES 5
+
+// How a guide's root sits otherwise in the head than at rest: its rest pose turned about the root, and shifted.
+struct hair_ride {
+    hair_vec4 shift[HAIR_RIDES]; // xyz: m, in the head's frame
+    hair_vec4 turn[HAIR_RIDES];  // unit quaternions
+};
+HAIR_SIZE(hair_ride, HAIR_RIDES * 32)
+
+#define HAIR_SCALP_FRESH 1u // it has been given since the last step
+#define HAIR_SCALP_RESET 2u // there is no past
+#define HAIR_SCALP_AGAIN 4u // the step has begun already: only its substeps go on
+
+// Of the passes of a skinned scalp. Into the head's frame: rotation (position + offset).
+struct hair_scalp_params {
+    hair_vec4 rotation;
+    hair_vec4 offset;   // xyz: m
+    hair_uint vertices; // of the scalp
+    hair_uint guides;
+    hair_uint followers;
+    hair_uint first, stride; // of what is given, in floats
+    hair_uint what;          // HAIR_SCALP_
+    hair_uint substeps;      // of this step
+    float     share_before;  // of the step done at the start of its last substep, of two or more
+    float     share_after;   // and at its end
+    hair_uint smooth_vertices;
+    hair_uint unused0, unused1;
+};
+HAIR_SIZE(hair_scalp_params, 80)
 
 // What is drawn together: followers, in an order fit to be cut short. Grooms make patches of HAIR_MAX_ISOLINES at most.
 struct hair_patch {

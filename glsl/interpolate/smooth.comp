@@ -9,6 +9,7 @@
 #include "buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "frames.glsl"
+#include "sim/ride.glsl"
 
 shared vec3  vertex[HAIR_GUIDE_THREADS];
 shared float from_root[HAIR_GUIDE_THREADS];
@@ -61,13 +62,22 @@ void main()
 
     vec3 after   = state[own].position.xyz;
     vec3 before  = after - state[own].displacement.xyz + params.last_displacement.xyz;
-    vec3 in_head = mix(rotate(quat_conjugate(params.rotation_before), before),
-                       rotate(quat_conjugate(params.rotation_after), after), params.alpha);
+    before       = rotate(quat_conjugate(params.rotation_before), before);
+    after        = rotate(quat_conjugate(params.rotation_after), after);
+    vec4 scalp   = params.rotation_now;
+#ifdef HAIR_SKINNED
+    vec3 root = rest[guide[g].first].position.xyz;
+    ride now  = ride_of(g, HAIR_RIDE_END);
+    before    = carry(now, root, carry_back(ride_of(g, HAIR_RIDE_BEFORE), root, before));
+    after     = carry(now, root, carry_back(ride_of(g, HAIR_RIDE_AFTER), root, after));
+    scalp     = quat_multiply(scalp, now.turn);
+#endif
+    vec3 in_head = mix(before, after, params.alpha);
     vertex[i]    = rotate(params.rotation_now, in_head);
     synchronise();
     vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
     carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
-                 quat_multiply(params.rotation_now, guide[g].root_frame));
+                 quat_multiply(scalp, guide[g].root_frame));
     sum_lengths(i, count);
 
     float total = from_root[count - 1u];

@@ -14,6 +14,7 @@
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "frames.glsl"
 #include "constraints.glsl"
+#include "sim/ride.glsl"
 
 shared uint broken;
 
@@ -54,6 +55,11 @@ void main()
         vec3 head     = params.substep[s].displacement.xyz;
         vec3 target   = rotate(rotation, at_rest.position.xyz);
         vec3 before   = x;
+#ifdef HAIR_SKINNED
+        ride r   = ride_at(g, params.substep[s].displacement.w);
+        target   = rotate(rotation, carry(r, rest[first].position.xyz, at_rest.position.xyz));
+        rotation = quat_multiply(rotation, r.turn);
+#endif
 
         vec3 p = x - head + params.keep * displacement + params.gravity.xyz * (dt * dt);
         p      = pull(p, target, frequency * frequency, dt);

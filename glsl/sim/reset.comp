@@ -1,7 +1,7 @@
 // reset.comp - every guide in its rest pose, at rest, under the head's pose now. One thread per guide vertex.
 #version 450 core
 #include "buffers.glsl"
-#include "rotation.glsl"
+#include "sim/ride.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 #ifdef HAIR_ROD
 #include "sim/rod_buffers.glsl"
@@ -11,10 +11,23 @@ void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     if (i >= rest.length()) return;
-    state[i].position     = vec4(rotate(params.rotation_now, rest[i].position.xyz), 0.0);
+    vec3 place = rest[i].position.xyz;
+    vec4 turn  = params.rotation_now;
+#ifdef HAIR_SKINNED
+    uint low = 0u, high = params.guides; // The guide whose vertex it is.
+    while (high - low > 1u) {
+        uint middle = (low + high) / 2u;
+        if (guide[middle].first <= i) low = middle;
+        else high = middle;
+    }
+    ride r = ride_of(low, HAIR_RIDE_END);
+    place  = carry(r, rest[guide[low].first].position.xyz, place);
+    turn   = quat_multiply(turn, r.turn);
+#endif
+    state[i].position     = vec4(rotate(params.rotation_now, place), 0.0);
     state[i].displacement = vec4(0.0);
 #ifdef HAIR_ROD
-    material[i] = quat_multiply(params.rotation_now, rest[i].frame);
+    material[i] = quat_multiply(turn, rest[i].frame);
     if (i < history.length()) history[i] = hair_history(vec4(0.0), vec4(0.0));
 #endif
 }

@@ -16,6 +16,7 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
 #include "sim/leader.glsl"
+#include "sim/ride.glsl"
 
 #define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
 
@@ -141,6 +142,19 @@ void accept(int method, vec3 head_moved)
     count_in(HAIR_HEALTH_RESET);
 }
 
+// Where the scalp has the root after a share of the step, and how it is turned.
+void place_root(vec4 head, float share)
+{
+    turn_now  = head;
+    root_now  = rotate(head, root_at_rest);
+    share_now = share;
+#ifdef HAIR_SKINNED
+    ride r   = ride_at(guide_number, share);
+    root_now = rotate(head, root_at_rest + r.shift);
+    turn_now = quat_multiply(head, r.turn);
+#endif
+}
+
 void main()
 {
     guide_number = hair_guide_number();
@@ -149,28 +163,24 @@ void main()
     guide_count  = guide[guide_number].count;
     guide_length = guide[guide_number].arc_length;
     root_at_rest = rest[guide_first].position.xyz;
-    turn_now     = params.rotation_start;
-    root_then    = rotate(turn_now, root_at_rest);
-    root_now     = root_then;
-    share_now    = params.share_start;
+    place_root(params.rotation_start, params.share_start);
+    root_then = root_now;
 #ifdef HAIR_TIED
-    head_now     = turn_now;
+    head_now  = params.rotation_start;
 #endif
     load();
 
     for (uint s = 0u; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
         turn_then       = turn_now;
-        turn_now        = params.substep[s].rotation;
         root_then       = root_now;
-        root_now        = rotate(turn_now, root_at_rest);
-        root_moved      = root_now - root_then + head_moved;
         share_then      = share_now;
-        share_now       = params.substep[s].displacement.w;
 #ifdef HAIR_TIED
         head_then       = head_now;
         head_now        = params.substep[s].rotation;
 #endif
+        place_root(params.substep[s].rotation, params.substep[s].displacement.w);
+        root_moved = root_now - root_then + head_moved;
 
         int method = own_method == BACK && known < 2.0 ? EULER : own_method;
         for (;; ++method) {

@@ -477,6 +477,21 @@ HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
 /// Move the head. The next step carries the roots there, shortest way, evenly over its substeps.
 HAIR_API hair_result hair_set_transform(hair_instance* hair, const float transform[16]);
 
+/// Skin the scalp: at the next step it is to be where these positions have the vertices of the groom's scalp, xyz every
+/// `stride` bytes, a multiple of 4 in [12, 4096]. `count` is that of the groom. `to_world`: where they are given, rigid;
+/// NULL: in the world. Roots ride on the triangles they sit on, evenly over the step, shifted and turned as these are.
+/// The first time, hair comes from where the scalp is at rest: hair_reset places it. A scalp that is not given anew
+/// goes along with the head, so give it anew with every hair_set_transform that the head's bone asks for. The field,
+/// the crowd and hair_get_reach go by the head alone, which should be where the scalp is.
+HAIR_API hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t count,
+                                    size_t stride, const float to_world[16]);
+
+/// The same out of an OpenGL buffer, which is read at the call, on the GPU: what shaders wrote before is seen, and
+/// nothing is waited for. `offset` is that of the first position, in bytes. Roots of triangles with what is not finite
+/// stay as they are against the head.
+HAIR_API hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset,
+                                           size_t stride, const float to_world[16]);
+
 typedef enum hair_shape {
     HAIR_SHAPE_SPHERE = 0, ///< size[0]: radius.
     HAIR_SHAPE_CAPSULE,    ///< size[0]: radius. size[1]: half the length of its axis, which is local y.

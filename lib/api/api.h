@@ -32,6 +32,10 @@ float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2]);
 // HAIR_ERROR_OPENGL unless a context is current: OpenGL without one does nothing, or worse.
 hair_result hair_check_current(const hair_context* context);
 
+// Rigid, and not too far.
+hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
+                                 struct hair_pose* out);
+
 // The field as the last step left head and solids. [GL], with the context entered.
 hair_result hair_update_field(hair_instance* hair);
 

@@ -5,8 +5,8 @@
 
 #define SHORTEST 1e-5f // s: a substep, lest a step take for ever
 
-static hair_result check_transform(const hair_instance* hair, const char* name, const float* transform,
-                                   struct hair_pose* out)
+hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
+                                 struct hair_pose* out)
 {
     const hair_host* host = &hair->context->host;
     if (!transform) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: %s is NULL", hair->label, name);
@@ -51,7 +51,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          hair->label, (double)desc->substep, (double)SHORTEST);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
-    if (!result) result = check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
+    if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
@@ -124,7 +124,7 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result      result = check_transform(hair, "transform", transform, &pose);
+    hair_result      result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) hair->sim.head = pose;
     return result;
 }
@@ -187,7 +187,7 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result      result = check_transform(hair, "transform", transform, &pose);
+    hair_result      result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     hair_gl_enter(&hair->context->gl);

@@ -65,6 +65,12 @@ static hair_result meet_solids(hair_instance* hair)
     return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin);
 }
 
+static void make_ready(hair_instance* hair)
+{
+    hair_smooth_need(&hair->smooth, &hair->sim);
+    hair_draw_seat(&hair->draw, &hair->smooth, &hair->sim);
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -85,9 +91,10 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);
     } else {
-        hair_smooth_need(&hair->smooth, &hair->sim);
+        make_ready(hair);
         if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
-        hair->draw.bounded = hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods;
+        hair->draw.bounded =
+            (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
         if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
     }
     hair_gl_leave(&context->gl);
@@ -118,7 +125,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 {
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
-    hair_smooth_need(&hair->smooth, &hair->sim);
+    make_ready(hair);
     hair_result result = meet_solids(hair);
     if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
@@ -131,7 +138,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
 {
     hair_gl_enter(&hair->context->gl);
-    hair_smooth_need(&hair->smooth, &hair->sim);
+    make_ready(hair);
     hair_gl_leave(&hair->context->gl);
     return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.at_step, positions);
 }

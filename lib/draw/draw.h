@@ -23,6 +23,7 @@ struct hair_draw {
     uint32_t             map_sets;
     hair_vec4            skull;   // of the groom
     int                  bounded; // roots are held: no strand leaves its patch's reach
+    uint32_t             seated;  // for which run of smooth.comp followers are
     struct hair_hits     hits;
     struct hair_listed   listed;
     struct hair_expanded expanded;
@@ -32,6 +33,10 @@ struct hair_draw {
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
                              const struct hair_sim* sim);
 void        hair_draw_destroy(struct hair_draw* draw);
+
+// seats.c: make ready for a skinned scalp; and put followers where it has them, once they are smooth.
+hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim);
+void        hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
 
 // hits.c: find the followers that are inside solids, and lead them out, before either of the below. `field`: NULL: no
 // solid is near. margin: what guides keep from solids, m.

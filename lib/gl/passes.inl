@@ -10,9 +10,9 @@
     PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
     PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
 
-// A solver of rods is 64 such passes, for hair with and without what it can do without: solids, and among them bodies,
+// A solver of rods is 128 such passes, for hair with and without what it can do without: solids, and among them bodies,
 // those that are no capsules, or any: forms too, and any number of them; curved or flat strands; the crowd of other hair;
-// ties; and by a work group or a thread per guide.
+// ties; roots that ride on a skinned scalp; and by a work group or a thread per guide.
 #define ROD_PASS_OF(name, label, defines) \
     GUIDE_PASS(name, label, defines "sim/rod.comp") \
     GUIDE_PASS(name##_SOLIDS, label "_solids", defines "HAIR_SOLIDS=1 sim/rod.comp") \
@@ -30,7 +30,9 @@
     ROD_PASS_BY(name##_CROWD, label "_crowd", "HAIR_CROWD=1 " defines)
 #define ROD_PASS(name, label, defines) \
     ROD_PASS_IN(name, label, defines) \
-    ROD_PASS_IN(name##_TIED, label "_tied", "HAIR_TIED=1 " defines)
+    ROD_PASS_IN(name##_TIED, label "_tied", "HAIR_TIED=1 " defines) \
+    ROD_PASS_IN(name##_SKINNED, label "_skinned", "HAIR_SKINNED=1 " defines) \
+    ROD_PASS_IN(name##_TIED_SKINNED, label "_tied_skinned", "HAIR_SKINNED=1 HAIR_TIED=1 " defines)
 
 // A pass that evaluates followers is two programs: as they go, and where the look kinks, curls or cuts them. The second is
 // made when a look first does.
@@ -53,6 +55,11 @@ PASS(RESET, "sim/reset", "sim/reset.comp")
 PASS(TURN, "sim/turn", "sim/turn.comp")
 PASS(RESET_ROD, "sim/reset_rod", "HAIR_ROD=1 sim/reset.comp")
 PASS(TURN_ROD, "sim/turn_rod", "HAIR_ROD=1 sim/turn.comp")
+PASS(RESET_SKINNED, "sim/reset_skinned", "HAIR_SKINNED=1 sim/reset.comp")
+PASS(RESET_ROD_SKINNED, "sim/reset_rod_skinned", "HAIR_SKINNED=1 HAIR_ROD=1 sim/reset.comp")
+PASS(SCALP, "sim/scalp", "HAIR_SKINNED=1 sim/scalp.comp")
+PASS(RIDE, "sim/ride", "HAIR_SKINNED=1 sim/ride.comp")
+PASS(SEAT, "interpolate/seat", "HAIR_SKINNED=1 interpolate/seat.comp")
 PASS(CROWD_CLEAR, "sim/crowd_clear", "HAIR_CROWD=1 sim/crowd_clear.comp")
 PASS(CROWD_SPLAT, "sim/crowd_splat", "HAIR_CROWD=1 sim/crowd_splat.comp")
 PASS(CROWD_GATHER, "sim/crowd_gather", "HAIR_CROWD=1 sim/crowd_gather.comp")
@@ -61,6 +68,8 @@ ROD_PASS(ACCURATE, "sim/accurate", "HAIR_SOLVER=0 ")
 ROD_PASS(ACCURATE_STIFF, "sim/accurate_stiff", "HAIR_SOLVER=0 HAIR_STIFF=1 ")
 ROD_PASS(FOLLOW, "sim/follow", "HAIR_SOLVER=3 ")
 GUIDE_PASS(REDBLACK, "sim/redblack", "sim/redblack.comp")
+GUIDE_PASS(REDBLACK_SKINNED, "sim/redblack_skinned", "HAIR_SKINNED=1 sim/redblack.comp")
+GUIDE_PASS(SMOOTH_SKINNED, "interpolate/smooth_skinned", "HAIR_SKINNED=1 interpolate/smooth.comp")
 GUIDE_PASS(SMOOTH, "interpolate/smooth", "interpolate/smooth.comp")
 FOLLOWER_PASS(EXPAND, "interpolate/expand", "HAIR_STORED=1 interpolate/expand.comp")
 DRAW_PASS(TESSELLATED, "tessellated", "draw/patch.vert draw/patch.tesc draw/strand.tese")

@@ -68,6 +68,7 @@ hair_result hair_draft_patches(struct hair_draft* draft);
 hair_result hair_strand_followers(struct hair_draft* draft);
 hair_result hair_guide_followers(struct hair_draft* draft);
 hair_result hair_scalp_followers(struct hair_draft* draft);
+hair_result hair_draft_seats(struct hair_draft* draft); // of guides and followers on the scalp
 
 // sorts.c: what maps make of the sprouts that `queue` names, neighbours. Split: reorder them so that those in front
 // are to be in another patch than those behind; returns how many are in front, 0: all may be in one. Patch: put what
@@ -80,6 +81,7 @@ hair_result hair_guide_plots(struct hair_draft* draft);
 hair_result hair_scalp_plots(struct hair_draft* draft);
 void        hair_number_sprouts(struct hair_draft* draft);
 
+hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32_t sprout); // not of scalp.c
 hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide);
 hair_vec3 hair_scalp_corner(const struct hair_draft* draft, uint32_t triangle, uint32_t corner);
 

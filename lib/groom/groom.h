@@ -3,6 +3,7 @@
 #define HAIR_GROOM_GROOM_H
 
 #include "lib/base/host.h"
+#include "lib/groom/seats.h"
 #include "glsl/shared.h"
 
 struct hair_groom {
@@ -15,6 +16,7 @@ struct hair_groom {
     hair_vec4             skull;         // a ball under the hair: xyz: m; w: radius, m, 0 where there is none
     uint32_t              most_vertices; // of a guide
     uint32_t              map_sets;
+    struct hair_seats*    seats; // NULL: there is no scalp, or no triangle of it has three corners
 };
 
 // `desc` is whole and has been checked, but for what its arrays hold. On failure *out is untouched.

@@ -70,7 +70,7 @@ struct hair_spot hair_surface_spot(struct hair_surface* surface, hair_vec3 root)
     return spot;
 }
 
-static hair_vec3 root_of_sprout(const struct hair_draft* draft, uint32_t plot, uint32_t sprout)
+hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32_t sprout)
 {
     if (!draft->strand_of) return hair_guide_root(draft->groom, plot); // What surrounds it is there too.
     return hair_load3(draft->strands.positions + 3 * (size_t)draft->first[draft->strand_of[sprout]]);
@@ -78,7 +78,7 @@ static hair_vec3 root_of_sprout(const struct hair_draft* draft, uint32_t plot, u
 
 hair_result hair_draft_spots(struct hair_draft* draft)
 {
-    if (!draft->scalp || draft->spots || !draft->desc->map_sets[0]) return HAIR_OK;
+    if (!draft->scalp || draft->spots) return HAIR_OK;
     struct hair_surface surface;
     hair_result         result = hair_surface_build(draft, &surface);
     draft->spots               = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->spots);
@@ -87,7 +87,7 @@ hair_result hair_draft_spots(struct hair_draft* draft)
     for (uint32_t plot = 0; plot < draft->plot_count && there; ++plot)
         for (uint32_t i = 0; i < draft->plot_sprouts[plot]; ++i) {
             uint32_t sprout      = draft->plot_first[plot] + i;
-            draft->spots[sprout] = hair_surface_spot(&surface, root_of_sprout(draft, plot, sprout));
+            draft->spots[sprout] = hair_surface_spot(&surface, hair_sprout_root(draft, plot, sprout));
         }
     if (!there) {
         hair_free(draft->host, draft->spots);

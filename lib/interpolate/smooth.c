@@ -30,7 +30,9 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
 {
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
-    hair_gl_run(smooth->gl, smooth->pass, sim->guides);
+    hair_gl_pass pass = smooth->pass;
+    if (hair_skin_is_on(sim)) pass = hair_gl_pass_for(HAIR_GL_SMOOTH_SKINNED_32, sim->most_vertices);
+    hair_gl_run(smooth->gl, pass, sim->guides);
     ++smooth->runs;
     smooth->done = 1;
 }

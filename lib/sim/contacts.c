@@ -14,10 +14,11 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->at_step);
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = LOOSE * sim->reach;
+    int   may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim); // Be farther.
     return (struct hair_cells_desc){
-        .reach  = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count ? FARTHEST : fminf(far, FARTHEST),
-        .give   = FIT + fminf(half, MOST_GIVE),
-        .margin = sim->physics.margin,
+        .reach       = may ? FARTHEST : fminf(far, FARTHEST),
+        .give        = FIT + fminf(half, MOST_GIVE),
+        .margin      = sim->physics.margin,
         .share_start = share_start,
         .most_rounds = sim->gl->software ? MOST_ROUNDS : UINT32_MAX,
     };

@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 6 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 7 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -30,7 +30,7 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
 #define MOST_BEAT 1000 // substeps of the crowd's block: more than there are of the shortest
-#define MOST_BUFFERS 5 // that walk() lists
+#define MOST_BUFFERS 8 // that walk() lists
 #define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 #define KNOT_BYTES 36
@@ -278,9 +278,34 @@ static void walk_crowd(struct cursor* c, struct hair_crowd* crowd, uint32_t vert
     }
 }
 
+static void walk_vec4(struct cursor* c, const char* name, hair_vec4* v, double most)
+{
+    float* number[] = {&v->x, &v->y, &v->z, &v->w};
+    for (int k = 0; k < 4; ++k) walk_float(c, name, number[k], most);
+}
+
+// Where a skinned scalp is, which hair_sim_load has made ready for, and where it has roots.
+static void walk_skin(struct cursor* c, struct hair_sim* sim, int skinned)
+{
+    struct hair_skin* skin = &sim->skin;
+    if (!skinned || c->result) return;
+    size_t size = 3 * (size_t)skin->seats->vertex_count * sizeof(float);
+    walk_same(c, "number of scalp vertices", skin->seats->vertex_count);
+    walk_vec4(c, "turn of the scalp", &skin->rotation, 2);
+    walk_vec4(c, "offset of the scalp", &skin->offset, MOST_PAST);
+    walk_buffer(c, "rides of roots", skin->ride, sim->guides * sizeof(struct hair_ride));
+    walk_buffer(c, "scalp", skin->scalp[0], size);
+    walk_flag(c, "whether a scalp has been given since the last step", &skin->fresh);
+    if (!skin->fresh || c->result) return;
+    walk_pose(c, "space of the scalp", &skin->space, MOST_PLACE);
+    walk_buffer(c, "scalp to come", skin->scalp[1], size);
+}
+
 // All that is saved, in order: of which haircut it is, and what the coming motion depends on.
 static void walk(struct cursor* c, struct hair_sim* sim)
 {
+    int skinned = hair_skin_is_on(sim);
+    walk_flag(c, "mark of a skinned scalp", &skinned); // First, so that hair_sim_load can look.
     walk_same(c, "solver", sim->solver);
     walk_same(c, "substep", sim->asked_substep);
     walk_same(c, "number of guides", sim->guides);
@@ -301,6 +326,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_buffer(c, "rates of guide vertices", sim->history,
                 sim->guide_vertices * sizeof(struct hair_history));
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
+    walk_skin(c, sim, skinned);
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)
@@ -381,14 +407,24 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     const hair_host* host   = &sim->gl->host;
     hair_result      result = check_frame(host, bytes, size);
     if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded.
+    int skinned = !result && size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
+    if (skinned && !sim->skin.seats)
+        result = hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "the saved state is another's: its scalp is skinned, and the instance's groom has none");
+    if (!result && skinned) result = hair_skin_make(sim);
     if (result) return result;
     struct hair_sim loaded = *sim;
     struct cursor   c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
     c.own             = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
     struct hair_solids solids = {0};
+    GLuint             still  = 0;
     result                    = read(&c, &loaded, &solids);
+    if (!result && !skinned && hair_skin_is_on(sim)) result = hair_skin_make_still(sim, &still);
     if (!result) result = upload(&c);
+    if (!result && still) hair_skin_forget(&loaded, still);
+    hair_gl_free_buffer(sim->gl, &still);
     hair_free(host, c.own);
     hair_free(host, c.now.solid);
     hair_free(host, c.before.solid);

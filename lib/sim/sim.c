@@ -45,7 +45,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied.
+// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied, skinned.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -58,8 +58,11 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
     if (sim->contacts.any) met = 3;
     int kind = met + 4 * hair_sim_is_curved(sim) + 8 * is_by_thread(sim) + 16 * hair_crowd_is_on(sim) +
-               32 * (sim->ties.count > 0);
-    if (sim->rods) pass += 4 * (hair_gl_pass)kind;
+               32 * (sim->ties.count > 0) + 64 * hair_skin_is_on(sim);
+    if (sim->rods)
+        pass += 4 * (hair_gl_pass)kind;
+    else if (hair_skin_is_on(sim))
+        pass = HAIR_GL_REDBLACK_SKINNED_32;
     return hair_gl_pass_for(pass, sim->most_vertices);
 }
 
@@ -82,6 +85,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
+    sim->skin.seats    = hair_seats_hold(groom->seats);
     size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
     hair_result result = HAIR_OK;
     if (!result)
@@ -115,6 +119,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_ties_free(sim);
     hair_contacts_free(sim);
     hair_sim_free_rods(sim);
+    hair_skin_free(sim);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
@@ -123,6 +128,7 @@ void hair_sim_bind(struct hair_sim* sim)
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HEALTH, 1, &sim->health);
     sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
+    hair_skin_bind(sim);
 }
 
 static hair_vec4 vec4_of(hair_vec3 v, float w)
@@ -183,12 +189,18 @@ void hair_sim_show(struct hair_sim* sim)
     upload(sim, &params);
 }
 
+// Of the step that is done at the end of substep `i`, where the first begins `from` seconds into it, or before it.
+static double share_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
+{
+    return fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
+}
+
 // The next `count` substeps, of which the first begins `from` seconds into a step of `dt`, or before it.
 static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
                            double dt)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        double share                = fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
+        double share                = share_at_end(sim, i, from, dt);
         sim->last_before            = sim->last_after;
         sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share);
         params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
@@ -233,8 +245,8 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
 }
 
-// `total` substeps, after which sim->left is what is left of the step.
-static void advance(struct hair_sim* sim, uint32_t total, double from, double dt)
+// `total` substeps, after which sim->left is what is left of the step. `again`: it has begun already.
+static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
     hair_gl_pass            pass   = solver_pass(sim);
@@ -242,6 +254,11 @@ static void advance(struct hair_sim* sim, uint32_t total, double from, double dt
     sim->next_substep              = sim->substep;
     write_physics(sim, &params);
     write_solids(sim, &params);
+    if (hair_skin_is_on(sim)) {
+        float before = (float)share_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
+        hair_skin_ride(sim, again, total, before,
+                       (float)share_at_end(sim, total > 0 ? total - 1 : 0, from, dt));
+    }
     if (sim->contacts.any) hair_contacts_bind(sim);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
@@ -283,6 +300,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
     int    waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
+    int    again = 0;
     double from  = -sim->left;
     hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
     if (!result) result = need(sim, from, dt);
@@ -290,15 +308,16 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
         sim->left  = fmax(dt - end, 0);
-        advance(sim, 1, from, dt);
+        advance(sim, 0, 1, from, dt);
         from   = end;
+        again  = 1;
         result = hair_sim_renew_rods(sim);
         if (!result) result = need(sim, from, dt);
         if (result) return result;
     }
     uint32_t total = count_substeps(sim, dt - from);
     sim->left      = fmax(dt - from - total * sim->substep, 0);
-    advance(sim, total, from, dt);
+    advance(sim, again, total, from, dt);
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
     return HAIR_OK;
@@ -331,7 +350,12 @@ void hair_sim_reset(struct hair_sim* sim)
     sim->struck = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
-    run_over_vertices(sim, HAIR_GL_RESET, HAIR_GL_RESET_ROD, &params);
+    if (hair_skin_is_on(sim)) {
+        hair_skin_reset(sim);
+        run_over_vertices(sim, HAIR_GL_RESET_SKINNED, HAIR_GL_RESET_ROD_SKINNED, &params);
+    } else {
+        run_over_vertices(sim, HAIR_GL_RESET, HAIR_GL_RESET_ROD, &params);
+    }
 }
 
 // The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.

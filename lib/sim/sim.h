@@ -9,6 +9,7 @@
 #include "lib/groom/groom.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
+#include "lib/sim/skin.h"
 #include "lib/sim/ties.h"
 
 // What guides collide with where that may be anything: forms, any number of them. All 0 until then.
@@ -47,6 +48,7 @@ struct hair_sim {
     struct hair_contacts contacts;
     struct hair_crowd    crowd;
     struct hair_ties     ties;
+    struct hair_skin     skin;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with

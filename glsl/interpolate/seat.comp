@@ -1,0 +1,33 @@
+// seat.comp - roots of followers put where a skinned scalp has them, which stretches between the guides that they are
+// made of: their offsets from those are found anew. One thread per follower.
+#version 450 core
+#include "scalp.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
+layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
+layout(std430, binding = HAIR_BIND_FOLLOWER) buffer follower_buffer { hair_follower follower[]; };
+layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
+
+vec3 root_of(uint guide) { return texelFetch(position_texture, int(guide * on.smooth_vertices)).xyz; }
+
+void main()
+{
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i >= on.followers) return;
+    hair_seat seat = seats[on.guides + i];
+    uint  g     = follower[i].guide0;
+    vec3  away  = vec3(seat.away_x, seat.away_y, seat.away_z);
+    vec3  root  = rotate(params.rotation_now, foot_of(seat) + rotate(rides[g].turn[HAIR_RIDE_END], away));
+    vec3  first = root_of(g);
+    float w1 = follower[i].weight1, w2 = follower[i].weight2;
+    vec3  blended = (1.0 - w1 - w2) * first + w1 * root_of(follower[i].guide1) + w2 * root_of(follower[i].guide2);
+    vec4  back    = quat_conjugate(texelFetch(frame_texture, int(g * on.smooth_vertices)));
+    vec3  single = rotate(back, root - first), own = rotate(back, root - blended);
+    // What is not sound came from the host, and guides did not go there.
+    if (!is_sound(vec4(single, 0.0)) || !is_sound(vec4(own, 0.0))) return;
+    follower[i].offset[0].xyz = single;
+    follower[i].offset[1].w   = own.x;
+    follower[i].offset[2].w   = own.y;
+    follower[i].offset[3].w   = own.z;
+}

@@ -1,0 +1,89 @@
+// ride.comp - where the roots of guides go in this step, by the triangles that they sit on: shifted with their place
+// on it, and turned as it is turned. That is the rotation in the polar decomposition of what became of the triangle,
+// so that stretching and shearing turn nothing. One thread per guide.
+#version 450 core
+#include "scalp.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+layout(std430, binding = HAIR_BIND_GUIDE) readonly buffer guide_buffer { hair_guide guide[]; };
+layout(std430, binding = HAIR_BIND_REST) readonly buffer rest_buffer { hair_rest rest[]; };
+
+// Two sides of a triangle in its own plane: (along, 0) and `other`.
+struct flat_triangle {
+    vec3  x, y, normal; // unit
+    float along;
+    vec2  other;
+    bool  sound;
+};
+
+flat_triangle flatten(vec3 a, vec3 b, vec3 c)
+{
+    flat_triangle f;
+    vec3  u = b - a, v = c - a, across = cross(u, v);
+    float l = length(across);
+    f.along  = length(u);
+    f.sound  = l > 1e-6 * f.along * length(v);
+    f.x      = u / f.along;
+    f.normal = across / l;
+    f.y      = cross(f.normal, f.x);
+    f.other  = vec2(dot(v, f.x), dot(v, f.y));
+    return f;
+}
+
+// The rotation from one to the other: of the normal, and about it.
+vec4 turn_between(flat_triangle rest, flat_triangle now)
+{
+    // The matrix that takes the sides at rest to those now is ((p, q), (0, r)).
+    float p = now.along / rest.along, r = now.other.y / rest.other.y;
+    float q = (now.other.x - p * rest.other.x) / rest.other.y;
+    vec2  turned = normalize(vec2(p + r, -q)); // cosine and sine
+    vec3  to     = turned.x * now.x + turned.y * now.y;
+    vec4  first  = quat_between(rest.normal, now.normal);
+    vec3  from   = rotate(first, rest.x);
+    float w      = 1.0 + dot(from, to);
+    vec4  second = w < 1e-6 ? vec4(now.normal, 0.0) : normalize(vec4(cross(from, to), w));
+    return normalize(quat_multiply(second, first));
+}
+
+// Where it is not finite, or nowhere near, things stay as they are; where a triangle has no plane, only turned so.
+ride find_ride(uint g, ride before)
+{
+    hair_seat seat = seats[g];
+    flat_triangle at_rest = flatten(vertex_at_rest(seat.corner0), vertex_at_rest(seat.corner1), vertex_at_rest(seat.corner2));
+    flat_triangle now     = flatten(vertex_now(seat.corner0), vertex_now(seat.corner1), vertex_now(seat.corner2));
+    ride found = before;
+    if (at_rest.sound && now.sound) {
+        vec4 turn = turn_between(at_rest, now);
+        if (is_sound(turn)) found.turn = turn;
+    }
+    vec3 away   = vec3(seat.away_x, seat.away_y, seat.away_z);
+    found.shift = foot_of(seat) + rotate(found.turn, away) - rest[guide[g].first].position.xyz;
+    return is_sound(vec4(found.shift, 0.0)) ? found : before;
+}
+
+ride kept(uint g, int which) { return ride(rides[g].shift[which].xyz, rides[g].turn[which]); }
+
+void put(uint g, int which, ride r)
+{
+    rides[g].shift[which] = vec4(r.shift, 0.0);
+    rides[g].turn[which]  = r.turn;
+}
+
+void main()
+{
+    uint g = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (g >= on.guides) return;
+    ride then  = kept(g, HAIR_RIDE_AFTER);
+    ride end   = kept(g, HAIR_RIDE_END);
+    ride start = end;
+    if ((on.what & HAIR_SCALP_AGAIN) != 0u) start = kept(g, HAIR_RIDE_START);
+    if ((on.what & HAIR_SCALP_FRESH) != 0u) end = find_ride(g, start);
+    if ((on.what & HAIR_SCALP_RESET) != 0u) start = then = end;
+    put(g, HAIR_RIDE_THEN, then);
+    put(g, HAIR_RIDE_START, start);
+    put(g, HAIR_RIDE_END, end);
+    bool past = (on.what & HAIR_SCALP_RESET) == 0u;
+    if (!past || on.substeps > 0u) {
+        put(g, HAIR_RIDE_BEFORE, past && on.substeps > 1u ? ride_between(start, end, on.share_before) : then);
+        put(g, HAIR_RIDE_AFTER, past ? ride_between(start, end, on.share_after) : end);
+    }
+}

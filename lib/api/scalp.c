@@ -1,0 +1,114 @@
+// scalp.c - public calls on a scalp that the host skins.
+#include "lib/api/api.h"
+
+#define FARTHEST 1e9f // m: of a position
+#define LONGEST 4096u // bytes from one to the next
+
+static hair_result check(const hair_instance* hair, size_t stride, const float* to_world,
+                         struct hair_pose* space)
+{
+    const hair_host*         host  = &hair->context->host;
+    const struct hair_seats* seats = hair->sim.skin.seats;
+    *space                         = (struct hair_pose){.rotation = {0, 0, 0, 1}};
+    if (!seats) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
+    if (stride < 12 || stride > LONGEST || stride % 4)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
+                         hair->label, stride, LONGEST);
+    hair_result result = to_world ? hair_check_transform(hair, "to_world", to_world, space) : HAIR_OK;
+    return result ? result : hair_check_current(hair->context);
+}
+
+// Packed. NULL, having failed: no memory, or one is wrong.
+static float* take(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
+                   hair_result* result)
+{
+    const hair_host* host   = &hair->context->host;
+    float*           packed = hair_alloc(host, count, 3 * sizeof *packed);
+    *result                 = packed ? HAIR_OK : hair_fail_memory(host, "the scalp");
+    for (uint32_t i = 0; i < count && !*result; ++i) {
+        const float* p = positions + i * (stride / sizeof *positions);
+        for (int k = 0; k < 3; ++k) packed[3 * (size_t)i + (size_t)k] = p[k];
+        if (!(fabsf(p[0]) <= FARTHEST && fabsf(p[1]) <= FARTHEST && fabsf(p[2]) <= FARTHEST)) // NaN too.
+            *result = hair_fail(host, HAIR_ERROR_ARGUMENT,
+                                "%s: positions: vertex %u is (%g, %g, %g), not within %g m of the origin",
+                                hair->label, i, (double)p[0], (double)p[1], (double)p[2], (double)FARTHEST);
+    }
+    if (!*result) return packed;
+    hair_free(host, packed);
+    return NULL;
+}
+
+hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t count, size_t stride,
+                           const float to_world[16])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &hair->context->host;
+    struct hair_pose space;
+    if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
+    hair_result result = check(hair, stride, to_world, &space);
+    if (result) return result;
+    uint32_t vertices = hair->sim.skin.seats->vertex_count;
+    if (count != vertices)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
+                         hair->label, count, vertices);
+    float* packed = take(hair, positions, count, stride, &result);
+    if (!packed) return result;
+    hair_gl_enter(&hair->context->gl);
+    result = hair_draw_make_seats(&hair->draw, &hair->sim);
+    if (!result) hair_skin_give(&hair->sim, packed, &space);
+    hair_gl_leave(&hair->context->gl);
+    hair_free(host, packed);
+    return result;
+}
+
+// Where it is bound from, for that must be a multiple of something; and how much from there on.
+static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size_t offset, size_t stride,
+                                size_t* from, size_t* size)
+{
+    const struct hair_gl* gl  = &hair->context->gl;
+    GLint64               has = 0, mapped = 0, access = 0;
+    GLint                 most = 0, align = 1;
+    if (!buffer || !gl->IsBuffer(buffer)) // Asking what is none would raise the host's error flag.
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
+                         buffer);
+    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &has);
+    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_MAPPED, &mapped);
+    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_ACCESS_FLAGS, &access);
+    if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
+                         hair->label, buffer);
+    uint64_t need = (uint64_t)stride * (hair->sim.skin.seats->vertex_count - 1) + 12, there = (uint64_t)has;
+    if (offset % 4 || offset > there || need > there - offset)
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                         "%s: offset is %zu, not a multiple of 4 from which on gl_buffer's %llu bytes hold "
+                         "the %llu of the "
+                         "scalp",
+                         hair->label, offset, (unsigned long long)there, (unsigned long long)need);
+    gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    *from = offset - offset % (size_t)align;
+    *size = (size_t)need + (offset - *from);
+    if (*size > (size_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "%s: the scalp takes %zu bytes, more than the driver's %d", hair->label, *size,
+                         most);
+    return HAIR_OK;
+}
+
+hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset, size_t stride,
+                                  const float to_world[16])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    struct hair_pose space;
+    size_t           from = 0, size = 0;
+    hair_result      result = check(hair, stride, to_world, &space);
+    if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
+    if (result) return result;
+    hair_gl_enter(&hair->context->gl);
+    result = hair_draw_make_seats(&hair->draw, &hair->sim);
+    if (!result)
+        hair_skin_give_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
+                              (uint32_t)(stride / 4), &space);
+    hair_gl_leave(&hair->context->gl);
+    return result;
+}

@@ -1,0 +1,29 @@
+// seats.c - followers on a skinned scalp: their roots follow it between the guides.
+#include "lib/draw/draw.h"
+
+hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim)
+{
+    struct hair_gl* gl   = draw->gl;
+    GLint           most = 0;
+    size_t          size = draw->followers * sizeof(struct hair_follower);
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (size > (size_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "hair followers on a skinned scalp take %zu bytes, more than the driver's %d", size,
+                         most);
+    return hair_skin_make(sim);
+}
+
+// Free roots are nowhere.
+void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim)
+{
+    struct hair_gl* gl = draw->gl;
+    if (!hair_skin_is_on(sim) || draw->seated == smooth->runs || sim->physics.root == HAIR_ROOT_FREE) return;
+    hair_sim_bind(sim);
+    hair_skin_bind_all(sim, draw->followers);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOLLOWER, 1, &draw->follower);
+    gl->BindTextureUnit(HAIR_UNIT_POSITION, smooth->texture[0]);
+    gl->BindTextureUnit(HAIR_UNIT_FRAME, smooth->texture[2]);
+    hair_gl_run(gl, HAIR_GL_SEAT, (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    draw->seated = smooth->runs;
+}
