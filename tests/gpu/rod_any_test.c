@@ -10,16 +10,6 @@
 #define MARGIN 1e-3
 #define VOXEL 5e-3 // m: of the field, by default
 
-static hair_solid body(hair_shape shape, float x, float y, float z)
-{
-    hair_solid solid  = hair_solid_default();
-    solid.shape       = shape;
-    solid.position[0] = x;
-    solid.position[1] = y;
-    solid.position[2] = z;
-    return solid;
-}
-
 static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
 {
     hair_form*     form = NULL;
@@ -39,7 +29,7 @@ static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, ui
 static hair_solid box_of(struct hair_test* test, int is_form, float x, float y, float z)
 {
     const float half[] = {x / 2, y / 2, z / 2};
-    hair_solid  solid  = body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
+    hair_solid  solid  = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
     if (is_form) {
         solid.form  = form_of(test, hair_test_box_mesh(half), 48);
         solid.scale = 2;
@@ -50,7 +40,7 @@ static hair_solid box_of(struct hair_test* test, int is_form, float x, float y, 
 
 static hair_solid ball_of(struct hair_test* test, int is_form, float radius)
 {
-    hair_solid solid = body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE, 0, 0, 0);
+    hair_solid solid = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE, 0, 0, 0);
     if (is_form)
         solid.form = form_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
     else
@@ -61,31 +51,6 @@ static hair_solid ball_of(struct hair_test* test, int is_form, float radius)
 static void at(hair_solid* solid, double x, double y, double z)
 {
     solid->position[0] = (float)x, solid->position[1] = (float)y, solid->position[2] = (float)z;
-}
-
-static void turn(hair_solid* solid, int axis, double angle)
-{
-    for (int k = 0; k < 3; ++k) solid->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
-    solid->rotation[3] = (float)cos(angle / 2);
-}
-
-static void put(struct hair_test_living* living, const hair_solid* solid, uint32_t count)
-{
-    hair_test_ok(living->test, hair_set_solids(living->hair, solid, count, sizeof *solid));
-}
-
-// How far a vertex is in a solid at most; negative: how near.
-static double depth(const struct hair_test_living* living, const hair_solid* solid)
-{
-    double most = -INFINITY;
-    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
-        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
-             ++i) {
-            hair_vec3    p     = hair_test_at(living, g, i);
-            const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
-            most               = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
-        }
-    return most;
 }
 
 static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_physics* physics,
@@ -123,15 +88,15 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
         hair_solid solid   = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
         double     deepest = -INFINITY;
         at(&solid, 0.08, n % 2 ? -0.08 : -0.05, 0);
-        if (n == 2) turn(&solid, 2, 0.3);
+        if (n == 2) hair_test_turn(&solid, 2, 0.3);
         live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &living);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         for (int k = 0; k < 150; ++k) {
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
-            deepest = fmax(deepest, depth(&living, &solid) + MARGIN);
+            deepest = fmax(deepest, hair_test_depth(&living, &solid) + MARGIN);
         }
-        double touching = depth(&living, &solid) + MARGIN;
+        double touching = hair_test_depth(&living, &solid) + MARGIN;
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
         print_message(
@@ -153,7 +118,7 @@ static void a_form_has_friction(void** state)
     physics.root                 = HAIR_ROOT_FREE;
     physics.damping              = 0;
     hair_solid slope             = box_of(*state, 1, 1, 0.1f, 0.5f);
-    turn(&slope, 2, 0.4);
+    hair_test_turn(&slope, 2, 0.4);
     at(&slope, (0.1 + MARGIN) * sin(0.4), -(0.1 + MARGIN) * cos(0.4), 0);
     for (int n = 0; n < 3; ++n) {
         struct hair_test_living living;
@@ -162,7 +127,7 @@ static void a_form_has_friction(void** state)
         live(*state, 0, hair_v3(0, 0, 1), &physics, &living);
         hair_test_read_guides(&living);
         double before = (double)hair_test_at(&living, 0, 10).x;
-        put(&living, &slope, 1);
+        hair_test_set_solids(&living, &slope, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         double slid = (before - (double)hair_test_at(&living, 0, 10).x) / cos(0.4);
@@ -186,15 +151,15 @@ static void forms_that_move_and_spin_carry_hair_along(void** state)
         hair_desc                desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         at(&solid, 0, -below - MARGIN, 0);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 10);
         for (int k = 1; k <= 30; ++k) {
             way += 0.2 * fmin(k / 10.0, 1) / 60;
             if (spins)
-                turn(&solid, 2, -way / below);
+                hair_test_turn(&solid, 2, -way / below);
             else
                 at(&solid, way, -below - MARGIN, 0);
-            put(&living, &solid, 1);
+            hair_test_set_solids(&living, &solid, 1);
             hair_test_wait(&living, 1);
         }
         hair_test_read_guides(&living);
@@ -216,9 +181,9 @@ static void check_after(struct hair_test_living* living, const hair_solid* solid
 {
     hair_test_wait(living, 6);
     hair_test_read_guides(living);
-    double      left = depth(living, solid), stretch = hair_test_stretch(living);
+    double      left = hair_test_depth(living, solid), stretch = hair_test_stretch(living);
     hair_health health = hair_test_health(living);
-    put(living, NULL, 0);
+    hair_test_set_solids(living, NULL, 0);
     hair_test_wait(living, 60);
     hair_test_read_guides(living);
     double highest = -INFINITY;
@@ -246,23 +211,23 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
             if (what == 0) // 5 m/s, and there it stops.
                 for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
                     at(&solid, x, -0.15, 0);
-                    put(&living, &solid, 1);
+                    hair_test_set_solids(&living, &solid, 1);
                     hair_test_wait(&living, 1);
                 }
             if (what == 1) // 21 rad/s
                 for (int k = 0; k < 45; ++k) {
                     at(&solid, 0.03, -0.18, 0);
-                    turn(&solid, 2, 0.35 * k);
-                    put(&living, &solid, 1);
+                    hair_test_turn(&solid, 2, 0.35 * k);
+                    hair_test_set_solids(&living, &solid, 1);
                     hair_test_wait(&living, 1);
                 }
-            if (what == 2) at(&solid, 0.004, -0.15, 0), put(&living, &solid, 1);
+            if (what == 2) at(&solid, 0.004, -0.15, 0), hair_test_set_solids(&living, &solid, 1);
             if (what == 3) {
                 at(&solid, 2, 3, 1);
-                put(&living, &solid, 1);
+                hair_test_set_solids(&living, &solid, 1);
                 hair_test_wait(&living, 2);
                 at(&solid, 0.004, -0.15, 0);
-                put(&living, &solid, 1);
+                hair_test_set_solids(&living, &solid, 1);
             }
             check_after(&living, &solid, names[what], solver);
             hair_test_die(&living);
@@ -283,10 +248,10 @@ static void place_many(hair_solid* solids, const hair_form* form)
             random = random * 1664525u + 1013904223u;
             p[k]   = (float)(random >> 8) / 16777216.0f - 0.5f;
         }
-        solids[i] = body(i % 50 == 7 ? HAIR_SHAPE_FORM
-                         : i % 3     ? HAIR_SHAPE_SPHERE
-                                     : HAIR_SHAPE_BOX,
-                         0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
+        solids[i] = hair_test_body(i % 50 == 7 ? HAIR_SHAPE_FORM
+                                   : i % 3     ? HAIR_SHAPE_SPHERE
+                                               : HAIR_SHAPE_BOX,
+                                   0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
         if (solids[i].shape == HAIR_SHAPE_FORM) {
             solids[i].form = form;
             continue;
@@ -312,7 +277,7 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living[run]);
         hair_test_strands_free(&strands);
-        put(&living[run], solids, MANY);
+        hair_test_set_solids(&living[run], solids, MANY);
     }
     hair_test_wait(&living[0], 20);
     hair_save(living[0].hair, NULL, 0, &size);
@@ -325,7 +290,7 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
         hair_test_read_guides(&living[run]);
     }
     double deepest = -INFINITY;
-    for (int i = 0; i < MANY; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
+    for (int i = 0; i < MANY; ++i) deepest = fmax(deepest, hair_test_depth(&living[0], &solids[i]));
     print_message("    up to %.2g m deep, stretch %.2g\n", deepest, hair_test_stretch(&living[0]));
     assert_true(deepest < 1e-3);
     assert_true(hair_test_stretch(&living[0]) < 0.02);

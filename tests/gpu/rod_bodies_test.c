@@ -7,37 +7,10 @@
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
-static hair_solid body(hair_shape shape, float x, float y, float z)
-{
-    hair_solid solid  = hair_solid_default();
-    solid.shape       = shape;
-    solid.position[0] = x;
-    solid.position[1] = y;
-    solid.position[2] = z;
-    return solid;
-}
-
-static void turn(hair_solid* solid, int axis, double angle)
-{
-    for (int k = 0; k < 3; ++k) solid->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
-    solid->rotation[3] = (float)cos(angle / 2);
-}
-
-static void put(struct hair_test_living* living, const hair_solid* solid)
-{
-    hair_test_ok(living->test, hair_set_solids(living->hair, solid, 1, sizeof *solid));
-}
-
 // How far a vertex is in a solid, or in the margin around it, at most; negative: how near.
 static double depth(const struct hair_test_living* living, const hair_solid* solid)
 {
-    double most = -INFINITY;
-    for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->vertices; ++i) {
-        hair_vec3    at   = hair_test_at(living, 0, i);
-        const double p[3] = {(double)at.x, (double)at.y, (double)at.z};
-        most              = fmax(most, MARGIN - hair_distance_to_solid(solid, p, NULL));
-    }
-    return most;
+    return MARGIN + hair_test_depth(living, solid);
 }
 
 static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_physics* physics,
@@ -51,16 +24,17 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
 // A strand starts level and comes to hang over an edge, a back, a flank, the ground.
 static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
 {
-    hair_solid bodies[] = {body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0), body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
-                           body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
-                           body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0), body(HAIR_SHAPE_PLANE, 0, -0.1f, 0)};
+    hair_solid bodies[] = {
+        hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0), hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
+        hair_test_body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
+        hair_test_body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0), hair_test_body(HAIR_SHAPE_PLANE, 0, -0.1f, 0)};
     bodies[0].size[0] = 0.06f, bodies[0].size[1] = 0.03f, bodies[0].size[2] = 0.2f;
     bodies[1]          = bodies[0];
     bodies[1].rounding = 0.01f;
     bodies[2].size[0] = 0.05f, bodies[2].size[1] = 0.2f;
     bodies[3].size[0] = 0.1f, bodies[3].size[1] = 0.1f;
-    turn(&bodies[1], 2, 0.5);
-    turn(&bodies[2], 0, 1.5707963);
+    hair_test_turn(&bodies[1], 2, 0.5);
+    hair_test_turn(&bodies[2], 0, 1.5707963);
     hair_physics physics = hair_test_loose(0.3f);
     for (size_t n = 0; n < sizeof bodies / sizeof *bodies; ++n)
         for (int solver = 0; solver < (n % 3 ? 1 : SOLVERS); ++solver) {
@@ -68,7 +42,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
             struct hair_test_strands strands;
             double                   deepest = -INFINITY;
             live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &strands, &living);
-            put(&living, &bodies[n]);
+            hair_test_set_solids(&living, &bodies[n], 1);
             for (int k = 0; k < 150; ++k) {
                 hair_test_wait(&living, 1);
                 hair_test_read_guides(&living);
@@ -95,9 +69,9 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
         double                   deepest = -INFINITY;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
-            hair_solid plate = body(HAIR_SHAPE_BOX, (float)x, -0.2f, 0);
+            hair_solid plate = hair_test_body(HAIR_SHAPE_BOX, (float)x, -0.2f, 0);
             plate.size[0] = 0.015f, plate.size[1] = plate.size[2] = 0.15f;
-            put(&living, &plate);
+            hair_test_set_solids(&living, &plate, 1);
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
             deepest = fmax(deepest, depth(&living, &plate) - MARGIN);
@@ -122,12 +96,12 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
         struct hair_test_living  living;
         struct hair_test_strands strands;
         double                   deepest = -INFINITY;
-        hair_solid               box     = body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
+        hair_solid               box     = hair_test_body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
         box.size[0] = 0.08f, box.size[1] = 0.02f, box.size[2] = 0.05f;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (int k = 0; k < 90; ++k) {
-            if (k < 80) turn(&box, 2, 0.35 * k); // 21 rad/s, and then it stops.
-            put(&living, &box);
+            if (k < 80) hair_test_turn(&box, 2, 0.35 * k); // 21 rad/s, and then it stops.
+            hair_test_set_solids(&living, &box, 1);
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
             if (k > 10) deepest = fmax(deepest, depth(&living, &box) - MARGIN);
@@ -151,14 +125,14 @@ static void a_solid_has_friction_of_its_own(void** state)
     for (int n = 0; n < 3; ++n) {
         struct hair_test_living  living;
         struct hair_test_strands strands;
-        hair_solid               slope = body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
+        hair_solid               slope = hair_test_body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
         double a = 9.81 * (sin(0.4) - 0.3 * (double)factors[n] * cos(0.4)), far = fmax(a, 0) * 0.125;
-        turn(&slope, 2, 0.4);
+        hair_test_turn(&slope, 2, 0.4);
         slope.friction = factors[n];
         live(*state, 0, hair_v3(0, 0, 1), &physics, &strands, &living);
         hair_test_read_guides(&living);
         double before = (double)hair_test_at(&living, 0, 10).x;
-        put(&living, &slope);
+        hair_test_set_solids(&living, &slope, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         double slid = (before - (double)hair_test_at(&living, 0, 10).x) / cos(0.4);

@@ -26,11 +26,6 @@ static hair_solid capsule(double x, double y, double radius, double angle)
     return solid;
 }
 
-static void put(struct hair_test_living* living, const hair_solid* solids, uint32_t count)
-{
-    hair_test_ok(living->test, hair_set_solids(living->hair, solids, count, sizeof *solids));
-}
-
 // How far a vertex is in a solid, or in the margin around it, at most; negative: how near. The root, which the scalp
 // holds, does not count when it is held.
 static double depth(const struct hair_test_living* living, const hair_solid* solid)
@@ -56,7 +51,7 @@ static void lay(struct hair_test* test, hair_solver solver, const hair_physics* 
         hair_test_straight(32, hair_v3(-0.03f, 0.056f, 0), hair_v3(1, 0, 0.1f), 0.25f);
     hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
     hair_test_live(test, &strands, &desc, out);
-    put(out, over, 1);
+    hair_test_set_solids(out, over, 1);
     for (uint32_t k = 0; k < 60 * seconds; ++k) {
         hair_test_wait(out, 1);
         hair_test_read_guides(out);
@@ -116,7 +111,7 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
         hair_solid               solid =
             capsule(-(radius + MARGIN) * sin(start), -(radius + MARGIN) * cos(start), radius, 0);
         hair_test_live(*state, &strands, &desc, &living);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         for (int i = 0; i < 50000 && friction < 0.55; ++i) {
@@ -150,12 +145,12 @@ static void solids_that_move_and_spin_carry_hair_along(void** state)
         hair_solid               solid = capsule(0, -1 - MARGIN, 1, 0);
         double                   way   = 0;
         hair_test_live(*state, &strands, &desc, &living);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 10);
         for (int k = 1; k <= 30; ++k) {
             way += 0.2 * fmin(k / 10.0, 1) / 60;
             solid = spins ? capsule(0, -1 - MARGIN, 1, -way) : capsule(way, -1 - MARGIN, 1, 0);
-            put(&living, &solid, 1);
+            hair_test_set_solids(&living, &solid, 1);
             hair_test_wait(&living, 1);
         }
         hair_test_read_guides(&living);
@@ -197,7 +192,7 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
             hair_test_live(*state, &strands, &desc, &living);
             for (; x < 0.2; x += cases[n].speed / 60) {
                 hair_solid solid = cases[n].is_capsule ? capsule(x, -0.15, r, 0) : sphere(x, -0.15, 0, r);
-                put(&living, &solid, 1);
+                hair_test_set_solids(&living, &solid, 1);
                 hair_test_wait(&living, 1);
                 hair_test_read_guides(&living);
                 deepest = fmax(deepest, depth(&living, &solid) - MARGIN);
@@ -224,7 +219,7 @@ static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         for (int k = 0; k < 60; ++k) {
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
@@ -249,7 +244,7 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
         hair_desc                desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
         hair_solid               solid = sphere(0, -12, 0, 10);
         hair_test_live(*state, &strands, &desc, &living);
-        put(&living, &solid, 1);
+        hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
         assert_true(depth(&living, &solid) < 1e-4);
@@ -277,7 +272,7 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
                                        hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
             hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
             hair_test_live(*state, &strands, &desc, &living[run]);
-            put(&living[run], solids, HAIR_STEP_SOLIDS);
+            hair_test_set_solids(&living[run], solids, HAIR_STEP_SOLIDS);
             hair_test_wait(&living[run], 180);
             hair_test_read_guides(&living[run]);
             hair_test_strands_free(&strands);

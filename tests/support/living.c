@@ -1,4 +1,5 @@
 #include "tests/support/living.h"
+#include "lib/collide/distance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,6 +136,40 @@ double hair_test_from_rest(const struct hair_test_living* living)
     double most = 0;
     for (size_t i = 0; i < living->vertices; ++i)
         most = fmax(most, distance(living->positions + 3 * i, &living->groom->rest[i].position.x));
+    return most;
+}
+
+hair_solid hair_test_body(hair_shape shape, float x, float y, float z)
+{
+    hair_solid solid  = hair_solid_default();
+    solid.shape       = shape;
+    solid.position[0] = x;
+    solid.position[1] = y;
+    solid.position[2] = z;
+    return solid;
+}
+
+void hair_test_turn(hair_solid* solid, int axis, double angle)
+{
+    for (int k = 0; k < 3; ++k) solid->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
+    solid->rotation[3] = (float)cos(angle / 2);
+}
+
+void hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count)
+{
+    hair_test_ok(living->test, hair_set_solids(living->hair, solids, count, sizeof *solids));
+}
+
+double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid)
+{
+    double most = -INFINITY;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
+             ++i) {
+            hair_vec3    p     = hair_test_at(living, g, i);
+            const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
+            most               = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
+        }
     return most;
 }
 

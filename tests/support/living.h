@@ -51,6 +51,13 @@ double hair_test_moved(const struct hair_test_living* living);
 // Farthest that a vertex is from its rest pose under the head at the origin. m.
 double hair_test_from_rest(const struct hair_test_living* living);
 
+// A solid at a place, turned by no angle and of no size; and turned about one of its axes.
+hair_solid hair_test_body(hair_shape shape, float x, float y, float z);
+void       hair_test_turn(hair_solid* solid, int axis, double angle);
+void       hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count);
+// How far a vertex is in a solid at most; negative: how near. A root that the scalp holds does not count. m.
+double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid);
+
 hair_health hair_test_health(struct hair_test_living* living);
 // No guide's substep was redone, none was put back.
 void hair_test_healthy(struct hair_test_living* living);
