@@ -35,12 +35,12 @@ static double to_logistic(double x, double scale)
     return 1 / (1 + exp(-x / scale));
 }
 
-// Of an angle, distributed by a logistic that is cut at half a turn to each side: the density, 1/radian.
-static double logistic(double x, double scale)
+// Of an angle, distributed by a logistic that is cut at half a turn to each side, `kept` of it: the density, 1/radian.
+static double logistic(double x, double scale, double kept)
 {
     x        = x - 2 * PI * floor((x + PI) / (2 * PI));
     double e = exp(-fabs(x) / scale);
-    return e / (scale * (1 + e) * (1 + e)) / (to_logistic(PI, scale) - to_logistic(-PI, scale));
+    return e / (scale * (1 + e) * (1 + e)) / kept;
 }
 
 // A ray that meets the fibre at an angle `in` round it from its middle: what leaves in each lobe if nothing is absorbed,
@@ -74,6 +74,7 @@ static double cosine_of(int row)
 static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
 {
     double scale = (double)hair_fibre_scale(fibre->around);
+    double kept  = to_logistic(PI, scale) - to_logistic(-PI, scale);
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
         struct ray rays[RAYS];
         for (int i = 0; i < RAYS; ++i)
@@ -83,7 +84,7 @@ static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
             for (int i = 0; i < RAYS; ++i)
                 for (int p = 0; p < LOBES; ++p) {
                     // What has been reflected inside twice or more has lost its direction.
-                    double density = p < 3 ? logistic(phi - rays[i].angle[p], scale) : 0.5 / PI;
+                    double density = p < 3 ? logistic(phi - rays[i].angle[p], scale, kept) : 0.5 / PI;
                     sum[p] += rays[i].share[p] * density;
                     path[p] += rays[i].share[p] * density * rays[i].path[p];
                 }
