@@ -65,11 +65,11 @@ vec3 absorption_of(vec3 reflectance)
     return l * l * draw.fibre.y;
 }
 
-// What one fibre scatters from the light to the eye, 1/sr.
-vec3 scatter_once(fibre_angles a, vec3 mu, float tilt)
+// What one fibre scatters from the light to the eye, 1/sr. v: its longitudinal variance.
+vec3 scatter_once(fibre_angles a, vec3 mu, float tilt, float v)
 {
     vec4  share = fibre_table(a.turn, a.half_cosine, 0.0), path = fibre_table(a.turn, a.half_cosine, 1.0);
-    float v = draw.fibre.x, t1 = -tilt, t2 = 0.5 * tilt, t3 = 1.5 * tilt;
+    float t1 = -tilt, t2 = 0.5 * tilt, t3 = 1.5 * tilt;
     float m1 = longitudinal(a, v, vec2(sin(t1), cos(t1)));
     float m2 = longitudinal(a, 0.25 * v, vec2(sin(t2), cos(t2)));
     float m3 = longitudinal(a, 4.0 * v, vec2(sin(t3), cos(t3)));
@@ -77,6 +77,8 @@ vec3 scatter_once(fibre_angles a, vec3 mu, float tilt)
     vec3  turned  = share.z * exp(-mu * path.y) + share.w * exp(-mu * path.z);
     return balance * (m1 * share.x + m2 * share.y * exp(-mu * path.x) + m3 * turned);
 }
+
+vec3 scatter_once(fibre_angles a, vec3 mu, float tilt) { return scatter_once(a, mu, tilt, draw.fibre.x); }
 
 // What fibres send on and back, by channel, of light that they are lit with from one side.
 struct fibre_crowd {

@@ -1,6 +1,7 @@
 // shade.glsl - light from a strand to the eye.
 #include "draw_params.glsl"
 #include "shadow.glsl"
+#include "tint.glsl"
 #ifdef HAIR_FIBRES
 #include "fibre.glsl"
 #endif
@@ -12,12 +13,10 @@ struct hair_fragment {
     float t;        // from root to tip, [0, 1]
     float random;   // the strand's own, [0, 1)
     uint  seed;     // likewise
+    uint  lock;     // that it is in
 };
 
-vec3 albedo_of(hair_fragment f)
-{
-    return mix(draw.root_color.rgb, draw.tip_color.rgb, f.t) * (1.0 + draw.root_color.w * (2.0 * f.random - 1.0));
-}
+vec3 albedo_of(hair_fragment f) { return tint_of(f.seed, f.lock, f.t, f.random); }
 
 #ifdef HAIR_FIBRES
 vec3 hair_shade(hair_fragment f)
@@ -27,7 +26,7 @@ vec3 hair_shade(hair_fragment f)
     fibre_crowd  crowd  = find_crowd(a, mu);
     float        met;
     vec4         light  = light_through(f.position, f.seed, 1.0 - crowd.on, met);
-    vec3         once   = scatter_once(a, mu, draw.fibre.z * (1.0 + 0.5 * (f.random - 0.5)));
+    vec3         once   = scatter_once(a, mu, draw.fibre.z * tilt_of(f.random), draw.fibre.x * variance_of(f.seed));
     vec3         direct = scatter_often(a, crowd, once, light.x, light.yzw, met) * a.light.y;
     // What shades from the light hides the sky too.
     vec3         sky    = albedo * 0.31830989 * (0.25 + 0.75 * sqrt(light.yzw));
@@ -52,9 +51,11 @@ vec3 hair_shade(hair_fragment f)
     float along   = dot(f.tangent, draw.light_to.xyz);
     float diffuse = sqrt(max(1.0 - along * along, 0.0));
 
-    float shift   = 0.12 + 0.08 * (f.random - 0.5);
-    vec3  first   = vec3(draw.specular.x) * lobe(normalize(f.tangent + shift * normal), halfway, draw.specular.z);
-    vec3  second  = draw.specular.y * albedo * lobe(normalize(f.tangent - 1.5 * shift * normal), halfway, draw.specular.w);
+    float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0);
+    vec2  glossy  = draw.specular.zw / variance_of(f.seed);
+    vec3  first   = vec3(draw.specular.x) * lobe(normalize(f.tangent + shift * normal), halfway, glossy.x);
+    vec3  second  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo *
+                   lobe(normalize(f.tangent - 1.5 * shift * normal), halfway, glossy.y);
     // Light from behind passes through the fibre but does not glint on its near side.
     float facing  = clamp(0.5 + 0.75 * dot(normal, draw.light_to.xyz), 0.0, 1.0);
 

@@ -498,6 +498,21 @@ struct hair_draw_command {
 };
 HAIR_SIZE(hair_draw_command, 32)
 
+// What colours strands have.
+struct hair_tint {
+    hair_vec4 ramp[HAIR_CURVE_INTERVALS + 1]; // rgb: reflectance at even places along a strand
+    hair_vec4 streak;        // rgb: that of streaks; w: share of the strands that are
+    float     brightness;    // relative spread between strands
+    float     hue;           // likewise, of red against blue
+    float     roughness;     // likewise
+    float     tilt;          // likewise
+    float     root_shade;    // share that is lost at the root
+    float     root_recovery; // 1 / share of the strand over which it comes back
+    float     streak_locks;  // share of strands that go by their lock
+    float     sparkle;
+};
+HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 32)
+
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
     hair_mat4 view; // to view space
@@ -507,8 +522,6 @@ struct hair_draw_params {
     hair_vec4 light_to;   // xyz: unit
     hair_vec4 light;      // rgb: irradiance; w: absorption per unit of shadow depth, 0: no shadow
     hair_vec4 ambient;    // rgb: irradiance
-    hair_vec4 root_color; // rgb; w: spread
-    hair_vec4 tip_color;  // rgb
     hair_vec4 specular;   // strengths of both highlights, their exponents
     hair_vec4 fibre;      // variance along, absorption per log of reflectance squared, tilt in radians, scattering
     float     radius;     // m
@@ -534,8 +547,9 @@ struct hair_draw_params {
     float     segment_pixels;  // wanted
     float     least_share;
     float     hidden_share; // as a multiple, of strands behind the skull
+    HAIR_STRUCT(hair_tint) tint;
     HAIR_STRUCT(hair_strand_look) strand;
 };
-HAIR_SIZE(hair_draw_params, 4 * 64 + 10 * 16 + 80 + sizeof(struct hair_strand_look))
+HAIR_SIZE(hair_draw_params, 4 * 64 + 8 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
 
 #endif

@@ -23,6 +23,7 @@ vec3 shade(hair_follower follower, hair_point point, float t)
     f.t        = t;
     f.random   = random(follower.seed + 7u);
     f.seed     = follower.seed;
+    f.lock     = follower.guide0;
     return hair_shade(f);
 }
 

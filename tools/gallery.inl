@@ -48,6 +48,17 @@ PICTURE("color=gray", "--scene demo --set color=gray")
 PICTURE("color=white", "--scene demo --set color=white")
 PICTURE("color=blue", "--scene demo --set color=blue")
 
+ROW("Variety: what chance, water, dye and light make of one colour")
+PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
+PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_shade=0.6")
+PICTURE("A share of grey hairs (streaks by strand)",
+        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_locks=0 --set streak_color.r=0.6 --set "
+        "streak_color.g=0.6 --set streak_color.b=0.6")
+PICTURE("Dyed tips: a ramp of eight colours",
+        "--scene demo --set color=blond --set red=1,1,1,1,0.8,0.35,0.1,0.05 --set green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
+        "blue=1,1,1,1,1.5,2.2,2.5,2.5")
+PICTURE("Lines with a highlight that glitters (sparkle=1)", "--scene demo --set shading=lines --set sparkle=1")
+
 ROW("Level of detail: fewer strands, as much wider, of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")
 PICTURE("A lower one: 15 % of the strands, half the segments",

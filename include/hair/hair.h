@@ -398,6 +398,22 @@ typedef struct hair_look {
     uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
     float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
+    /// Of the colours from root_color to tip_color, at i/7 of the strand and evenly between. At most 1 comes of it.
+    hair_curve red;               ///< Times the red. [0, 4]. Default 1.
+    hair_curve green;             ///< Times the green. [0, 4]. Default 1.
+    hair_curve blue;              ///< Times the blue. [0, 4]. Default 1.
+    float      hue_spread;        ///< Relative spread of red against blue between strands. [0, 1]. Default 0.
+    float      roughness_spread;  ///< Relative spread of roughness between strands. [0, 1]. Default 0.
+    float      tilt_spread;       ///< Relative spread of tilt between strands. [0, 1]. Default 0.25.
+    float      root_shade;        ///< Share of the colour that is lost at the root. [0, 1]. Default 0.
+    float      root_shade_length; ///< Share of the strand over which it comes back. [0.001, 1]. Default 0.15.
+    float      streaks;           ///< Share of the strands that have another colour. [0, 1]. Default 0.
+    float      streak_color[3];   ///< Theirs, from root to tip. [0, 1]. Default (0.6, 0.42, 0.22).
+    float      streak_locks;      ///< Share of strands that go by what their lock does. [0, 1]. Default 0.8.
+    float      sparkle; ///< Of lines: how the coloured highlight glitters along strands. [0, 1]. Default 0.
+    /// Water makes hair darker and smoother, draws strands together and holds down what strays: it changes the numbers
+    /// above, not how they are drawn. How wet hair moves is a preset of hair_physics.
+    float wetness; ///< [0, 1]. Default 0.
 } hair_look;
 HAIR_DESC(hair_look)
 

@@ -51,6 +51,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          hair->label, (double)desc->substep, (double)SHORTEST);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
+    if (!result) hair_look_soak(&hair->draw.look);
     if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
     if (!result) result = hair_check_current(context);
     if (result) return result;
@@ -115,6 +116,7 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     hair_look   own;
     hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
     if (result) return result;
+    hair_look_soak(&own);
     hair->draw.look       = own;
     hair->draw.hits.fresh = 0;
     return HAIR_OK;

@@ -13,9 +13,12 @@ struct hair_fibres {
     struct hair_fibre of;
 };
 
+// tint.c: make a look as wet as it is asked to be.
+void hair_look_soak(hair_look* look);
+
 struct hair_draw {
     struct hair_gl*      gl;
-    hair_look            look;
+    hair_look            look;                            // soaked
     GLuint               follower, patch, params;         // buffers
     GLuint               follower_texture, patch_texture; // the first two, for stages without storage buffers
     uint32_t             followers, patches, smooth_vertices, guides;

@@ -92,10 +92,7 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     const hair_look* look = &draw->look;
     memset(out, 0, sizeof *out);
     if (view) write_view(draw, head, view, out);
-    out->root_color =
-        (hair_vec4){look->root_color[0], look->root_color[1], look->root_color[2], look->color_spread};
-    out->tip_color = (hair_vec4){look->tip_color[0], look->tip_color[1], look->tip_color[2], 0};
-    out->specular  = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
     write_fibre(look, &out->fibre);
     out->radius          = look->radius;
     out->density         = look->density;
@@ -106,5 +103,6 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->collision       = look->collision;
     out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
     hair_draw_write_detail(draw, head, view, out);
+    hair_draw_write_tint(look, &out->tint);
     hair_draw_write_strand(look, &out->strand);
 }

@@ -17,6 +17,8 @@ void  hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out
 float hair_look_most_stray(const hair_look* look);
 float hair_look_most_aside(const hair_look* look);
 float hair_curve_most(const hair_curve* curve);
+// tint.c: what colours strands have.
+void hair_draw_write_tint(const hair_look* look, struct hair_tint* out);
 // Whether it kinks, curls or cuts strands, which takes programs of its own.
 int hair_look_is_styled(const hair_look* look);
 

@@ -1,0 +1,57 @@
+// tint.c - the colours of strands as shaders read them; and what water makes of a look.
+#include "lib/draw/params.h"
+
+void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
+{
+    for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
+        float t     = (float)i / HAIR_CURVE_INTERVALS, c[3];
+        float by[3] = {look->red.at[i], look->green.at[i], look->blue.at[i]};
+        for (int k = 0; k < 3; ++k)
+            c[k] = fminf(by[k] * (look->root_color[k] + t * (look->tip_color[k] - look->root_color[k])), 1);
+        out->ramp[i] = (hair_vec4){c[0], c[1], c[2], 0};
+    }
+    out->streak =
+        (hair_vec4){look->streak_color[0], look->streak_color[1], look->streak_color[2], look->streaks};
+    out->brightness    = look->color_spread;
+    out->hue           = look->hue_spread;
+    out->roughness     = look->roughness_spread;
+    out->tilt          = look->tilt_spread;
+    out->root_shade    = look->root_shade;
+    out->root_recovery = 1 / look->root_shade_length;
+    out->streak_locks  = look->streak_locks;
+    out->sparkle       = look->sparkle;
+}
+
+// A film of water keeps light in, so that it is absorbed more often, and is smoother than scales are.
+static void darken(float color[3], float power)
+{
+    for (int k = 0; k < 3; ++k) color[k] = powf(color[k], power);
+}
+
+static void draw_together(hair_look* look, float wet)
+{
+    static const float clumped[8] = {0, 0.3f, 0.6f, 0.8f, 0.9f, 0.95f, 0.97f, 0.98f};
+    for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
+        float width = 1 - 0.65f * clumped[i];
+        look->clump.at[i] += wet * fmaxf(clumped[i] - look->clump.at[i], 0);
+        look->clump_width.at[i] *= 1 + wet * (width - 1);
+        look->frizz.at[i] *= 1 - 0.8f * wet;
+    }
+    look->tip_strays *= 1 - 0.8f * wet;
+    look->strays *= 1 - 0.8f * wet;
+}
+
+void hair_look_soak(hair_look* look)
+{
+    float wet = look->wetness;
+    if (!(wet > 0)) return;
+    darken(look->root_color, 1 + 0.7f * wet);
+    darken(look->tip_color, 1 + 0.7f * wet);
+    darken(look->streak_color, 1 + 0.7f * wet);
+    look->roughness[0] = fmaxf(look->roughness[0] * (1 - 0.55f * wet), 0.05f);
+    look->roughness[1] = fmaxf(look->roughness[1] * (1 - 0.4f * wet), 0.05f);
+    look->specular[0]  = fminf(look->specular[0] * (1 + 3 * wet), 4);
+    look->gloss[0]     = fminf(look->gloss[0] * (1 + 2 * wet), 1000);
+    look->gloss[1]     = fminf(look->gloss[1] * (1 + 2 * wet), 1000);
+    draw_together(look, wet);
+}
