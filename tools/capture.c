@@ -162,6 +162,7 @@ static int make_hair(struct capture* capture)
     desc.look                      = &scene->settings.look;
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
+    if (!result) result = hair_set_wind(capture->hair, &scene->settings.wind);
     if (!result) result = set_solids(capture, 0, desc.transform);
     return hair_exit_for(result);
 }

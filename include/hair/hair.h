@@ -264,7 +264,7 @@ typedef enum hair_root {
     HAIR_ROOT_FREE         ///< Held by nothing.
 } hair_root;
 
-/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, wind to volume.
+/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, friction to volume.
 typedef struct hair_physics {
     hair_made made;
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
@@ -285,7 +285,6 @@ typedef struct hair_physics {
     float     hold;     ///< Share of gravity that the rest shape bears: 1 keeps the groom. [0, 1]. Default 1.
     hair_root root;     ///< Default HAIR_ROOT_CLAMPED.
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
-    float     wind[3];  ///< Velocity of the air. m/s. [-1000, 1000]. Default 0.
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
     float     cohesion; ///< Decay rate of velocity relative to the hair around. 1/s. [0, 1000]. Default 0.
     /// How hair resists being denser than at rest, as a gas does, by its speed of sound squared: it is e times as
@@ -508,6 +507,21 @@ HAIR_API hair_result hair_set_scalp(hair_instance* hair, const float* positions,
 HAIR_API hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset,
                                            size_t stride, const float to_world[16]);
 
+/// What moves the air.
+typedef enum hair_wind_model {
+    HAIR_WIND_AMBIENT = 0 ///< Air goes as it would without head and solids.
+} hair_wind_model;
+
+typedef struct hair_wind {
+    hair_made       made;
+    hair_wind_model model;       ///< Default HAIR_WIND_AMBIENT.
+    float           velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
+} hair_wind;
+HAIR_DESC(hair_wind)
+
+/// From the next step on the air moves so. NULL, or the defaults: there is no wind, and nothing is paid for it.
+HAIR_API hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind);
+
 typedef enum hair_shape {
     HAIR_SHAPE_SPHERE = 0, ///< size[0]: radius.
     HAIR_SHAPE_CAPSULE,    ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
@@ -586,7 +600,7 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 /// Move the head without moving the hair against it: shape and motion go along, nothing swings.
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
-/// Write all that the coming motion depends on but settings (physics, look): strands, head, solids, ties, the time
+/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, solids, ties, the time
 /// since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
 /// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);

@@ -45,6 +45,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
+    hair->sim.wind = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",

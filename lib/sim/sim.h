@@ -26,6 +26,7 @@ struct hair_sim {
     struct hair_gl*      gl;
     hair_solver          solver;
     hair_physics         physics;
+    hair_wind            wind;
     double               asked_substep;                     // s; 0: as the solver wants
     double               substep;                           // s
     GLuint               guide, rest, state, health, step;  // buffers, as in shared.h

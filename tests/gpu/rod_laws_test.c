@@ -143,16 +143,18 @@ static void the_same_steps_give_the_same_bits(void** state)
 static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
 {
     hair_physics physics = hair_test_bare();
+    hair_wind    wind    = hair_wind_default();
     physics.root         = HAIR_ROOT_FREE;
+    wind.velocity[0] = 3, wind.velocity[2] = -1;
     for (int kind = 0; kind < 4; ++kind) {
         int                      drag = kind / 2, solver = kind % 2;
         struct hair_test_strands strands = hair_test_slanting(16);
         struct hair_test_living  living;
         double                   c = drag ? 5 : 0, worst = 0, t = 0;
         physics.damping = (float)c;
-        physics.wind[0] = 3, physics.wind[2] = -1;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
+        hair_test_blow(&living, &wind);
         for (int k = 0; k < 60; ++k) {
             hair_test_advance(&living, NULL, FRAME);
             hair_test_read_guides(&living);

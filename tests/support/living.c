@@ -8,7 +8,8 @@
 void hair_test_live(struct hair_test* test, const struct hair_test_strands* strands, const hair_desc* desc,
                     struct hair_test_living* out)
 {
-    *out               = (struct hair_test_living){.test = test, .physics = hair_physics_default()};
+    *out = (struct hair_test_living){
+        .test = test, .physics = hair_physics_default(), .wind = hair_wind_default()};
     hair_groom_desc of = hair_test_groom_desc(&test->host, strands);
     of.strands_are     = HAIR_STRANDS_GUIDES;
     of.follower_count  = strands->count;
@@ -70,6 +71,12 @@ void hair_test_advance(struct hair_test_living* living, const struct hair_refere
         hair_test_ok(living->test, hair_set_transform(living->hair, transform));
     }
     hair_test_ok(living->test, hair_step(living->hair, (float)dt));
+}
+
+void hair_test_blow(struct hair_test_living* living, const hair_wind* wind)
+{
+    living->wind = wind ? *wind : hair_wind_default();
+    hair_test_ok(living->test, hair_set_wind(living->hair, wind));
 }
 
 void hair_test_wait(struct hair_test_living* living, uint32_t frames)
@@ -224,10 +231,7 @@ static void fill_material(const hair_physics* physics, double length, struct hai
     out->bend[1]      = bend / flat;
     out->twist        = bend * 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
     out->damping      = (double)physics->damping;
-    for (int k = 0; k < 3; ++k) {
-        out->gravity[k] = (double)physics->gravity[k];
-        out->wind[k]    = (double)physics->wind[k];
-    }
+    for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
 }
 
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
@@ -240,6 +244,7 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
     struct arrays*                 arrays  = calloc(1, sizeof *arrays);
     fill_arrays(living->groom->rest + of->first, of->count, physics, arrays);
     fill_material(physics, (double)of->arc_length, &desc);
+    for (int k = 0; k < 3; ++k) desc.wind[k] = (double)living->wind.velocity[k];
     desc.vertices  = of->count;
     desc.positions = arrays->positions;
     desc.lengths   = arrays->lengths;

@@ -11,6 +11,7 @@ struct hair_test_living {
     hair_groom*       groom;
     hair_instance*    hair;
     hair_physics      physics;
+    hair_wind         wind;
     uint32_t          vertices;  // of all guides
     float*            positions; // where they were when read last, xyz
     float*            before;    // and the time before
@@ -36,6 +37,8 @@ void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices
 // The head is at `head` at the end of the step; NULL: it stays.
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head,
                        double dt);
+// From the next step on; NULL: there is none.
+void hair_test_blow(struct hair_test_living* living, const hair_wind* wind);
 // Of `frames` frames of 1/60 s, the head as it is.
 void hair_test_wait(struct hair_test_living* living, uint32_t frames);
 // Into positions, which become `before`. All must be finite.

@@ -64,7 +64,7 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set clump=1,2,3,4,5,6,7,8,9", "not one to eight finite numbers"},
         {"-o $D/a.png --set clump=0,2", "hair_look.clump.at[4] is 1.14"},
         {"-o $D/a.png --set curl_like=$D/none.hair", "none.hair"},
-        {"-o $D/a.png --set wind.x=1001", "hair_physics.wind[0] is 1001"},
+        {"-o $D/a.png --set wind.x=1001", "hair_wind.velocity[0] is 1001"},
         {"-o $D/a.png --set substep=1e-6", "hair_desc.substep is 1e-06"},
         {"-o $D/a.png --primitive dance", "not one of: ribbons, lines"},
         {"-o $D/a.png --set damping", "KEY=VALUE"},

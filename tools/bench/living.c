@@ -59,6 +59,7 @@ static hair_result make_instance(struct bench_living* living)
     desc.max_dt                     = (float)scene->max_dt;
     desc.physics                    = &scene->physics;
     hair_result result = hair_create(living->bench->context, living->groom, &desc, &living->hair);
+    if (!result) result = hair_set_wind(living->hair, &scene->wind);
     if (result) return result;
     // The groom moves vertices that are too near to each other. Where it has them is read with the head at the origin.
     float    head[16];

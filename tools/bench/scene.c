@@ -8,6 +8,7 @@ struct bench_scene bench_scene_default(void)
     struct bench_scene scene = {.strands = 1, .max_dt = 0.1, .head = {{0, 0, 0}, {0, 0, 0, 1}}};
     hair_physics*      p     = &scene.physics;
     *p                       = hair_physics_default();
+    scene.wind               = hair_wind_default();
     p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = 0;
     p->angular                                                    = 0;
     return scene;
@@ -153,7 +154,7 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     desc.head         = scene->head;
     for (uint32_t k = 0; k < 3; ++k) {
         desc.gravity[k] = (double)p->gravity[k];
-        desc.wind[k]    = (double)p->wind[k];
+        desc.wind[k]    = (double)scene->wind.velocity[k];
     }
     return hair_reference_rod_create(&desc);
 }

@@ -20,6 +20,7 @@ struct bench_scene {
     double       substep; // s; 0: as the solver wants
     double       max_dt;  // s
     hair_physics physics;
+    hair_wind    wind;
 
     struct hair_reference_rod_pose head; // at the start
 };

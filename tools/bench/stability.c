@@ -133,7 +133,7 @@ static bool recover(struct bench_watch* watch, const double* rest, double* secon
     struct bench_living* living = watch->living;
     watch->solid_count          = 0;
     *seconds                    = 0;
-    if (hair_set_physics(living->hair, &watch->calm)) return false;
+    if (hair_set_physics(living->hair, &watch->calm) || hair_set_wind(living->hair, NULL)) return false;
     for (int k = 1; k <= 360; ++k) {
         if (!bench_watch_step(watch, FRAME)) return false;
         double most = 0;

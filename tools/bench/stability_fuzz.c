@@ -55,7 +55,7 @@ static void any_vector(uint64_t* state, double longest, float out[3])
     for (int k = 0; k < 3; ++k) out[k] = (float)(length * direction[k]);
 }
 
-static void any_physics(uint64_t* state, hair_physics* p)
+static void any_physics(uint64_t* state, hair_physics* p, hair_wind* wind)
 {
     p->damping        = any(state, 4, 0, 1000);
     p->pull_root      = any(state, 4, 0, 30);
@@ -76,10 +76,11 @@ static void any_physics(uint64_t* state, hair_physics* p)
     p->tip_mass       = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
     p->friction       = any(state, 0.3, 0, 10);
     any_vector(state, 1000, p->gravity);
-    any_vector(state, 1000, p->wind);
+    any_vector(state, 1000, wind->velocity);
     if (one_of(state, 2)) {
-        p->gravity[0] = p->gravity[2] = p->wind[0] = p->wind[1] = p->wind[2] = 0;
-        p->gravity[1]                                                        = -9.81f;
+        p->gravity[0] = p->gravity[2] = 0;
+        p->gravity[1]                 = -9.81f;
+        *wind                         = hair_wind_default();
     }
 }
 
@@ -110,7 +111,7 @@ static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, 
 {
     struct bench_scene scene = bench_scene_default();
     any_strand(state, &scene);
-    any_physics(state, &scene.physics);
+    any_physics(state, &scene.physics, &scene.wind);
     scene.strands = 1 + one_of(state, 4);
     scene.solver  = solver;
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
@@ -170,8 +171,9 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
         if (one_of(state, 16) == 0) {
-            any_physics(state, &watch->calm);
-            if (hair_set_physics(hair, &watch->calm)) return false;
+            hair_wind wind = hair_wind_default();
+            any_physics(state, &watch->calm, &wind);
+            if (hair_set_physics(hair, &watch->calm) || hair_set_wind(hair, &wind)) return false;
         }
         if (one_of(state, 8) == 0) watch->solid_count = one_of(state, 5);
         for (uint32_t s = 0; s < watch->solid_count; ++s)

@@ -183,10 +183,10 @@ static bool shake_in_honey(struct bench_watch* watch)
 }
 static bool blow(struct bench_watch* watch)
 {
-    hair_physics physics = watch->calm;
-    physics.wind[0]      = 600;
-    physics.wind[2]      = 800;
-    return shake_under(watch, &physics);
+    hair_wind wind   = hair_wind_default();
+    wind.velocity[0] = 600;
+    wind.velocity[2] = 800;
+    return !hair_set_wind(watch->living->hair, &wind) && shake(watch, 2, FRAME);
 }
 // As dense as hair can be: strands in one place, which a crowd would have apart.
 static void crowd(struct bench_scene* scene)

@@ -88,7 +88,8 @@ static bool bring_to_life(struct bench_studio* studio, const struct bench_studio
     desc.look                = &scene->settings.look;
     place(studio);
     memcpy(desc.transform, studio->transform, sizeof desc.transform);
-    if (hair_create(studio->bench->context, studio->groom, &desc, &studio->hair) || !place(studio))
+    if (hair_create(studio->bench->context, studio->groom, &desc, &studio->hair) ||
+        hair_set_wind(studio->hair, &scene->settings.wind) || !place(studio))
         return false;
     for (float time = 0; time < scene->settle; time += 1.0f / STUDIO_FPS)
         if (hair_step(studio->hair, 1.0f / STUDIO_FPS)) return false;

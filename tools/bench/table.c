@@ -64,12 +64,12 @@ static bool need(struct bench* bench, struct column* column)
     column->alive                 = bench_studio_make(bench, &desc, &column->studio);
     column->refused               = !column->alive;
     if (!column->alive) return false;
-    column->studio.bare                   = true;
-    hair_physics physics                  = column->studio.scene.settings.physics;
-    physics.wind[0]                       = WIND;
-    physics.iterations                    = 20;
-    column->studio.scene.settings.physics = physics;
-    return !hair_set_physics(column->studio.hair, &physics);
+    column->studio.bare            = true;
+    struct hair_settings* settings = &column->studio.scene.settings;
+    settings->wind.velocity[0]     = WIND;
+    settings->physics.iterations   = 20;
+    return !hair_set_physics(column->studio.hair, &settings->physics) &&
+           !hair_set_wind(column->studio.hair, &settings->wind);
 }
 
 static bool run_frames(struct bench_studio* studio, const struct cell* cell, uint32_t frames, double* ms)

@@ -17,6 +17,7 @@ struct hair_settings {
     hair_style_desc style;
     hair_groom_desc groom;
     hair_physics    physics;
+    hair_wind       wind;
     hair_look       look;
     hair_desc       desc;
     hair_view       view;
