@@ -82,6 +82,14 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_STRAND 4  // hair_strand[]       per strand that is drawn
 #define HAIR_BIND_COMMAND 5 // hair_draw_command[2]
 
+// Of the passes of the fluid, which read what they do not write as textures:
+#define HAIR_BIND_VELOCITY 0 // float[]     per axis and slot: of the face along the axis, m/s; see glsl/wind/fluid.glsl
+#define HAIR_BIND_WALL 1     // float[]     likewise: of what closes it
+#define HAIR_BIND_OPEN 2     // uint[]      per slot of every level: what is open of its faces, in 1023rds of 10 bits
+#define HAIR_BIND_PRESSURE 3 // float[]     per cell of every level: difference of pressure as it changes a velocity, m/s
+#define HAIR_BIND_RIGHT 4    // float[]     likewise: right side of its equation, m/s
+#define HAIR_BIND_MOTION 5   // hair_fluid_motion[] per solid, never written
+
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2
@@ -94,6 +102,8 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_FIELD 2        // hair_field_params
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, likewise
+#define HAIR_BIND_FLUID 0        // hair_fluid_params, of the passes of the fluid,
+#define HAIR_BIND_LEVEL 1        // and hair_fluid_level
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids and the field
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
@@ -118,11 +128,19 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid
 #define HAIR_UNIT_FIBRE 10   // of lib/draw/fibre.h
+#define HAIR_UNIT_AIR 11     // the fluid's velocity at the middles of its cells, m/s
+#define HAIR_UNIT_VELOCITY 0 // of the passes of the fluid: HAIR_BIND_VELOCITY as it was,
+#define HAIR_UNIT_CARRIED 1  // as it has been carried along,
+#define HAIR_UNIT_OPEN 2     // and what else is bound as its slots say
+#define HAIR_UNIT_PRESSURE 3
+#define HAIR_UNIT_RIGHT 4
+#define HAIR_UNIT_WALL 6
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
 #define HAIR_IMAGE_FIELD 0
 #define HAIR_IMAGE_SOLID 1
+#define HAIR_IMAGE_AIR 0 // of the pass that writes the texture at HAIR_UNIT_AIR
 
 #define HAIR_GROUP_SIZE 64           // threads of a work group, but for those of a guide: lib/gl/passes.inl
 #define HAIR_MAX_GUIDES 262144       // of a groom
@@ -149,6 +167,10 @@ typedef uint32_t hair_uint;
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32       // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
+
+#define HAIR_FLUID_BOTTOM 8 // cells along an axis of the coarsest level, at most: see glsl/wind/bottom.comp
+#define HAIR_FLUID_BOTTOM_THREADS 256
+#define HAIR_FLUID_FASTEST 1e4 // m/s: what is faster is taken for no number
 
 #define HAIR_FIBRE_COLUMNS 64 // of its table
 #define HAIR_FIBRE_ROWS 16
@@ -445,6 +467,38 @@ struct hair_field_brick {
     hair_uint unused;
 };
 HAIR_SIZE(hair_field_brick, 16)
+
+// The fluid's box is a cube along the world's axes.
+struct hair_fluid_params {
+    hair_vec4 lower;    // xyz: its corner, from the head's origin, m; w: side of a cell, m
+    hair_vec4 shift;    // xyz: by how many cells it has moved since the last step; w: cells per m/s in a step, s/m
+    hair_vec4 wind;     // xyz: of the scene, m/s
+    hair_vec4 gain;     // xyz: by how much that has changed since the last step, m/s
+    hair_vec4 rotation; // of the head: unit quaternion
+    hair_uint cells;    // along each axis
+    hair_uint solids;   // 0: there are none in reach
+    hair_uint open;     // 0: the box is closed all round
+    hair_uint unused;
+};
+HAIR_SIZE(hair_fluid_params, 96)
+
+// A level of the fluid's grid, each of half as many cells along an axis as the one before; and what a pass does there.
+struct hair_fluid_level {
+    hair_uint cells; // along each axis
+    hair_uint slot, cell; // its first
+    hair_uint coarse_slot, coarse_cell; // and those of the next level
+    hair_uint color;
+    float     relax; // share of what fits a cell that is taken
+    hair_uint unused;
+};
+HAIR_SIZE(hair_fluid_level, 32)
+
+// A solid's velocity: at a place, this and spin x place.
+struct hair_fluid_motion {
+    hair_vec4 velocity; // xyz: at the head's origin, m/s
+    hair_vec4 spin;     // xyz: 1/s
+};
+HAIR_SIZE(hair_fluid_motion, 32)
 
 // A cubic over an interval: c.x + x (c.y + x (c.z + x c.w)), x from 0 to 1.
 struct hair_cubic {

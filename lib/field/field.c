@@ -29,7 +29,8 @@ static void clear(struct hair_solid_field* field)
     hair_free(&gl->host, field->dirty);
     hair_free(&gl->host, field->members);
     hair_free(&gl->host, field->best);
-    *field = (struct hair_solid_field){.gl = gl, .forms = field->forms, .box = field->box};
+    *field = (struct hair_solid_field){
+        .gl = gl, .forms = field->forms, .box = field->box, .writes = field->writes + 1};
 }
 
 void hair_field_destroy(struct hair_solid_field* field)
@@ -209,6 +210,7 @@ static hair_result write_marked(struct hair_solid_field* field)
         if (result) break;
     }
     hair_field_end(field, &job);
+    field->writes += ran != 0;
     // What is written again must not be overtaken, nor what the host reads of it.
     if (ran) gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     return result;

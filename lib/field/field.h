@@ -24,6 +24,7 @@ struct hair_solid_field {
     uint32_t              near;    // of them that reach into the box
     unsigned char*        dirty;   // per brick: is to be written
     uint32_t*             members; // per brick
+    uint32_t              writes;  // how often it has been written or let go
     float*                best; // per brick, as it was written: no voxel is farther from the nearest solid, m
 };
 

@@ -14,7 +14,7 @@ typedef enum hair_gl_pass {
     HAIR_GL_PASS_COUNT
 } hair_gl_pass;
 
-#define HAIR_GL_UNITS (HAIR_UNIT_FIBRE + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_AIR + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 
@@ -62,7 +62,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass but those of GUIDE_PASS, of the crowd, of hits and of styles that nothing has needed; those that fail keep the
+// Compile every pass but those of GUIDE_PASS, of the crowd, the fluid, of hits and of styles that nothing has needed; those that fail keep the
 // program they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 

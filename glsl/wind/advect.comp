@@ -1,0 +1,26 @@
+// advect.comp - velocities carried along by the air: each face gets what was where its air comes from, linear between
+// faces (Stam 1999, "Stable Fluids"). Air from outside the box is the wind there. One thread per slot.
+#version 450 core
+#include "wind/trace.glsl"
+#include "wind/ambient.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_VELOCITY) writeonly buffer velocity_buffer { float velocity[]; };
+
+void main()
+{
+    uint side = fluid.cells + 1u, i = thread();
+    if (i >= side * side * side) return;
+    ivec3 at = place_of(i, side);
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3  from = trace(face_place(axis, at) + fluid.shift.xyz, -1.0);
+        vec4  near, far;
+        float carried = ambient_at(from - fluid.shift.xyz)[axis];
+        if (is_in_box(from)) {
+            fluid_spot spot = spot_at(axis, from);
+            fetch_faces(velocity_texture, axis, spot, near, far);
+            carried = between(near, far, spot.part);
+        }
+        velocity[face_of(axis, at)] = carried;
+    }
+}

@@ -1,0 +1,27 @@
+// divergence.comp - what flows into a cell, which its pressure is to drive out again: through what is open of its faces the
+// air, through the rest what closes it. Begins the finest level, with no pressure. One thread per cell.
+#version 450 core
+#include "wind/fluid.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(binding = HAIR_UNIT_WALL) uniform samplerBuffer wall_texture;
+layout(std430, binding = HAIR_BIND_PRESSURE) writeonly buffer pressure_buffer { float pressure[]; };
+layout(std430, binding = HAIR_BIND_RIGHT) writeonly buffer right_buffer { float right[]; };
+
+float flow_through(int axis, ivec3 at)
+{
+    int   face  = face_of(axis, at);
+    float share = open_share(texelFetch(open_texture, index_of(at, fluid.cells + 1u)).x, axis);
+    return mix(texelFetch(wall_texture, face).x, texelFetch(velocity_texture, face).x, share);
+}
+
+void main()
+{
+    uint i = thread();
+    if (i >= fluid.cells * fluid.cells * fluid.cells) return;
+    ivec3 at  = place_of(i, fluid.cells);
+    float sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) sum += flow_through(axis, at) - flow_through(axis, at + axis_of(axis));
+    right[i]    = sum;
+    pressure[i] = 0.0;
+}

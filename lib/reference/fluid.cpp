@@ -1,0 +1,296 @@
+// fluid.cpp - air on a staggered grid, in double precision.
+#include "lib/reference/fluid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace
+{
+
+using place = std::array<double, 3>;
+using cell  = std::array<int, 3>;
+
+struct grid {
+    int n;
+
+    int size() const { return n * n * n; }
+    int faces() const { return (n + 1) * (n + 1) * (n + 1); }
+    int face(int axis, const cell& at) const
+    {
+        return axis * faces() + at[0] + (n + 1) * (at[1] + (n + 1) * at[2]);
+    }
+    int  index(const cell& at) const { return at[0] + n * (at[1] + n * at[2]); }
+    cell at(int i) const { return {i % n, i / n % n, i / n / n}; }
+    bool holds(const cell& at) const
+    {
+        return std::all_of(at.begin(), at.end(), [this](int k) { return k >= 0 && k < n; });
+    }
+    bool holds(const place& at) const
+    {
+        return std::all_of(at.begin(), at.end(), [this](double k) { return k >= 0 && k <= n; });
+    }
+    // A face there is: along its own axis one more.
+    bool is_face(int axis, const cell& at) const
+    {
+        cell below = at;
+        below[axis] -= at[axis] == n;
+        return holds(below);
+    }
+};
+
+cell next(cell at, int axis, int by)
+{
+    at[axis] += by;
+    return at;
+}
+
+place middle(int axis, const cell& at)
+{
+    place p;
+    for (int k = 0; k < 3; ++k) p[k] = at[k] + (k == axis ? 0 : 0.5);
+    return p;
+}
+
+// Linear between the eight around, of points that lie `offset` from the cells' corners, count[k] of them along an axis.
+struct corners {
+    std::array<cell, 8>   at;
+    std::array<double, 8> weight;
+
+    corners(const place& p, const place& offset, const cell& count)
+    {
+        cell  lowest;
+        place part;
+        for (int k = 0; k < 3; ++k) {
+            const double g = std::clamp(p[k] - offset[k], 0.0, count[k] - 1.0);
+            lowest[k]      = std::min(int(std::floor(g)), count[k] - 2);
+            part[k]        = g - lowest[k];
+        }
+        for (int c = 0; c < 8; ++c) {
+            weight[c] = 1;
+            for (int k = 0; k < 3; ++k) {
+                at[c][k] = lowest[k] + (c >> k & 1);
+                weight[c] *= c >> k & 1 ? part[k] : 1 - part[k];
+            }
+        }
+    }
+};
+
+corners faces_around(const grid& g, int axis, const place& p)
+{
+    place offset = {0.5, 0.5, 0.5};
+    cell  count  = {g.n, g.n, g.n};
+    offset[axis] = 0, count[axis] = g.n + 1;
+    return corners(p, offset, count);
+}
+
+double sample(const grid& g, const double* faces, int axis, const place& p)
+{
+    const corners c   = faces_around(g, axis, p);
+    double        sum = 0;
+    for (int k = 0; k < 8; ++k) sum += c.weight[k] * faces[g.face(axis, c.at[k])];
+    return sum;
+}
+
+place way(const hair_reference_flow& flow, const place& p)
+{
+    const grid    g{int(flow.cells)};
+    const corners c(p, {0.5, 0.5, 0.5}, {g.n, g.n, g.n});
+    place         sum = {0, 0, 0};
+    for (int k = 0; k < 8; ++k)
+        for (int a = 0; a < 3; ++a)
+            sum[a] += flow.cells_per * c.weight[k] * flow.air[3 * g.index(c.at[k]) + a];
+    for (double& a : sum) a = std::clamp(a, -4.0 * g.n, 4.0 * g.n);
+    return sum;
+}
+
+// By the midpoint rule.
+place trace(const hair_reference_flow& flow, const place& p, double direction)
+{
+    const place first = way(flow, p);
+    place       half, end;
+    for (int k = 0; k < 3; ++k) half[k] = p[k] + 0.5 * direction * first[k];
+    const place second = way(flow, half);
+    for (int k = 0; k < 3; ++k) end[k] = p[k] + direction * second[k];
+    return end;
+}
+
+place shifted(const hair_reference_flow& flow, place p, double by)
+{
+    for (int k = 0; k < 3; ++k) p[k] += by * flow.shift[k];
+    return p;
+}
+
+// Of each face that there is.
+template <typename Function> void for_faces(const grid& g, Function function)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < g.faces(); ++i) {
+            const int  m  = g.n + 1;
+            const cell at = {i % m, i / m % m, i / m / m};
+            if (g.is_face(axis, at)) function(axis, at);
+        }
+}
+
+// The sums of the equation of a cell over its six sides: pressure is 0 on the box itself.
+struct row {
+    double whole = 0, neighbours = 0;
+
+    row(const grid& g, const double* open, const double* pressure, const cell& at)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = 0; side < 2; ++side) {
+                const double share = open[g.face(axis, next(at, axis, side))];
+                const cell   other = next(at, axis, 2 * side - 1);
+                whole += g.holds(other) ? share : 2 * share;
+                if (g.holds(other)) neighbours += share * pressure[g.index(other)];
+            }
+    }
+};
+
+} // namespace
+
+double hair_reference_open(uint32_t axis, const int32_t                                             at[3],
+                           double (*distance)(const double place[3], const void* user), const void* user)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+            double p[3] = {double(at[0]), double(at[1]), double(at[2])};
+            p[(axis + 1) % 3] += (i + 0.5) / 4;
+            p[(axis + 2) % 3] += (k + 0.5) / 4;
+            sum += std::clamp(0.5 + 4 * distance(p, user), 0.0, 1.0) / 16;
+        }
+    return sum;
+}
+
+void hair_reference_coarsen(uint32_t cells, const double* open, double* coarse)
+{
+    const grid fine{int(cells)}, g{int(cells) / 2};
+    for_faces(g, [&](int axis, const cell& at) {
+        double sum = 0;
+        for (int k = 0; k < 4; ++k) {
+            cell part = {2 * at[0], 2 * at[1], 2 * at[2]};
+            part[(axis + 1) % 3] += k & 1, part[(axis + 2) % 3] += k >> 1;
+            sum += open[fine.face(axis, part)] / 4;
+        }
+        coarse[g.face(axis, at)] = sum;
+    });
+}
+
+void hair_reference_carry(const hair_reference_flow* flow, double* carried)
+{
+    const grid g{int(flow->cells)};
+    for_faces(g, [&](int axis, const cell& at) {
+        const place from          = trace(*flow, shifted(*flow, middle(axis, at), 1), -1);
+        carried[g.face(axis, at)] = g.holds(from) ? sample(g, flow->before, axis, from) : flow->wind[axis];
+    });
+}
+
+void hair_reference_correct(const hair_reference_flow* flow, const double* carried, double* after)
+{
+    const grid g{int(flow->cells)};
+    for_faces(g, [&](int axis, const cell& at) {
+        const place own  = shifted(*flow, middle(axis, at), 1);
+        const place from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
+        double&     out = after[g.face(axis, at)];
+        out             = carried[g.face(axis, at)];
+        if (!g.holds(from)) return;
+        if (g.holds(to) && g.holds(own)) {
+            const corners c     = faces_around(g, axis, from);
+            double        least = INFINITY, most = -INFINITY;
+            for (const cell& corner : c.at) {
+                least = std::min(least, flow->before[g.face(axis, corner)]);
+                most  = std::max(most, flow->before[g.face(axis, corner)]);
+            }
+            out += (sample(g, flow->before, axis, own) - sample(g, carried, axis, to)) / 2;
+            out = std::clamp(out, least, most);
+        }
+        out += flow->gain[axis];
+    });
+}
+
+void hair_reference_inflow(uint32_t cells, const double* open, const double* wall, const double* velocity,
+                           double* right)
+{
+    const grid g{int(cells)};
+    for (int i = 0; i < g.size(); ++i) {
+        right[i] = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = 0; side < 2; ++side) {
+                const int    f    = g.face(axis, next(g.at(i), axis, side));
+                const double flow = open[f] * velocity[f] + (1 - open[f]) * wall[f];
+                right[i] += side ? -flow : flow;
+            }
+    }
+}
+
+void hair_reference_relax(uint32_t cells, const double* open, const double* right, uint32_t color,
+                          double share, double* pressure)
+{
+    const grid                g{int(cells)};
+    const std::vector<double> before(pressure, pressure + g.size());
+    for (int i = 0; i < g.size(); ++i) {
+        const cell at = g.at(i);
+        if (color < 2 && uint32_t(at[0] + at[1] + at[2]) % 2 != color) continue;
+        const row r(g, open, before.data(), at);
+        if (r.whole > 0) pressure[i] += share * ((right[i] + r.neighbours) / r.whole - before[i]);
+    }
+}
+
+void hair_reference_residual(uint32_t cells, const double* open, const double* right, const double* pressure,
+                             double* left)
+{
+    const grid g{int(cells)};
+    for (int i = 0; i < g.size(); ++i) {
+        const row r(g, open, pressure, g.at(i));
+        left[i] = r.whole > 0 ? right[i] + r.neighbours - r.whole * pressure[i] : 0;
+    }
+}
+
+void hair_reference_restrict(uint32_t cells, const double* left, double* coarse_right)
+{
+    const grid fine{int(cells)}, g{int(cells) / 2};
+    std::fill(coarse_right, coarse_right + g.size(), 0);
+    for (int i = 0; i < fine.size(); ++i) {
+        const cell at = fine.at(i);
+        coarse_right[g.index({at[0] / 2, at[1] / 2, at[2] / 2})] += left[i] / 2;
+    }
+}
+
+void hair_reference_prolong(uint32_t cells, const double* coarse, double* pressure)
+{
+    const grid fine{int(cells)}, g{int(cells) / 2};
+    for (int i = 0; i < fine.size(); ++i) {
+        const cell at = fine.at(i);
+        pressure[i] += coarse[g.index({at[0] / 2, at[1] / 2, at[2] / 2})];
+    }
+}
+
+void hair_reference_release(uint32_t cells, const double* open, const double* wall, const double* pressure,
+                            double* velocity)
+{
+    const grid g{int(cells)};
+    for_faces(g, [&](int axis, const cell& at) {
+        const int  f     = g.face(axis, at);
+        const cell below = next(at, axis, -1);
+        double     slope = 0;
+        if (!g.holds(below))
+            slope = 2 * pressure[g.index(at)];
+        else if (!g.holds(at))
+            slope = -2 * pressure[g.index(below)];
+        else
+            slope = pressure[g.index(at)] - pressure[g.index(below)];
+        velocity[f] = open[f] > 0 ? velocity[f] - slope : wall[f];
+    });
+}
+
+void hair_reference_air(uint32_t cells, const double* velocity, double* air)
+{
+    const grid g{int(cells)};
+    for (int i = 0; i < g.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            air[3 * i + axis] =
+                (velocity[g.face(axis, g.at(i))] + velocity[g.face(axis, next(g.at(i), axis, 1))]) / 2;
+}

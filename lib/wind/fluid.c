@@ -1,0 +1,329 @@
+// fluid.c - the fluid's buffers, and its steps.
+#include "lib/wind/fluid.h"
+
+#include <string.h>
+
+#define ALIGNMENT 256      // of ranges of uniform buffers: the most that a driver may ask for
+#define MOST_MOVING 65536u // solids whose velocity is known; those of higher numbers are taken to be at rest
+#define FASTEST 1000.0f    // m/s: of a solid
+
+// Making ----------------------------------------------------------------------------------------------------
+
+static hair_result make(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
+                        struct hair_fluid_buffer* out)
+{
+    hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
+    return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
+}
+
+static void let_go(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
+{
+    hair_gl_free_texture(fluid->gl, &buffer->texture);
+    hair_gl_free_buffer(fluid->gl, &buffer->buffer);
+}
+
+// Halved until the coarsest is small enough. Returns how many slots they have together.
+static uint32_t find_levels(struct hair_fluid* fluid)
+{
+    struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
+    for (fluid->levels = 0;; at.cells /= 2) {
+        fluid->level[fluid->levels++] = at;
+        at.slot += (at.cells + 1) * (at.cells + 1) * (at.cells + 1);
+        at.cell += at.cells * at.cells * at.cells;
+        if (at.cells <= HAIR_FLUID_BOTTOM) break;
+    }
+    fluid->level[fluid->levels] = at;
+    return at.slot;
+}
+
+// The share that suits; of relaxation by the slowest wave that the box holds (Young 1954).
+static float suitable(const struct hair_fluid_desc* desc)
+{
+    if (desc->relax > 0) return desc->relax;
+    if (desc->method == HAIR_FLUID_RELAXATION) return 2 / (1 + sinf(3.14159265f / (float)desc->cells));
+    return desc->method == HAIR_FLUID_JACOBI ? 1 : 1.15f;
+}
+
+// Written once: a part for each level and color.
+static hair_result make_levels(struct hair_fluid* fluid)
+{
+    unsigned char bytes[2 * HAIR_FLUID_LEVELS * ALIGNMENT] = {0};
+    for (uint32_t i = 0; i < 2 * fluid->levels; ++i) {
+        const struct hair_fluid_level_at* at    = &fluid->level[i / 2];
+        struct hair_fluid_level           level = {.cells       = at->cells,
+                                                   .slot        = at->slot,
+                                                   .cell        = at->cell,
+                                                   .coarse_slot = at[1].slot,
+                                                   .coarse_cell = at[1].cell,
+                                                   .color       = i % 2,
+                                                   .relax       = suitable(&fluid->desc)};
+        memcpy(bytes + (size_t)i * ALIGNMENT, &level, sizeof level);
+    }
+    hair_result result = hair_gl_uniform(fluid->gl, "hair fluid levels", sizeof bytes, &fluid->level_params);
+    if (!result) hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
+    return result;
+}
+
+static int takes(const struct hair_fluid* fluid, hair_gl_pass pass)
+{
+    int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
+                 pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
+    if (coarse) return fluid->desc.method == HAIR_FLUID_MULTIGRID;
+    if (pass == HAIR_GL_FLUID_SMOOTH) return fluid->desc.method != HAIR_FLUID_JACOBI;
+    return pass != HAIR_GL_FLUID_JACOBI || fluid->desc.method == HAIR_FLUID_JACOBI;
+}
+
+static hair_result make_all(struct hair_fluid* fluid)
+{
+    struct hair_gl*   gl      = fluid->gl;
+    hair_fluid_method method  = fluid->desc.method;
+    uint32_t          n       = fluid->desc.cells, slots, cells;
+    const uint32_t    size[3] = {n, n, n};
+    hair_result       result  = HAIR_OK;
+    slots                     = find_levels(fluid);
+    cells                     = fluid->level[fluid->levels].cell;
+    size_t faces              = 3 * hair_fluid_slots(fluid);
+    for (int pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
+        if (takes(fluid, (hair_gl_pass)pass)) result = hair_gl_need(gl, (hair_gl_pass)pass);
+    for (int i = 0; i < 3 && !result; ++i)
+        result = make(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
+    if (!result) result = make(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);
+    if (!result) result = make(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->open);
+    if (!result) result = make(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->right);
+    for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1) && !result; ++i)
+        result = make(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
+    if (!result) result = hair_gl_uniform(gl, "hair fluid", sizeof(struct hair_fluid_params), &fluid->params);
+    if (!result)
+        result = hair_gl_uniform(gl, "hair fluid motion", sizeof(struct hair_fluid_motion), &fluid->motion);
+    if (!result) result = make_levels(fluid);
+    return result ? result : hair_gl_texture_3d(gl, "hair air", GL_RGBA16F, size, GL_LINEAR, &fluid->air);
+}
+
+hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
+                              const struct hair_fluid_desc* desc)
+{
+    *fluid             = (struct hair_fluid){.gl = gl, .desc = *desc};
+    hair_result result = make_all(fluid);
+    if (result)
+        hair_fluid_destroy(fluid);
+    else
+        hair_fluid_forget(fluid);
+    return result;
+}
+
+void hair_fluid_destroy(struct hair_fluid* fluid)
+{
+    if (!fluid->gl) return;
+    for (int i = 0; i < 3; ++i) let_go(fluid, &fluid->velocity[i]);
+    for (int i = 0; i < 2; ++i) let_go(fluid, &fluid->pressure[i]);
+    let_go(fluid, &fluid->wall);
+    let_go(fluid, &fluid->open);
+    let_go(fluid, &fluid->right);
+    hair_gl_free_buffer(fluid->gl, &fluid->params);
+    hair_gl_free_buffer(fluid->gl, &fluid->level_params);
+    hair_gl_free_buffer(fluid->gl, &fluid->motion);
+    hair_gl_free_texture(fluid->gl, &fluid->air);
+    *fluid = (struct hair_fluid){0};
+}
+
+void hair_fluid_forget(struct hair_fluid* fluid)
+{
+    static const float still[4];
+    if (fluid->gl) fluid->gl->ClearTexImage(fluid->air, 0, GL_RGBA, GL_FLOAT, still);
+    fluid->fresh = 1;
+}
+
+// Passes ----------------------------------------------------------------------------------------------------
+
+static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
+{
+    struct hair_gl* gl = fluid->gl;
+    // What is carried along comes into the next, and corrected into the one after.
+    const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
+    carried                             = &fluid->velocity[(fluid->now + 1) % 3];
+    next                                = &fluid->velocity[(fluid->now + 2) % 3];
+    int    early                        = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
+    int    jacobi                       = pass == HAIR_GL_FLUID_JACOBI;
+    GLuint write[]                      = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
+                      fluid->wall.buffer,
+                      fluid->open.buffer,
+                      fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
+                      fluid->right.buffer,
+                      fluid->motion};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
+    gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
+    gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
+    gl->BindTextureUnit(HAIR_UNIT_OPEN, fluid->open.texture);
+    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
+    gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
+    gl->BindTextureUnit(HAIR_UNIT_WALL, fluid->wall.texture);
+}
+
+void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
+                    uint32_t threads)
+{
+    const GLintptr   first = (GLintptr)(2 * level + color) * ALIGNMENT;
+    const GLsizeiptr size  = sizeof(struct hair_fluid_level);
+    bind(fluid, pass);
+    fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
+    hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
+}
+
+// A step ----------------------------------------------------------------------------------------------------
+
+static hair_vec3 limited(hair_vec3 v)
+{
+    float length = hair_length(v);
+    if (length <= FASTEST) return v;
+    return length < INFINITY ? hair_scale(v, FASTEST / length) : hair_v3(0, 0, 0); // NaN too
+}
+
+// Of a turn, the vector about which and by how much, shortest way.
+static hair_vec3 turn_between(const float before[4], const float now[4])
+{
+    hair_quat a = {before[0], before[1], before[2], before[3]}, b = {now[0], now[1], now[2], now[3]};
+    hair_quat q    = hair_quat_multiply(b, hair_quat_conjugate(a));
+    hair_vec3 axis = hair_scale(hair_v3(q.x, q.y, q.z), q.w < 0 ? -1.0f : 1.0f);
+    float     sine = hair_length(axis);
+    return sine > 1e-7f ? hair_scale(axis, 2 * atan2f(sine, fabsf(q.w)) / sine) : hair_v3(0, 0, 0);
+}
+
+static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint32_t i)
+{
+    const hair_solid *to = &now->solids->now.solid[i], *from = hair_solids_before(now->solids, i);
+    float             rate  = (float)(1 / now->solids_dt);
+    hair_vec3         moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
+    hair_vec3         speed = limited(hair_scale(moved, rate));
+    hair_vec3         spin  = limited(hair_scale(turn_between(from->rotation, to->rotation), rate));
+    hair_vec3         arm   = hair_v3((float)((double)to->position[0] - now->head.position[0]),
+                                      (float)((double)to->position[1] - now->head.position[1]),
+                                      (float)((double)to->position[2] - now->head.position[2]));
+    hair_vec3         at    = hair_sub(speed, hair_cross(spin, arm));
+    return (struct hair_fluid_motion){{at.x, at.y, at.z, 0}, {spin.x, spin.y, spin.z, 0}};
+}
+
+// Of solids that all stand still a single 0 is enough.
+static hair_result write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    const hair_host* host   = &fluid->gl->host;
+    uint32_t         count  = now->solids ? now->solids->now.count : 0;
+    int              moving = 0;
+    if (count > MOST_MOVING) count = MOST_MOVING;
+    struct hair_fluid_motion* motion = hair_alloc(host, count ? count : 1, sizeof *motion);
+    if (!motion) return hair_fail_memory(host, "the velocities of solids");
+    for (uint32_t i = 0; i < count && now->solids_dt > 0; ++i) {
+        motion[i] = motion_of(now, i);
+        moving |= motion[i].velocity.x != 0 || motion[i].velocity.y != 0 || motion[i].velocity.z != 0 ||
+                  motion[i].spin.x != 0 || motion[i].spin.y != 0 || motion[i].spin.z != 0;
+    }
+    if (!moving) count = 1;
+    hair_gl_write_uniform(fluid->gl, fluid->motion, count * sizeof *motion, motion);
+    fluid->moving = moving;
+    hair_free(host, motion);
+    return HAIR_OK;
+}
+
+// The box's middle goes with the head, by whole cells.
+static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now, float shift[3])
+{
+    double    cell = (double)hair_fluid_cell(fluid);
+    hair_vec3 off  = hair_rotate(now->head.rotation, now->middle);
+    float *   from = &off.x, *lower = &fluid->lower.x;
+    for (int k = 0; k < 3; ++k) {
+        double middle = now->head.position[k] + (double)from[k];
+        double origin = floor(middle / cell + 0.5) - fluid->desc.cells / 2;
+        double most   = 8.0 * fluid->desc.cells; // Farther off nothing of it is left.
+        shift[k]      = (float)fmin(fmax(origin - fluid->origin[k], -most), most);
+        if (fluid->fresh) shift[k] = (float)most;
+        fluid->origin[k] = origin;
+        lower[k]         = (float)(origin * cell - now->head.position[k]);
+    }
+}
+
+static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
+                      const struct hair_solid_field* field)
+{
+    const struct hair_fluid_params* made = &fluid->made_for;
+    return !memcmp(&made->lower, &params->lower, sizeof params->lower) &&
+           !memcmp(&made->rotation, &params->rotation, sizeof params->rotation) &&
+           made->solids == params->solids && made->cells == params->cells && !fluid->moving &&
+           (!params->solids || fluid->writes == field->writes);
+}
+
+hair_result hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    float       shift[3], cell = hair_fluid_cell(fluid);
+    int         moved  = fluid->moving; // Then its walls do until they are written again.
+    hair_result result = write_motion(fluid, now);
+    if (result) return result;
+    place_box(fluid, now, shift);
+    hair_vec3                wind   = limited(now->wind);
+    hair_vec3                gain   = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
+    hair_quat                q      = now->head.rotation;
+    struct hair_fluid_params params = {
+        .lower    = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
+        .shift    = {shift[0], shift[1], shift[2], (float)(now->dt / (double)cell)},
+        .wind     = {wind.x, wind.y, wind.z, 0},
+        .gain     = {gain.x, gain.y, gain.z, 0},
+        .rotation = {q.x, q.y, q.z, q.w},
+        .cells    = fluid->desc.cells,
+        .solids   = now->field && hair_field_is_near(now->field),
+        .open     = !fluid->desc.closed,
+    };
+    hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
+    fluid->wind  = wind;
+    fluid->fresh = 0;
+    if (moved || !is_as_made(fluid, &params, now->field)) fluid->made_for.cells = 0;
+    if (!fluid->made_for.cells) {
+        hair_fluid_open(fluid, now);
+        fluid->made_for = params;
+        fluid->writes   = params.solids ? now->field->writes : 0;
+    }
+    return HAIR_OK;
+}
+
+void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_OPEN, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    if (fluid->desc.method != HAIR_FLUID_MULTIGRID) return;
+    for (uint32_t i = 0; i + 1 < fluid->levels; ++i)
+        hair_fluid_run(fluid, HAIR_GL_FLUID_COARSEN, i, 0,
+                       fluid->level[i + 2].slot - fluid->level[i + 1].slot);
+}
+
+void hair_fluid_carry(struct hair_fluid* fluid)
+{
+    hair_fluid_bind(fluid);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_ADVECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    hair_fluid_run(fluid, HAIR_GL_FLUID_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+}
+
+void hair_fluid_project(struct hair_fluid* fluid)
+{
+    struct hair_gl* gl = fluid->gl;
+    uint32_t        n  = fluid->desc.cells;
+    hair_fluid_run(fluid, HAIR_GL_FLUID_PROJECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    fluid->now = (fluid->now + 2) % 3;
+}
+
+hair_result hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    hair_result result = hair_fluid_place(fluid, now);
+    if (result) return result;
+    hair_fluid_carry(fluid);
+    hair_fluid_solve(fluid);
+    hair_fluid_project(fluid);
+    return HAIR_OK;
+}
+
+void hair_fluid_bind(const struct hair_fluid* fluid)
+{
+    fluid->gl->BindTextureUnit(HAIR_UNIT_AIR, fluid->air);
+    fluid->gl->BindSampler(HAIR_UNIT_AIR, 0);
+}

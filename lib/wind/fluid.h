@@ -1,0 +1,104 @@
+// fluid.h - air around the head as a fluid without viscosity or density of its own, on a grid of cells whose faces have
+// velocities (Harlow and Welch 1965): carried along, then freed of what would press it together.
+//
+// The grid is a cube along the world's axes that goes with the head by whole cells. Around it is the wind. Solids are what
+// the field says, each with its own velocity; a face is as open as the field says of sixteen parts of it.
+#ifndef HAIR_WIND_FLUID_H
+#define HAIR_WIND_FLUID_H
+
+#include "lib/collide/solid.h"
+#include "lib/field/field.h"
+#include "lib/gl/gl.h"
+
+#define HAIR_FLUID_LEVELS 5 // from 128 cells along an axis to 8
+
+// How air is kept from being pressed together.
+typedef enum hair_fluid_method {
+    HAIR_FLUID_MULTIGRID = 0, // V-cycles: a sweep before, three after; see lib/wind/solve.c
+    HAIR_FLUID_RELAXATION,    // sweeps of Gauss and Seidel that go beyond
+    HAIR_FLUID_JACOBI         // sweeps of Jacobi
+} hair_fluid_method;
+
+struct hair_fluid_desc {
+    uint32_t          cells; // along an axis: a multiple of 16, up to 128
+    float             side;  // of the box. m
+    hair_fluid_method method;
+    uint32_t          cycles; // of multigrid; else sweeps
+    float             relax;  // share of what fits a cell that a sweep takes; 0: what suits the method
+    int               closed; // nothing goes in or out
+};
+
+// A buffer, and the same as shaders read it.
+struct hair_fluid_buffer {
+    GLuint buffer, texture;
+};
+
+struct hair_fluid_level_at {
+    uint32_t cells, slot, cell; // as in hair_fluid_level
+};
+
+struct hair_fluid {
+    struct hair_gl*            gl; // NULL: there is none
+    struct hair_fluid_desc     desc;
+    struct hair_fluid_level_at level[HAIR_FLUID_LEVELS + 1];
+    uint32_t                   levels;
+    struct hair_fluid_buffer   velocity[3]; // of which
+    uint32_t                   now;         // is where the last step left it
+    struct hair_fluid_buffer   wall, open, right;
+    struct hair_fluid_buffer   pressure[2]; // the second of Jacobi only
+    uint32_t                   pressed;     // which of them is the later one
+    GLuint                     params, level_params, motion;
+    GLuint                     air;       // 3D texture, RGBA16F: velocity at the middles of cells, m/s
+    int                        fresh;     // there is no past: the first step begins with the wind everywhere
+    double                     origin[3]; // of the box, in cells from the world's origin: whole
+    hair_vec3                  wind;      // of the last step
+    hair_vec3                  lower;     // of the box, from the head's origin. m
+    int                        moving;    // some solid was in the last step
+    struct hair_fluid_params   made_for;  // what the faces are open for,
+    uint32_t                   writes;    // and the field
+};
+
+// Where all is in a step.
+struct hair_fluid_now {
+    struct hair_pose               head;   // at its end
+    hair_vec3                      middle; // of the box, in the head's frame
+    hair_vec3                      wind;   // m/s
+    double                         dt;     // s
+    const struct hair_solid_field* field;
+    const struct hair_solids*      solids;      // which move from `before` to `now`
+    double                         solids_dt;   // in this time, s
+    struct hair_pose               solids_head; // and where the field has the head
+};
+
+// On failure nothing is left.
+hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
+                              const struct hair_fluid_desc* desc);
+void        hair_fluid_destroy(struct hair_fluid* fluid);
+
+hair_result hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void        hair_fluid_forget(struct hair_fluid* fluid);     // the past: the next step is the first
+void        hair_fluid_bind(const struct hair_fluid* fluid); // the air, at HAIR_UNIT_AIR
+
+static inline float hair_fluid_cell(const struct hair_fluid* fluid)
+{
+    return fluid->desc.side / (float)fluid->desc.cells;
+}
+static inline size_t hair_fluid_slots(const struct hair_fluid* fluid) // of the finest level
+{
+    return (size_t)(fluid->desc.cells + 1) * (fluid->desc.cells + 1) * (fluid->desc.cells + 1);
+}
+
+// The parts of a step, in order. `place` writes what they are to know of it.
+hair_result hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void        hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void        hair_fluid_carry(struct hair_fluid* fluid);
+void        hair_fluid_project(struct hair_fluid* fluid);
+
+// solve.c: pressures that fit, from what flows into cells.
+void hair_fluid_solve(struct hair_fluid* fluid);
+
+// One pass over a level.
+void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
+                    uint32_t threads);
+
+#endif

@@ -1,0 +1,45 @@
+// solve.c - pressures: cycles of multigrid, or sweeps over the one grid.
+#include "lib/wind/fluid.h"
+
+static uint32_t cubed(uint32_t n)
+{
+    return n * n * n;
+}
+
+static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
+{
+    uint32_t cells = cubed(fluid->level[level].cells) / 2;
+    hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, first, cells);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, 1 - first, cells);
+}
+
+// Coarser cells take on what eight finer ones have left, and give back their pressure as it is: with the right sides halved
+// that goes as far as a smooth error needs, and where solids are in the way it has nothing to mix up. One sweep before and
+// three after were the fewest in all to a share of 1e-3 over balls, plates and slits.
+static void cycle(struct hair_fluid* fluid)
+{
+    uint32_t last = fluid->levels - 1;
+    for (uint32_t i = 0; i < last; ++i) {
+        sweep(fluid, i, 0);
+        hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));
+    }
+    hair_fluid_run(fluid, HAIR_GL_FLUID_BOTTOM, last, 0, HAIR_GROUP_SIZE); // One group, whatever its size.
+    for (uint32_t i = last; i-- > 0;) {
+        hair_fluid_run(fluid, HAIR_GL_FLUID_PROLONG, i, 0, cubed(fluid->level[i].cells));
+        for (int k = 0; k < 3; ++k) sweep(fluid, i, 1);
+    }
+}
+
+void hair_fluid_solve(struct hair_fluid* fluid)
+{
+    fluid->pressed = 0;
+    hair_fluid_run(fluid, HAIR_GL_FLUID_DIVERGENCE, 0, 0, cubed(fluid->desc.cells));
+    for (uint32_t i = 0; i < fluid->desc.cycles; ++i) {
+        if (fluid->desc.method == HAIR_FLUID_MULTIGRID)
+            cycle(fluid);
+        else if (fluid->desc.method == HAIR_FLUID_RELAXATION)
+            sweep(fluid, 0, 0);
+        else
+            hair_fluid_run(fluid, HAIR_GL_FLUID_JACOBI, 0, 0, cubed(fluid->desc.cells));
+    }
+}

@@ -1,0 +1,145 @@
+// fluids.c - air about a ball, and what is in its buffers.
+#include "tests/support/fluids.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "lib/reference/fluid.h"
+
+// Strands along every axis, so that the field is a cube.
+static hair_groom* make_groom(struct hair_test* test)
+{
+    float           positions[6 * 4 * 3] = {0};
+    uint32_t        vertices[6];
+    hair_groom*     groom = NULL;
+    hair_groom_desc desc  = hair_groom_desc_default();
+    for (int i = 0; i < 6; ++i) {
+        vertices[i] = 4;
+        for (int k = 0; k < 4; ++k)
+            positions[3 * (4 * i + k) + i / 2] = (i % 2 ? 0.0375f : -0.0375f) * (float)(k + 1);
+    }
+    desc.host            = &test->host.host;
+    desc.positions       = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count    = 6;
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices  = 4;
+    desc.follower_count  = 0;
+    hair_test_ok(test, hair_groom_create(&desc, &groom));
+    return groom;
+}
+
+struct hair_fluid_desc hair_test_fluid_desc(uint32_t cells)
+{
+    return (struct hair_fluid_desc){.cells = cells, .side = HAIR_TEST_FLUID_SIDE, .cycles = 4};
+}
+
+void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc* desc, int ball,
+                           struct hair_test_fluid* out)
+{
+    static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
+    hair_solid                    solid  = hair_solid_default();
+    solid.size[0]                        = HAIR_TEST_FLUID_BALL;
+    *out                                 = (struct hair_test_fluid){.test = test, .cells = desc->cells};
+    out->groom                           = make_groom(test);
+    hair_gl_enter(&test->context->gl);
+    hair_field_create(&out->field, &test->context->forms, out->groom, 0.005f);
+    hair_test_ok(test, hair_solids_set(&test->host.host, &out->solids, &solid, (uint32_t)ball, sizeof solid));
+    hair_test_ok(test, hair_field_update(&out->field, out->solids.now.solid, out->solids.now.count, &origin));
+    hair_test_ok(test, hair_fluid_create(&out->fluid, &test->context->gl, desc));
+    out->now   = (struct hair_fluid_now){.head      = origin,
+                                         .wind      = {5, 0, 0},
+                                         .dt        = 1.0 / 60,
+                                         .field     = &out->field,
+                                         .solids    = &out->solids,
+                                         .solids_dt = 1.0 / 60};
+    out->faces = 3 * hair_fluid_slots(&out->fluid);
+    out->count = (size_t)desc->cells * desc->cells * desc->cells;
+}
+
+void hair_test_fluid_end(struct hair_test_fluid* f)
+{
+    hair_fluid_destroy(&f->fluid);
+    hair_field_destroy(&f->field);
+    hair_gl_leave(&f->test->context->gl);
+    hair_solids_free(&f->test->host.host, &f->solids);
+    hair_groom_destroy(f->groom);
+}
+
+double* hair_test_floats(GLuint buffer, size_t count)
+{
+    float*  numbers = malloc(count * sizeof *numbers);
+    double* out     = malloc(count * sizeof *out);
+    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *numbers), numbers);
+    for (size_t i = 0; i < count; ++i) out[i] = (double)numbers[i];
+    free(numbers);
+    return out;
+}
+
+void hair_test_put_floats(GLuint buffer, const double* numbers, size_t count)
+{
+    float* floats = malloc(count * sizeof *floats);
+    for (size_t i = 0; i < count; ++i) floats[i] = (float)numbers[i];
+    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    glNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *floats), floats);
+    free(floats);
+}
+
+double* hair_test_fluid_velocity(const struct hair_test_fluid* f)
+{
+    return hair_test_floats(f->fluid.velocity[f->fluid.now].buffer, f->faces);
+}
+
+double* hair_test_fluid_open(const struct hair_test_fluid* f, uint32_t level)
+{
+    uint32_t  first = f->fluid.level[level].slot, count = f->fluid.level[level + 1].slot - first;
+    uint32_t* slots = malloc(count * sizeof *slots);
+    double*   out   = malloc(3 * (size_t)count * sizeof *out);
+    glGetNamedBufferSubData(f->fluid.open.buffer, 4 * (GLintptr)first, 4 * (GLsizeiptr)count, slots);
+    for (uint32_t i = 0; i < 3 * count; ++i) out[i] = (slots[i % count] >> 10 * (i / count) & 1023) / 1023.0;
+    free(slots);
+    return out;
+}
+
+double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocity, int axis,
+                          const double place[3])
+{
+    size_t side = f->cells + 1, base = (size_t)axis * side * side * side, stride[3] = {1, side, side * side};
+    double part[3], sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        double most = k == axis ? f->cells : f->cells - 1;
+        double g    = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), most);
+        double low  = fmin(floor(g), most - 1);
+        part[k]     = g - low;
+        base += (size_t)low * stride[k];
+    }
+    for (int c = 0; c < 8; ++c) {
+        double weight = 1;
+        size_t at     = base;
+        for (int k = 0; k < 3; ++k) {
+            weight *= c >> k & 1 ? part[k] : 1 - part[k];
+            at += (size_t)(c >> k & 1) * stride[k];
+        }
+        sum += weight * velocity[at];
+    }
+    return sum;
+}
+
+double hair_test_rms(const double* numbers, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) sum += numbers[i] * numbers[i];
+    return sqrt(sum / (double)count);
+}
+
+double hair_test_fluid_left(struct hair_test_fluid* f)
+{
+    double* velocity = hair_test_fluid_velocity(f);
+    double* open     = hair_test_fluid_open(f, 0);
+    double* wall     = hair_test_floats(f->fluid.wall.buffer, f->faces);
+    double* right    = malloc(f->count * sizeof *right);
+    hair_reference_inflow(f->cells, open, wall, velocity, right);
+    double rms = hair_test_rms(right, f->count);
+    free(velocity), free(open), free(wall), free(right);
+    return rms;
+}
