@@ -100,6 +100,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_STEP 0         // hair_step_params
 #define HAIR_BIND_DRAW 1         // hair_draw_params
 #define HAIR_BIND_FIELD 2        // hair_field_params
+#define HAIR_BIND_WIND 2         // hair_wind_params, of the solvers of rods
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, likewise
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the passes of the fluid,
@@ -305,7 +306,6 @@ struct hair_step_params {
     hair_vec4 last_displacement; // xyz: of the head's origin over the last substep, m
     // Of the solvers of rods.
     hair_vec4 rotation_start; // head at the start of the first substep of this dispatch
-    hair_vec4 wind;           // xyz: velocity of the air, m/s
     hair_vec4 ratio;          // of stiffness about the section's x axis, along it, and about z, to bending's
     float     kick;           // h (1 - exp(-damping h)) / damping, s^2: displacement by an acceleration
     float     damping;        // 1/s
@@ -322,7 +322,16 @@ struct hair_step_params {
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
     HAIR_STRUCT(hair_body) body[HAIR_STEP_SOLIDS];
 };
-HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
+HAIR_SIZE(hair_step_params, 224 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
+
+// What the solvers of rods know of the wind.
+struct hair_wind_params {
+    hair_vec4 velocity;  // xyz: of the air, m/s
+    float     per_speed; // Reynolds number of a strand by the air's speed across it, s/m
+    float     viscous;   // drag by the air's viscosity, by a strand's mass, 1/s
+    hair_uint unused0, unused1;
+};
+HAIR_SIZE(hair_wind_params, 32)
 
 // What a guide vertex puts into the crowd's grid, in its units.
 struct hair_share {

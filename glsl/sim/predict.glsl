@@ -3,7 +3,8 @@
 //
 //   dv/dt = g + f/m + w^2 (t - x) - c (v - u) + a
 //
-// with a, where there is a crowd, what the hair around does, the same for a block of substeps.
+// with a, where there is a crowd, what the hair around does, the same for a block of substeps; u is 0 where there is no
+// wind, and where there is, drag comes in as well: see drag.glsl.
 // All in displacements over a substep of length h. `wanted` is the answer.
 #include "sim/implicit.glsl"
 
@@ -37,27 +38,46 @@ vec3 offset_of(uint i, int method, vec3 last)
     return method == BACK ? last / 3.0 : vec3(0.0);
 }
 
+#ifdef HAIR_WIND
+#include "sim/drag.glsl"
+#endif
+
 // SHAKE: d' = keep d + kick (g + f/m), forces of the start.
-void leap(uint i, vec3 force, vec3 wind, vec3 bending)
+void leap(uint i, vec3 force, vec3 bending)
 {
     float part = known == 0.0 ? 0.5 : 1.0; // The first leap is half a step.
-    float kick = part * params.kick;
-    vec3  d    = own(displacement);
-    own(wanted) = d + part * (params.keep - 1.0) * (d - wind) + kick * (force + own(slack) * bending);
+    vec3  d    = own(displacement), push = force + own(slack) * bending;
+#ifdef HAIR_WIND
+    own(wanted) = d + part * dragged_on(d, push);
+#else
+    own(wanted) = d + part * ((params.keep - 1.0) * d + params.kick * push);
+#endif
+}
+
+// What BDF2, or implicit Euler, begins with: h v.
+vec3 rate_from(uint i, bool two)
+{
+#ifdef KEEPS_RATES
+    return two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : known < 2.0 ? own(displacement) : own(rate);
+#else
+    return own(displacement);
+#endif
 }
 
 // x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
 // ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f), f of the end but for q.
-void step_back(uint i, bool two, vec3 force, vec3 wind, vec3 bending)
+void step_back(uint i, bool two, vec3 force, vec3 bending)
 {
     float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
-#ifdef KEEPS_RATES
-    vec3 hv = two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : known < 2.0 ? own(displacement) : own(rate);
-#else
-    vec3 hv = own(displacement);
+    vec3  hv = rate_from(i, two);
+    own(wanted) = two ? own(displacement) / 3.0 : vec3(0.0);
+#ifdef HAIR_WIND
+    hv += b * drifts;
 #endif
-    own(wanted)     = two ? own(displacement) / 3.0 : vec3(0.0);
-    PUT(moved, (b * hv + b * b * h * (h * force + params.damping * wind)) / own(slack) + b * b * h * h * bending);
+    PUT(moved, (b * hv + b * b * h * h * force) / own(slack) + b * b * h * h * bending);
+#ifdef HAIR_WIND
+    PUT(moved, dragged_back(i, b, GET(moved)));
+#endif
 }
 
 void predict(int method)
@@ -75,7 +95,10 @@ void predict(int method)
         // Of what its inertia would weigh: see lib/sim/taut.c.
         float share  = heavy && i > 0u && i + 1u < guide_count
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
-        vec3 wind    = share * params.gravity.w * params.wind.xyz;
+#ifdef HAIR_WIND
+        vec3 before = BEFORE_VEC3(edge);
+        feel_air(i, before, share, method == SHAKE ? own(displacement) : rate_from(i, method == BACK));
+#endif
         own(wanted)  = held_move(i);
         vec3 bending = by_segments(i);
         vec3 force   = share * params.gravity.xyz;
@@ -85,8 +108,8 @@ void predict(int method)
 #endif
         PUT(moved, vec3(0.0));
         if (own(slack) > 0.0) {
-            if (method == SHAKE) leap(i, force, wind, bending);
-            else step_back(i, method == BACK, force, wind, bending);
+            if (method == SHAKE) leap(i, force, bending);
+            else step_back(i, method == BACK, force, bending);
         }
     }
     if (method == SHAKE) {

@@ -264,7 +264,7 @@ typedef enum hair_root {
     HAIR_ROOT_FREE         ///< Held by nothing.
 } hair_root;
 
-/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, friction to volume.
+/// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, drag to volume.
 typedef struct hair_physics {
     hair_made made;
     float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
@@ -285,6 +285,7 @@ typedef struct hair_physics {
     float     hold;     ///< Share of gravity that the rest shape bears: 1 keeps the groom. [0, 1]. Default 1.
     hair_root root;     ///< Default HAIR_ROOT_CLAMPED.
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
+    float     drag; ///< Of wind, as a multiple of that of a single hair: see hair_wind. [0, 10]. Default 0.1.
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
     float     cohesion; ///< Decay rate of velocity relative to the hair around. 1/s. [0, 1000]. Default 0.
     /// How hair resists being denser than at rest, as a gas does, by its speed of sound squared: it is e times as
@@ -512,10 +513,15 @@ typedef enum hair_wind_model {
     HAIR_WIND_AMBIENT = 0 ///< Air goes as it would without head and solids.
 } hair_wind_model;
 
+/// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them by the
+/// correlation of Clift, Grace and Weber 1978, along them as heat passes from them. Guides stand for locks, whose hairs
+/// shelter each other: so hair_physics.drag is below 1. hair_physics.damping is against this air as well.
 typedef struct hair_wind {
     hair_made       made;
     hair_wind_model model;       ///< Default HAIR_WIND_AMBIENT.
     float           velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
+    float           density;     ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
+    float           viscosity;   ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.
 } hair_wind;
 HAIR_DESC(hair_wind)
 

@@ -76,7 +76,7 @@ hair_result hair_gl_selftest(struct hair_gl* gl);
 
 // source.c --------------------------------------------------------------------------------------------------
 
-#define HAIR_GL_MAX_SOURCES 24 // Files of one shader, itself included.
+#define HAIR_GL_MAX_SOURCES 32 // Files of one shader, itself included.
 
 struct hair_gl_source {
     char*    text; // To free; with every include in place.

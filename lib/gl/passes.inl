@@ -10,9 +10,9 @@
     PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
     PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
 
-// A solver of rods is 128 such passes, for hair with and without what it can do without: solids, and among them bodies,
+// A solver of rods is 256 such passes, for hair with and without what it can do without: solids, and among them bodies,
 // those that are no capsules, or any: forms too, and any number of them; curved or flat strands; the crowd of other hair;
-// ties; roots that ride on a skinned scalp; and by a work group or a thread per guide.
+// ties; roots that ride on a skinned scalp; wind; and by a work group or a thread per guide.
 #define ROD_PASS_OF(name, label, defines) \
     GUIDE_PASS(name, label, defines "sim/rod.comp") \
     GUIDE_PASS(name##_SOLIDS, label "_solids", defines "HAIR_SOLIDS=1 sim/rod.comp") \
@@ -28,11 +28,14 @@
 #define ROD_PASS_IN(name, label, defines) \
     ROD_PASS_BY(name, label, defines) \
     ROD_PASS_BY(name##_CROWD, label "_crowd", "HAIR_CROWD=1 " defines)
-#define ROD_PASS(name, label, defines) \
+#define ROD_PASS_HELD(name, label, defines) \
     ROD_PASS_IN(name, label, defines) \
     ROD_PASS_IN(name##_TIED, label "_tied", "HAIR_TIED=1 " defines) \
     ROD_PASS_IN(name##_SKINNED, label "_skinned", "HAIR_SKINNED=1 " defines) \
     ROD_PASS_IN(name##_TIED_SKINNED, label "_tied_skinned", "HAIR_SKINNED=1 HAIR_TIED=1 " defines)
+#define ROD_PASS(name, label, defines) \
+    ROD_PASS_HELD(name, label, defines) \
+    ROD_PASS_HELD(name##_WIND, label "_wind", "HAIR_WIND=1 " defines)
 
 // A pass that evaluates followers is two programs: as they go, and where the look kinks, curls or cuts them. The second is
 // made when a look first does.
@@ -105,6 +108,7 @@ PASS(GUIDES, "draw/guides", "draw/guides.vert draw/guides.frag")
 #undef DRAW_PASS
 #undef FOLLOWER_PASS
 #undef ROD_PASS
+#undef ROD_PASS_HELD
 #undef ROD_PASS_IN
 #undef ROD_PASS_BY
 #undef ROD_PASS_OF

@@ -79,7 +79,7 @@ bool is_sound(const hair_reference_rod& rod)
 {
     return is_positive(rod.lengths) && is_positive(rod.masses) && is_not_negative(rod.pull) &&
            is_not_negative(rod.scale) && is_not_negative({rod.bend[0], rod.bend[1], rod.twist}) &&
-           is_not_negative({rod.damping}) && is_finite(rod.x) && is_finite(rod.target) &&
+           is_not_negative({rod.damping, rod.drag}) && is_finite(rod.x) && is_finite(rod.target) &&
            is_finite(rod.rest_strain) && is_finite({rod.gravity, rod.wind}) &&
            std::fabs(rod.scalp().norm() - 1) < 1e-9;
 }
@@ -115,6 +115,9 @@ hair_reference_rod* hair_reference_rod_create(const hair_reference_rod_desc* des
     rod->gravity       = vector_of(desc->gravity);
     rod->wind          = vector_of(desc->wind);
     rod->damping       = desc->damping;
+    rod->drag          = desc->drag;
+    rod->diameter      = desc->diameter;
+    rod->air           = desc->air;
     rod->root_velocity = Vector3d(0, 0, 0);
     rod->v.assign(rod->vertices, Vector3d(0, 0, 0));
     place(*rod, desc->head);

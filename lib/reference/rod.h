@@ -18,6 +18,8 @@
 
 #include <stdint.h>
 
+#include "lib/reference/drag.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -55,9 +57,12 @@ struct hair_reference_rod_desc {
     double root_frame[4]; ///< In the head's frame: y is where the strand leaves the scalp.
     int    plain_clamp;   ///< 1: k = 2 whatever hangs on the clamp.
 
-    double gravity[3]; ///< m/s^2.
-    double damping;    ///< c of dv/dt = -c (v - wind). 1/s.
-    double wind[3];    ///< m/s.
+    double                    gravity[3]; ///< m/s^2.
+    double                    damping;    ///< c of dv/dt = -c (v - wind). 1/s.
+    double                    wind[3];    ///< m/s.
+    double                    drag;       ///< Of the segments, as a multiple of hair_reference_drag. 0: none.
+    double                    diameter;   ///< For that. m.
+    struct hair_reference_air air;        ///< Likewise.
 
     const double* pull; ///< Angular frequency per vertex of a spring to `pull_target`. NULL: none. 1/s.
     const double* pull_target; ///< Per vertex, in the head's frame. NULL: `positions`.

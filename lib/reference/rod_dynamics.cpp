@@ -125,10 +125,36 @@ void accelerate(hair_reference_rod& rod, double dt)
             dt * (rod.gravity + rod.force[i] / rod.masses[i] + rod.pull[i] * (rod.target_of(i) - rod.x[i]));
 }
 
+// Of every segment half at each end, by the air that goes by there.
+std::vector<Vector3d> drag_on(const hair_reference_rod& rod, const std::vector<Vector3d>& v)
+{
+    std::vector<Vector3d> sum(rod.vertices, Vector3d(0, 0, 0));
+    for (uint32_t j = 0; j < rod.segments(); ++j) {
+        double along[3], velocity[3], force[3];
+        store((rod.x[j + 1] - rod.x[j]).normalized(), along);
+        for (uint32_t i = j; i < j + 2; ++i) {
+            store(rod.wind - v[i], velocity);
+            hair_reference_drag(&rod.air, rod.diameter, velocity, along, force);
+            sum[i] += rod.inverse_mass(i) * rod.drag * rod.lengths[j] / 2 * vector_of(force);
+        }
+    }
+    return sum;
+}
+
+// By the midpoint rule.
+void drag(hair_reference_rod& rod, double dt)
+{
+    std::vector<Vector3d> middle = rod.v, by = drag_on(rod, rod.v);
+    for (uint32_t i = 0; i < rod.vertices; ++i) middle[i] += dt / 2 * by[i];
+    by = drag_on(rod, middle);
+    for (uint32_t i = 0; i < rod.vertices; ++i) rod.v[i] += dt * by[i];
+}
+
 void damp(hair_reference_rod& rod, double dt)
 {
     const double keep = std::exp(-rod.damping * dt);
     for (Vector3d& v : rod.v) v = rod.wind + keep * (v - rod.wind);
+    if (rod.drag > 0) drag(rod, dt);
 }
 
 bool advance(hair_reference_rod& rod, const journey& head, double dt, uint32_t substeps)

@@ -25,7 +25,8 @@ struct hair_reference_rod {
     Quaterniond             root_frame; // in the head's frame, as the root's place is:
     Vector3d                arm;
     Vector3d                gravity, wind;
-    double                  damping;
+    double                  damping, drag, diameter;
+    hair_reference_air      air;
 
     std::vector<Vector3d> stiffness; // per joint: B1, C, B2 over length, times the clamp's factors
 

@@ -199,7 +199,6 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     double              h = sim->substep, c = (double)physics->damping;
     double              ratio[3];
     hair_rods_ratios(physics, ratio);
-    params->wind     = (hair_vec4){sim->wind.velocity[0], sim->wind.velocity[1], sim->wind.velocity[2], 0};
     params->ratio    = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
     params->kick     = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
     params->damping  = physics->damping;

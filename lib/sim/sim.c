@@ -45,7 +45,8 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied, skinned.
+// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied, skinned,
+// in wind.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -58,7 +59,7 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
     if (sim->contacts.any) met = 3;
     int kind = met + 4 * hair_sim_is_curved(sim) + 8 * is_by_thread(sim) + 16 * hair_crowd_is_on(sim) +
-               32 * (sim->ties.count > 0) + 64 * hair_skin_is_on(sim);
+               32 * (sim->ties.count > 0) + 64 * hair_skin_is_on(sim) + 128 * hair_wind_is_on(&sim->wind);
     if (sim->rods)
         pass += 4 * (hair_gl_pass)kind;
     else if (hair_skin_is_on(sim))
@@ -118,6 +119,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->step);
     hair_ties_free(sim);
     hair_contacts_free(sim);
+    hair_air_free(&sim->air, sim->gl);
     hair_sim_free_rods(sim);
     hair_skin_free(sim);
 }
@@ -241,6 +243,7 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     sim->contacts.any  = hair_contacts_are_any(sim);
     hair_result result = hair_ties_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
+    if (!result && sim->rods) result = hair_air_need(&sim->air, sim->gl, &sim->wind);
     if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
     return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
 }
@@ -277,6 +280,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
             is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
         if (crowd) hair_crowd_bind(sim);
         if (sim->ties.count) hair_ties_bind(sim);
+        if (sim->air.params) hair_air_bind(&sim->air, sim->gl, &sim->wind, &sim->physics);
         hair_gl_run(sim->gl, pass, groups);
         if (crowd) hair_crowd_count(sim, count);
         done += count;

@@ -11,6 +11,7 @@
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
 #include "lib/sim/ties.h"
+#include "lib/wind/air.h"
 
 // What guides collide with where that may be anything: forms, any number of them. All 0 until then.
 struct hair_contacts {
@@ -49,6 +50,7 @@ struct hair_sim {
     struct hair_contacts contacts;
     struct hair_crowd    crowd;
     struct hair_ties     ties;
+    struct hair_air      air;
     struct hair_skin     skin;
 };
 

@@ -86,7 +86,6 @@ static const struct member members[] = {
     VEC4(hair_step_params, rotation_now),
     VEC4(hair_step_params, last_displacement),
     VEC4(hair_step_params, rotation_start),
-    VEC4(hair_step_params, wind),
     VEC4(hair_step_params, ratio),
     FLOAT(hair_step_params, kick),
     FLOAT(hair_step_params, damping),

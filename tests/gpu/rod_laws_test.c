@@ -144,6 +144,7 @@ static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
 {
     hair_physics physics = hair_test_bare();
     hair_wind    wind    = hair_wind_default();
+    physics.drag         = 0;
     physics.root         = HAIR_ROOT_FREE;
     wind.velocity[0] = 3, wind.velocity[2] = -1;
     for (int kind = 0; kind < 4; ++kind) {

@@ -234,6 +234,16 @@ static void fill_material(const hair_physics* physics, double length, struct hai
     for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
 }
 
+static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct hair_reference_rod_desc* out)
+{
+    double radius = (double)physics->fiber_radius;
+    for (int k = 0; k < 3; ++k) out->wind[k] = (double)wind->velocity[k];
+    if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0) return;
+    out->drag = (double)physics->drag / ((double)physics->fiber_density * 3.14159265358979 * radius * radius);
+    out->diameter = 2 * radius;
+    out->air      = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
+}
+
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
                                                const struct hair_reference_rod_pose* head)
 {
@@ -244,7 +254,7 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
     struct arrays*                 arrays  = calloc(1, sizeof *arrays);
     fill_arrays(living->groom->rest + of->first, of->count, physics, arrays);
     fill_material(physics, (double)of->arc_length, &desc);
-    for (int k = 0; k < 3; ++k) desc.wind[k] = (double)living->wind.velocity[k];
+    fill_wind(physics, &living->wind, &desc);
     desc.vertices  = of->count;
     desc.positions = arrays->positions;
     desc.lengths   = arrays->lengths;

@@ -204,7 +204,8 @@ static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void
                                   &f->physics.young,         &f->physics.poisson,    &f->physics.fiber_radius,
                                   &f->physics.fiber_density, &f->physics.flatness,   &f->physics.stiffness_root,
                                   &f->physics.stiffness_tip, &f->physics.hold,       &f->physics.tip_mass};
-    float* out[] = {&f->physics.angular, &f->physics.bend, &f->physics.margin, &f->physics.friction};
+    float* out[]               = {&f->physics.angular, &f->physics.bend, &f->physics.margin, &f->physics.drag,
+                                  &f->physics.friction};
     hair_test_rod_curl(f, 20, 0.01);
     f->physics = d;
     assert_false(hair_rods_differ(&f->physics, &d));

@@ -88,6 +88,9 @@ static const struct row rows[] = {
     {"wind.x", "velocity of the air, m/s", FLOAT, {AT(wind.velocity[0])}, {0}},
     {"wind.y", "", FLOAT, {AT(wind.velocity[1])}, {0}},
     {"wind.z", "", FLOAT, {AT(wind.velocity[2])}, {0}},
+    {"wind.density", "of the air, kg/m^3", FLOAT, {AT(wind.density)}, {0}},
+    {"wind.viscosity", "of the air, Pa s", FLOAT, {AT(wind.viscosity)}, {0}},
+    {"drag", "of wind, as a multiple of that of a single hair", FLOAT, {AT(physics.drag)}, {0}},
     {"friction", "Coulomb's coefficient with solids", FLOAT, {AT(physics.friction)}, {0}},
 
     {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded"}},

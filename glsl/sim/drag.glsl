@@ -1,0 +1,73 @@
+// drag.glsl - air that carries strands along. By a metre of a strand of diameter d, with u the air's velocity against it, n
+// across and t along the strand, and Re = |u_n| d / nu,
+//
+//   F_n = rho d / 2 C(Re) |u_n| u_n,  C = 9.689 Re^-0.78 (1 + f(Re))
+//
+// of infinite cylinders, 0.1 < Re < 400 (Clift, Grace and Weber 1978, "Bubbles, Drops, and Particles"). What flows along a
+// yawed cylinder does not change what flows across it and is carried by it, as heat is at a Prandtl number of 1 (the
+// independence principle: Sears 1948), so
+//
+//   F_t = pi mu Nu(Re) u_t,  Nu = 0.3 + 0.62 Re^(1/2) / (1 + 0.4^(2/3))^(1/4)
+//
+// as heat passes from cylinders (Churchill and Bernstein 1977). Both are rates at which a relative velocity decays. They are
+// taken at the velocity before the substep, and the decay implicitly (BDF2, Euler) or exactly (SHAKE): so no air carries a
+// strand past itself. What is done so, each direction by itself, comes before what bending does with it.
+#ifndef HAIR_DRAG_GLSL
+#define HAIR_DRAG_GLSL
+
+#include "wind/air.glsl"
+
+vec3 along; // unit
+vec2 drags; // h times the rates across and along
+vec3 drifts; // what damping does by the air's velocity, and what drag does: h^2 times an acceleration
+
+// Across and along, each its share.
+vec3 by_parts(vec2 share, vec3 v)
+{
+    float a = dot(v, along);
+    return share.x * (v - a * along) + share.y * a * along;
+}
+
+// Of a strand by its mass, 1/s.
+vec2 drag_rates(float reynolds)
+{
+    float l    = log2(max(reynolds, 1e-12)), root = exp2(0.82 * l);
+    float more = max(min(0.147 * root, 0.227 * exp2(0.55 * l)), 0.0838 * root);
+    return wind.viscous * vec2(0.5 * 9.689 * exp2(0.22 * l) * (1.0 + more), 3.14159265 * (0.3 + 0.5563 * sqrt(reynolds)));
+}
+
+// At a vertex whose velocity is about hv / h. No drag is more than what takes a strand its length in a substep. `share`: of
+// what its inertia would weigh.
+void feel_air(uint i, vec3 before, float share, vec3 hv)
+{
+    float h     = params.gravity.w;
+    vec3  after = GET(edge);
+    vec3  sum   = (i > 0u ? before : after) + (i + 1u < guide_count ? after : before);
+    float size  = length(sum), beside = i > 0u ? rod[guide_first + i - 1u].segment.x : 0.0;
+    along       = size > 1e-3 ? sum / size : vec3(0.0, 1.0, 0.0);
+    vec3  air   = h * air_at(root_then + GET(place)), past = air - hv;
+    float faces = dot(past, along), across = length(past - faces * along);
+    float light = min(0.5 * (beside + own(rest_length)) * own(slack), 1.0); // Not of what hangs on a tip.
+    vec2  most  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
+    drags       = light * min(h * drag_rates(across / h * wind.per_speed), most);
+    drifts      = share * params.damping * h * air + by_parts(drags, air);
+}
+
+// SHAKE: what a substep adds to d, by an acceleration and the air.
+vec3 dragged_on(vec3 d, vec3 push)
+{
+    float h     = params.gravity.w, c = params.damping * h;
+    vec2  x     = vec2(c) + drags;
+    vec2  share = mix((1.0 - exp(-x)) / max(x, 1e-3), 1.0 - 0.5 * x, lessThan(x, vec2(1e-3)));
+    return by_parts(share, h * h * push + drifts - by_parts(x, d));
+}
+
+// BDF2 and Euler: what of all that acts on a strand its own velocity against the air leaves.
+vec3 dragged_back(uint i, float b, vec3 sum)
+{
+    float h       = params.gravity.w;
+    float massive = 1.0 + b * params.damping * h + b * b * h * h * own(aim).w;
+    return by_parts(1.0 / (1.0 + b * drags / massive), sum);
+}
+
+#endif

@@ -1,0 +1,32 @@
+// drag.cpp - correlations of cylinders in a flow.
+#include "lib/reference/drag.h"
+
+#include <cmath>
+
+#include "lib/reference/convert.h"
+
+double hair_reference_drag_across(double reynolds)
+{
+    const double more = reynolds <= 5    ? 0.147 * std::pow(reynolds, 0.82)
+                        : reynolds <= 40 ? 0.227 * std::pow(reynolds, 0.55)
+                                         : 0.0838 * std::pow(reynolds, 0.82);
+    return 9.689 * std::pow(reynolds, -0.78) * (1 + more);
+}
+
+double hair_reference_drag_along(double reynolds)
+{
+    const double pi = 3.14159265358979323846, prandtl = 1;
+    return pi * (0.3 + 0.62 * std::sqrt(reynolds) * std::cbrt(prandtl) /
+                           std::pow(1 + std::pow(0.4 / prandtl, 2.0 / 3), 0.25));
+}
+
+void hair_reference_drag(const struct hair_reference_air* air, double diameter, const double velocity[3],
+                         const double along[3], double force[3])
+{
+    const Vector3d u = vector_of(velocity), t = vector_of(along), by = u.dot(t) * t, across = u - by;
+    const double   speed = across.norm(), reynolds = speed * diameter * air->density / air->viscosity;
+    Vector3d       f = hair_reference_drag_along(reynolds) * air->viscosity * by;
+    if (reynolds > 0)
+        f += hair_reference_drag_across(reynolds) * air->density * diameter / 2 * speed * across;
+    store(f, force);
+}

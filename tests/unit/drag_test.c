@@ -1,0 +1,87 @@
+// drag_test.c - drag of cylinders by correlations, against what others measured and computed.
+#include "tests/support/support.h"
+
+#include <math.h>
+
+#include "lib/reference/drag.h"
+
+#define PI 3.14159265358979323846
+
+// Without bound in a viscous flow: Kaplun 1957.
+static double slow_drag(double reynolds)
+{
+    double e = 1 / (0.5 - 0.57721566 - log(reynolds / 8));
+    return 8 * PI / reynolds * e * (1 - 0.87 * e * e);
+}
+
+static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** state)
+{
+    (void)state;
+    const struct {
+        double reynolds, published;
+    } rows[] = {{0.1, slow_drag(0.1)},
+                {0.2, slow_drag(0.2)},
+                // Dennis and Chang 1970, steady flow.
+                {5, 4.116},
+                {7, 3.421},
+                {10, 2.846},
+                {20, 2.045},
+                {40, 1.522},
+                // Park, Kwon and Choi 1998, mean of the flow that sheds vortices.
+                {60, 1.39},
+                {80, 1.35},
+                {100, 1.33}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        double drag = hair_reference_drag_across(rows[i].reynolds);
+        print_message("    Re %g: %.4g, published %.4g\n", rows[i].reynolds, drag, rows[i].published);
+        assert_true(fabs(drag / rows[i].published - 1) < 0.1);
+    }
+}
+
+// Bharti, Chhabra and Eswaran 2007 at a Prandtl number of 0.7, of which 1 has (1/0.7)^(1/3) as much.
+static void along_a_cylinder_it_is_what_heat_does(void** state)
+{
+    (void)state;
+    const double rows[][2] = {{10, 1.8623}, {20, 2.4653}, {40, 3.2825}};
+    for (int i = 0; i < 3; ++i) {
+        double published = PI * rows[i][1] * cbrt(1 / 0.7);
+        print_message("    Re %g: %.4g, published %.4g\n", rows[i][0], hair_reference_drag_along(rows[i][0]),
+                      published);
+        assert_true(fabs(hair_reference_drag_along(rows[i][0]) / published - 1) < 0.1);
+    }
+    assert_true(fabs(hair_reference_drag_along(0) - 0.3 * PI) < 1e-12);
+}
+
+static void the_correlation_has_no_jumps(void** state)
+{
+    (void)state;
+    for (double re = 0.1; re < 400; re *= 1.001) {
+        double step = hair_reference_drag_across(1.001 * re) / hair_reference_drag_across(re);
+        assert_true(step < 1 && step > 0.998);
+    }
+}
+
+static void a_force_has_a_part_across_and_one_along(void** state)
+{
+    (void)state;
+    const struct hair_reference_air air = {1.204, 1.82e-5};
+    const double diameter = 8e-5, along[] = {0, 1, 0}, velocity[] = {3, 1.5, 4}, still[] = {0, 0, 0};
+    double       force[3], re = 5 * diameter * air.density / air.viscosity;
+    hair_reference_drag(&air, diameter, velocity, along, force);
+    double across = hair_reference_drag_across(re) * air.density * diameter / 2 * 5;
+    assert_true(fabs(force[0] - 3 * across) < 1e-12 && fabs(force[2] - 4 * across) < 1e-12);
+    assert_true(fabs(force[1] - 1.5 * air.viscosity * hair_reference_drag_along(re)) < 1e-12);
+    hair_reference_drag(&air, diameter, still, along, force);
+    for (int k = 0; k < 3; ++k) assert_true(force[k] == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(across_a_cylinder_it_is_within_a_tenth_of_published_data),
+        cmocka_unit_test(along_a_cylinder_it_is_what_heat_does),
+        cmocka_unit_test(the_correlation_has_no_jumps),
+        cmocka_unit_test(a_force_has_a_part_across_and_one_along),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
