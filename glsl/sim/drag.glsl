@@ -58,7 +58,9 @@ vec3 dragged_on(vec3 d, vec3 push)
 {
     float h     = params.gravity.w, c = params.damping * h;
     vec2  x     = vec2(c) + drags;
-    vec2  share = mix((1.0 - exp(-x)) / max(x, 1e-3), 1.0 - 0.5 * x, lessThan(x, vec2(1e-3)));
+    // (1 - exp(-x)) / x, without what rounding would leave of the difference where x is small.
+    vec2  small = 1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0)));
+    vec2  share = mix((1.0 - exp(-x)) / max(x, 0.1), small, lessThan(x, vec2(0.1)));
     return by_parts(share, h * h * push + drifts - by_parts(x, d));
 }
 
