@@ -175,7 +175,10 @@ run-tests: $(TESTS)
 # As the library compiles them, but for the smaller of the four sizes of a work group.
 glsl: ## Compile every shader offline, no GPU needed
 	@{ echo '#define PASS(name, label, stages) stages;'; echo '#include "lib/gl/passes.inl"'; \
-	   echo '"gl/selftest.tesc gl/selftest.tese";'; } | $(CC) -E -P -I. -x c - | tr -d '"\n' | tr ';' '\n' | \
+	   echo '"gl/selftest.tesc gl/selftest.tese";'; \
+	   for v in HAIR_IDS HAIR_OWN_VERTICES "HAIR_FIBRES=1 HAIR_OWN_PIXELS" "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_MOTION" \
+	     "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_FIBRES=1 HAIR_SHARES"; do \
+	     echo "\"$$v=1 draw/strand.vert draw/ribbon.geom draw/strand.frag\";"; done; } | $(CC) -E -P -I. -x c - | tr -d '"\n' | tr ';' '\n' | \
 	  grep -vE 'THREADS=(32|64|128) ' | while read -r stages; do defines=-DHAIR_LINES_LEVEL=0; \
 	    for s in $$stages; do case $$s in *=*) defines="$$defines -D$$s";; *) \
 	      glslc --target-env=opengl4.5 -Werror -fauto-map-locations $$defines -Iglsl -o /dev/null glsl/$$s || exit 1;; esac; \

@@ -4,9 +4,43 @@
 layout(binding = HAIR_UNIT_EXPANDED) uniform samplerBuffer expanded_texture;
 layout(binding = HAIR_UNIT_EXPANDED_TANGENT) uniform samplerBuffer expanded_tangent_texture;
 
+// Between two vertices, or at one: the first of them, and how far beyond it.
+float place_between(uint number, float t, out int at)
+{
+    float along = t * float(draw.segments), k = min(floor(along + 1e-3), float(draw.segments) - 1.0);
+    at          = int(number * (draw.segments + 1u)) + int(k);
+    float share = along - k;
+    return share < 1e-3 ? 0.0 : share > 1.0 - 1e-3 ? 1.0 : share;
+}
+
+#if defined(HAIR_MOTION) || defined(HAIR_SHARES)
+// Where levels of detail leave out segments too.
+hair_point evaluate(hair_follower follower, uint number, float t)
+{
+    int   at;
+    float share  = place_between(number, t, at);
+    vec4  vertex = mix(texelFetch(expanded_texture, at), texelFetch(expanded_texture, at + 1), share);
+    vec3  a      = texelFetch(expanded_tangent_texture, at).xyz * 2.0 - 1.0;
+    vec3  b      = texelFetch(expanded_tangent_texture, at + 1).xyz * 2.0 - 1.0;
+    return hair_point(vertex.xyz, direction_or(mix(a, b, share), a), vertex.w);
+}
+#else
 hair_point evaluate(hair_follower follower, uint number, float t)
 {
     int  at     = int(number * (draw.segments + 1u) + uint(t * float(draw.segments) + 0.5));
     vec4 vertex = texelFetch(expanded_texture, at);
     return hair_point(vertex.xyz, texelFetch(expanded_tangent_texture, at).xyz * 2.0 - 1.0, vertex.w);
 }
+#endif
+
+#ifdef HAIR_MOTION
+layout(binding = HAIR_UNIT_BEFORE) uniform samplerBuffer before_texture;
+
+// Where the strand was when it was drawn before.
+vec3 before_at(uint number, float t)
+{
+    int   at;
+    float share = place_between(number, t, at);
+    return mix(texelFetch(before_texture, at).xyz, texelFetch(before_texture, at + 1).xyz, share);
+}
+#endif

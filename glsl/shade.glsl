@@ -13,10 +13,14 @@ struct hair_fragment {
     float t;        // from root to tip, [0, 1]
     float random;   // the strand's own, [0, 1)
     uint  seed;     // likewise
-    uint  lock;     // that it is in
+    uint  lock;     // that it is in: its guide
+    uint  strand;   // follower
+    vec2  uv;       // of its root on the scalp; 0 where none is known
+    float across;   // from -1 at one edge of a ribbon to 1 at the other; 0 where vertices are shaded
+    vec3  color;    // reflectance
 };
 
-vec3 albedo_of(hair_fragment f) { return tint_of(f.seed, f.lock, f.t, f.random); }
+vec3 albedo_of(hair_fragment f) { return f.color; }
 
 #ifdef HAIR_FIBRES
 vec3 hair_shade(hair_fragment f)

@@ -136,6 +136,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PRESSURE 3
 #define HAIR_UNIT_RIGHT 4
 #define HAIR_UNIT_WALL 6
+#define HAIR_UNIT_BEFORE 2 // of what draws velocities, in place of frames: as HAIR_UNIT_EXPANDED, of the frame before
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
@@ -610,9 +611,14 @@ struct hair_draw_params {
     float     segment_pixels;  // wanted
     float     least_share;
     float     hidden_share; // as a multiple, of strands behind the skull
+    hair_mat4 now_to_clip;    // from the head's origin, without jitter
+    hair_mat4 before_to_clip; // from where the head's origin was, when hair was drawn before
+    hair_vec4 origin;         // xyz: of the head, world, m
+    // xy: pixels; z: by which ribbons are widened to each side to reach all pixels that they cover a share of; w: opacity
+    hair_vec4 viewport;
     HAIR_STRUCT(hair_tint) tint;
     HAIR_STRUCT(hair_strand_look) strand;
 };
-HAIR_SIZE(hair_draw_params, 4 * 64 + 8 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
+HAIR_SIZE(hair_draw_params, 6 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
 
 #endif

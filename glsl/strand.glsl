@@ -6,15 +6,19 @@
 #else
 #include "evaluate.glsl"
 #endif
-#include "shade.glsl"
+#define HAIR_OF_VERTICES 1
+#include "shading.glsl"
 
 struct strand_vertex {
-    vec4 position; // xyz: m, from the head's origin; w: radius, m
-    vec3 tangent;  // unit
-    vec3 color;
+    vec4  position; // xyz: m, from the head's origin; w: radius, m
+    vec3  tangent;  // unit
+    vec3  color;
+    uvec3 numbers; // see passed.glsl
+    vec3  place;
+    vec3  before; // where it was, as position
 };
 
-vec3 shade(hair_follower follower, hair_point point, float t)
+hair_fragment fragment_of(hair_follower follower, uint number, hair_point point, float t)
 {
     hair_fragment f;
     f.position = point.position;
@@ -24,7 +28,23 @@ vec3 shade(hair_follower follower, hair_point point, float t)
     f.random   = random(follower.seed + 7u);
     f.seed     = follower.seed;
     f.lock     = follower.guide0;
+    f.strand   = number;
+    f.uv       = vec2(0.0);
+    f.across   = 0.0;
+    f.color    = tint_of(f.seed, f.lock, t, f.random);
+    return f;
+}
+
+// Where pixels are shaded, what there is to shade.
+vec3 shade(hair_fragment f)
+{
+#ifdef HAIR_OWN_PIXELS
+    return f.color;
+#elif defined(HAIR_OWN_VERTICES)
+    return hair_shade(f).rgb;
+#else
     return hair_shade(f);
+#endif
 }
 
 // The k-th vertex of a strand of so many segments, of which there may be a share: t.
@@ -35,6 +55,20 @@ strand_vertex strand_at(uint number, float t, float width)
 {
     hair_follower follower = fetch_follower(number);
     hair_point    point    = evaluate(follower, number, t);
-    vec3          color    = draw.colored != 0u ? shade(follower, point, t) : vec3(0.0);
-    return strand_vertex(vec4(point.position, point.radius * width), point.tangent, color);
+    strand_vertex v;
+    v.position = vec4(point.position, point.radius * width);
+    v.tangent  = point.tangent;
+    v.color    = vec3(0.0);
+    v.numbers  = uvec3(number, follower.guide0, follower.seed);
+    v.place    = vec3(t, 0.0, 0.0);
+    v.before   = point.position;
+    if (draw.colored != 0u) {
+        hair_fragment f = fragment_of(follower, number, point, t);
+        v.color         = shade(f);
+        v.place.yz      = f.uv;
+    }
+#ifdef HAIR_MOTION
+    v.before = before_at(number, t);
+#endif
+    return v;
 }

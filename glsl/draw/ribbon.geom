@@ -1,14 +1,61 @@
-// ribbon.geom - a segment as a ribbon of true width that faces the eye.
+// ribbon.geom - a segment as a ribbon that faces the eye: of true width, or as wide as all pixels of which it covers a
+// share.
 #version 450 core
 #include "draw_params.glsl"
+#include "passed.glsl"
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec4 strand_position[];
 layout(location = 1) in vec3 strand_tangent[];
 layout(location = 2) in vec3 strand_color[];
-
 layout(location = 2) out vec3 ribbon_color;
+#ifdef HAIR_NUMBERED
+layout(location = 3) flat in uvec3 strand_numbers[];
+layout(location = 4) in vec4 strand_place[];
+layout(location = 0) out vec4 ribbon_position;
+layout(location = 1) out vec3 ribbon_tangent;
+layout(location = 3) flat out uvec3 ribbon_numbers;
+layout(location = 4) out vec4 ribbon_place;
+#endif
+#ifdef HAIR_MOTION
+layout(location = 5) in vec3 clip_now[];
+layout(location = 6) in vec3 clip_before[];
+layout(location = 5) out vec3 ribbon_now;
+layout(location = 6) out vec3 ribbon_before;
+#endif
+#ifdef HAIR_SHARES
+layout(location = 7) noperspective out vec4 ribbon_share;
+#endif
+
+void pass_on(int end, float across)
+{
+    ribbon_color = strand_color[end];
+#ifdef HAIR_NUMBERED
+    ribbon_position = strand_position[end];
+    ribbon_tangent  = strand_tangent[end];
+    ribbon_numbers  = strand_numbers[end];
+    ribbon_place    = vec4(strand_place[end].xyz, across);
+#endif
+#ifdef HAIR_MOTION
+    ribbon_now    = clip_now[end];
+    ribbon_before = clip_before[end];
+#endif
+}
+
+#ifdef HAIR_SHARES
+// How far beside the middle, in widths, the ribbon must reach; and of that vertex the share's terms.
+float widen(vec4 center, vec3 side, out vec4 share)
+{
+    vec4  clip  = draw.view_to_clip * (draw.view * center), by = draw.view_to_clip * (draw.view * vec4(side, 0.0));
+    vec2  pixel = 0.5 * draw.viewport.xy * (by.xy - clip.xy / clip.w * by.w) / clip.w;
+    float half_ = length(pixel);
+    if (!(half_ > 1e-9)) return 0.0;
+    vec2 n = abs(pixel) / half_; // Of a square pixel seen along the strand: a trapezoid.
+    share  = vec4(half_ + draw.viewport.z, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y));
+    return share.x / half_;
+}
+#endif
 
 void main()
 {
@@ -18,9 +65,16 @@ void main()
         vec3  side   = cross(strand_tangent[end], to_eye);
         float l      = length(side);
         side         = l > 1e-12 ? side * (strand_position[end].w / l) : vec3(0.0); // Seen end on: no width.
+#ifdef HAIR_SHARES
+        vec4 share = vec4(0.0);
+        side *= widen(vec4(center, 1.0), side, share);
+#endif
         for (int k = -1; k <= 1; k += 2) {
-            ribbon_color = strand_color[end];
-            gl_Position  = draw.view_to_clip * (draw.view * vec4(center + float(k) * side, 1.0));
+            pass_on(end, float(k));
+#ifdef HAIR_SHARES
+            ribbon_share = vec4(float(k) * share.x, share.yzw);
+#endif
+            gl_Position = draw.view_to_clip * (draw.view * vec4(center + float(k) * side, 1.0));
             EmitVertex();
         }
     }

@@ -1,9 +1,81 @@
-// strand.frag - the colour of a strand where a pixel sees it.
+// strand.frag - what a pixel sees of a strand: its colour, or its number or velocity in place of that.
 #version 450 core
+#include "draw_params.glsl"
+#include "passed.glsl"
+#ifdef HAIR_OWN_PIXELS
+#include "shading.glsl"
+#endif
 
 layout(location = 2) in vec3 strand_color;
+#ifdef HAIR_NUMBERED
+layout(location = 0) in vec4 strand_position;
+layout(location = 1) in vec3 strand_tangent;
+layout(location = 3) flat in uvec3 strand_numbers;
+layout(location = 4) in vec4 strand_place;
+#endif
+#ifdef HAIR_MOTION
+layout(location = 5) in vec3 clip_now;
+layout(location = 6) in vec3 clip_before;
+#endif
+#ifdef HAIR_SHARES
+layout(location = 7) noperspective in vec4 strand_share;
 
+// Of the projection of a square pixel onto a line: how much of it lies before x.
+float share_before(float x, float outer, float inner)
+{
+    float y = min(abs(x), outer), ramp = max(outer - inner, 1e-4), left = outer - y;
+    float tail = y > inner ? 0.5 * left * left / ramp : 0.5 * ramp + inner - y;
+    tail /= outer + inner;
+    return x < 0.0 ? tail : 1.0 - tail;
+}
+
+float coverage_of(vec4 s) { return clamp(share_before(s.x + s.y, s.z, s.w) - share_before(s.x - s.y, s.z, s.w), 0.0, 1.0); }
+#endif
+
+#ifdef HAIR_IDS
+layout(location = 0) out uvec4 color;
+
+void main() { color = uvec4(strand_numbers.xy + 1u, uint(clamp(strand_place.x, 0.0, 1.0) * 65535.0 + 0.5), 0u); }
+#elif defined(HAIR_MOTION)
 layout(location = 0) out vec4 color;
 
+void main()
+{
+    // What was not in front of the eye has no place to come from.
+    vec2 way = clip_before.z > 1e-6 ? clip_now.xy / clip_now.z - clip_before.xy / clip_before.z : vec2(0.0);
+    color    = vec4(0.5 * way, 0.0, 1.0);
+}
+#else
+layout(location = 0) out vec4 color;
+
+#ifdef HAIR_OWN_PIXELS
+vec4 shade_pixel()
+{
+    hair_fragment f;
+    f.position = strand_position.xyz;
+    f.tangent  = normalize(strand_tangent);
+    f.to_eye   = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - f.position : draw.eye.xyz);
+    f.t        = clamp(strand_place.x, 0.0, 1.0);
+    f.uv       = strand_place.yz;
+    f.across   = clamp(strand_place.w, -1.0, 1.0);
+    f.color    = max(strand_color, 0.0);
+    f.strand   = strand_numbers.x;
+    f.lock     = strand_numbers.y;
+    f.seed     = strand_numbers.z;
+    f.random   = random(f.seed + 7u);
+    return hair_shade(f);
+}
+#else
+vec4 shade_pixel() { return vec4(strand_color, 1.0); }
+#endif
+
 // Where a segment covers a pixel but not its middle, its colours are extrapolated, and might become negative.
-void main() { color = vec4(max(strand_color, 0.0), 1.0); }
+void main()
+{
+    vec4 shaded = shade_pixel();
+    color       = mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0)));
+#ifdef HAIR_SHARES
+    color *= coverage_of(strand_share) * draw.viewport.w;
+#endif
+}
+#endif

@@ -51,6 +51,7 @@ typedef struct hair_groom    hair_groom;
 typedef struct hair_form     hair_form;
 typedef struct hair_context  hair_context;
 typedef struct hair_instance hair_instance;
+typedef struct hair_shader   hair_shader;
 
 typedef enum hair_result {
     HAIR_OK = 0,
@@ -622,7 +623,12 @@ typedef enum hair_pass {
     HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
     HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.
     HAIR_PASS_GUIDES,    ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
-    HAIR_PASS_SOLIDS ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
+    HAIR_PASS_SOLIDS, ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
+    /// With depth: how far hair has moved on the screen since the frame before, see hair_view.frame. To a float target: x and
+    /// y in viewports, to the right and up, without jitter; 0 and 1 beside. Keeps the vertices of two frames: 40 bytes each.
+    HAIR_PASS_MOTION,
+    /// With depth: numbers. To an unsigned integer target: 1 + strand, 1 + its guide, place along it from 0 to 65535.
+    HAIR_PASS_ID
 } hair_pass;
 
 /// How followers become what is drawn: the picture is the same.
@@ -661,6 +667,39 @@ typedef struct hair_lod {
 } hair_lod;
 HAIR_DESC(hair_lod)
 
+/// Where the host's own shading runs.
+typedef enum hair_shade_at {
+    HAIR_SHADE_VERTICES = 0, ///< Of strands, as ours: cheap. Pixels get what lies between.
+    HAIR_SHADE_PIXELS        ///< In the fragment shader, whose other outputs it may declare and write.
+} hair_shade_at;
+
+/// Shading of the host's own: GLSL 4.50 that has
+///     vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f) + 0.1 * f.color, 1.0); }
+/// and whatever that needs: uniform buffers from binding 8 on, textures from unit 20 on and, of pixels, storage buffers from
+/// binding 8 on, which the host binds. It returns light towards the eye and, of pixels, alpha. It may call
+///     vec3 hair_shade_ours(hair_fragment f)            what would be without it
+///     vec3 hair_world(hair_fragment f)                 where it is in the world, m
+///     uint hair_lights()                               of the view
+///     vec3 hair_light(hair_fragment f, uint i, out vec3 to)  the i-th's irradiance without shadow; to: its direction
+///     float hair_light_through(hair_fragment f, uint i)      share of it that comes through hair and bodies
+///     vec3 hair_sky(hair_fragment f)                   irradiance of the surroundings
+/// A hair_fragment has: vec3 position (from the head's origin, m, world axes), tangent, to_eye (unit); float t (0 root, 1
+/// tip), random (the strand's own, [0, 1)), across (a ribbon, -1 to 1; 0 at vertices); vec3 color (reflectance); vec2 uv (of
+/// the root on the scalp; 0 where the groom has none); uint strand, lock (its guide), seed. The rest of the library's names
+/// are in sight too and may change: give your own a prefix. What is not finite or below 0 becomes 0.
+typedef struct hair_shader_desc {
+    hair_made     made;
+    const char*   label; ///< In errors, before the line: "label:12: …". NULL: "shader".
+    const char*   glsl;  ///< Its text, without #version. Required.
+    hair_shade_at at;    ///< Default HAIR_SHADE_VERTICES.
+} hair_shader_desc;
+HAIR_DESC(hair_shader_desc)
+
+/// A text that does not compile is HAIR_ERROR_OPENGL, its first error in the log. Programs are made as views need them.
+HAIR_API hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc,
+                                        hair_shader** out);
+HAIR_API void        hair_shader_destroy(hair_shader* shader); ///< Before its context.
+
 typedef struct hair_view {
     hair_made      made;
     hair_pass      pass;           ///< Default HAIR_PASS_COLOR.
@@ -676,6 +715,15 @@ typedef struct hair_view {
     hair_slice slice;             ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
     float      slice_at;          ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
     const hair_lod* lod;          ///< NULL: all is drawn.
+    hair_shader*    shader;       ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    float           jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
+    /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
+    /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.
+    /// Where there was none, after hair_reset or hair_load, or with another number of segments, hair has stood still;
+    /// hair_teleport takes along where it was.
+    uint32_t frame;                 ///< Default 0.
+    float    before_view[16];       ///< View of the frame before. Default identity.
+    float    before_projection[16]; ///< And its projection, without jitter. Default identity.
 } hair_view;
 HAIR_DESC(hair_view)
 

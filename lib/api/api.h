@@ -12,6 +12,11 @@ struct hair_context {
     struct hair_forms forms; // that instances' fields share
 };
 
+struct hair_shader {
+    hair_context*         context;
+    struct hair_gl_shader gl;
+};
+
 struct hair_instance {
     hair_context*           context;
     char                    label[64];

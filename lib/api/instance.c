@@ -181,7 +181,8 @@ hair_result hair_reset(hair_instance* hair)
     if (result) return result;
     hair_gl_enter(&hair->context->gl);
     hair_sim_reset(&hair->sim);
-    hair->smooth.done = 0;
+    hair->smooth.done       = 0;
+    hair->draw.motion.shown = 0;
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
 }
@@ -194,6 +195,7 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     hair_gl_enter(&hair->context->gl);
+    hair_draw_take_along(&hair->draw, &hair->sim.at_step, &pose);
     hair_sim_teleport(&hair->sim, &pose);
     hair->smooth.done = 0;
     hair_gl_leave(&hair->context->gl);

@@ -30,6 +30,7 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     hair_gl_enter(&context->gl);
     result = hair_sim_load(&hair->sim, bytes, size);
     if (!result) hair->smooth.done = 0;
+    if (!result) hair->draw.motion.shown = 0;
     hair_gl_leave(&context->gl);
     return result;
 }

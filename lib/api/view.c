@@ -6,7 +6,10 @@
 static hair_result check_view(const hair_instance* hair, const hair_view* view)
 {
     const hair_host* host = &hair->context->host;
-    hair_vec3        to   = hair_load3(view->light_to);
+    if (view->shader && view->shader->context != hair->context)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
+                         hair->label);
+    hair_vec3 to = hair_load3(view->light_to);
     if (!(hair_length(to) > 1e-12f))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.light_to has no direction", hair->label);
     const float* m = view->shadow_matrix;
@@ -95,7 +98,9 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
         hair->draw.bounded =
             (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
-        if (!result) result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own);
+        if (!result)
+            result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own,
+                                   own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
     }
     hair_gl_leave(&context->gl);
     return result;

@@ -78,21 +78,46 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// Levels of detail leave out most vertices, and want others.
+// Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept.
 static hair_path path_of(const hair_view* view)
 {
+    if (view->pass == HAIR_PASS_MOTION) return HAIR_PATH_EXPANDED;
     return view->path == HAIR_PATH_EXPANDED && view->lod ? HAIR_PATH_INSTANCED : view->path;
 }
 
 // Of the rows of a DRAW_PASS, two each.
 static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view, hair_path path)
 {
-    int depth = view->pass == HAIR_PASS_DEPTH, fibres = !depth && draw->look.shading == HAIR_SHADING_FIBRES;
-    int row                           = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
+    int depth  = view->pass == HAIR_PASS_DEPTH;
+    int fibres = view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES;
+    int row    = (view->primitive == HAIR_LINES) + 2 * depth + 4 * fibres;
     static const hair_gl_pass first[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED_RIBBONS,
                                          [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED_RIBBONS,
                                          [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED_RIBBONS};
     return first[path] + (hair_gl_pass)(2 * row);
+}
+
+// What is drawn with: a program, and the pass that it counts as.
+struct drawn {
+    hair_gl_pass pass;
+    hair_path    path;
+    GLuint       program;
+};
+
+static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
+                                struct drawn* out)
+{
+    struct hair_gl* gl   = draw->gl;
+    uint32_t        bits = view->pass == HAIR_PASS_ID       ? HAIR_GL_IDS
+                           : view->pass == HAIR_PASS_MOTION ? HAIR_GL_MOTION
+                                                            : 0;
+    out->path            = path_of(view);
+    out->pass            = hair_draw_choose(draw, pass_of(draw, view, out->path));
+    if (bits || shader)
+        return hair_gl_need_variant(gl, shader ? shader : &gl->ours, bits, out->pass, &out->program);
+    hair_result result = hair_gl_need(gl, out->pass);
+    out->program       = gl->program[out->pass];
+    return result;
 }
 
 static void draw_guides(struct hair_draw* draw)
@@ -104,42 +129,53 @@ static void draw_guides(struct hair_draw* draw)
     hair_gl_end(gl, HAIR_GL_GUIDES);
 }
 
-static void draw_followers(struct hair_draw* draw, hair_gl_pass pass, int listed)
+static void draw_followers(struct hair_draw* draw, const hair_view* view, const struct drawn* with)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl     = draw->gl;
+    int             listed = with->path != HAIR_PATH_TESSELLATION;
     if (listed) hair_draw_list(draw);
+    if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
+    if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
-    hair_gl_begin(gl, pass);
+    hair_gl_begin(gl, with->pass);
+    gl->UseProgram(with->program);
     (listed ? hair_draw_listed : hair_draw_patches)(draw);
-    hair_gl_end(gl, pass);
+    hair_gl_end(gl, with->pass);
+}
+
+// What followers are drawn with and from, made and brought up to date.
+static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* smooth,
+                              const struct hair_pose* head, const hair_view* view,
+                              struct hair_gl_shader* shader, struct drawn* out)
+{
+    int         motion = view->pass == HAIR_PASS_MOTION;
+    hair_result result = find_program(draw, view, shader, out);
+    if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
+        result = hair_draw_need_fibres(draw);
+    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw);
+    if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth);
+    if (!result && motion) result = hair_draw_need_motion(draw);
+    if (!result && motion) hair_draw_begin_motion(draw, head, view->frame);
+    return result;
 }
 
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
-                          const struct hair_pose* head, const hair_view* view)
+                          const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
-    int          guides   = view->pass == HAIR_PASS_GUIDES;
-    hair_path    path     = path_of(view);
-    int          listed   = path != HAIR_PATH_TESSELLATION;
-    int          expanded = path == HAIR_PATH_EXPANDED;
-    hair_gl_pass pass     = pass_of(draw, view, path);
-    hair_result  result   = HAIR_OK;
+    int          guides = view->pass == HAIR_PASS_GUIDES;
+    struct drawn with   = {.path = HAIR_PATH_TESSELLATION};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
-    if (!guides) result = hair_draw_need(draw, &pass);
-    if (view->pass == HAIR_PASS_COLOR && !result && draw->look.shading == HAIR_SHADING_FIBRES)
-        result = hair_draw_need_fibres(draw);
-    if (!guides && !result && listed) result = hair_draw_make_listed(draw);
-    if (!guides && !result && expanded) result = hair_draw_need_expanded(draw, smooth);
+    hair_result result = guides ? HAIR_OK : make_ready(draw, smooth, head, view, shader, &with);
     if (result) return result;
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
-    if (expanded) hair_draw_bind_expanded(draw);
     if (guides)
         draw_guides(draw);
     else
-        draw_followers(draw, pass, listed);
+        draw_followers(draw, view, &with);
     return HAIR_OK;
 }

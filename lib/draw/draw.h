@@ -6,6 +6,7 @@
 #include "lib/draw/expanded.h"
 #include "lib/draw/hits.h"
 #include "lib/draw/listed.h"
+#include "lib/draw/motion.h"
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
 struct hair_fibres {
@@ -31,6 +32,7 @@ struct hair_draw {
     struct hair_listed   listed;
     struct hair_expanded expanded;
     struct hair_fibres   fibres;
+    struct hair_motion   motion;
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -55,7 +57,8 @@ void        hair_draw_patches(struct hair_draw* draw); // all of them, with the 
 // The program of `pass` that the look asks for; and of a pass that draws or expands, that heeds what was found where there was
 // a solid.
 hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
-hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
+hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture);
 
@@ -70,9 +73,9 @@ void        hair_draw_free_listed(struct hair_draw* draw);
 void        hair_draw_list(struct hair_draw* draw);
 void        hair_draw_listed(struct hair_draw* draw);
 
-// Draw as `view` asks, with the head's origin at `head`. `view` has been checked.
+// Draw as `view` asks, with the head's origin at `head`. `view` has been checked. shader: of the host; NULL: ours.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
-                          const struct hair_pose* head, const hair_view* view);
+                          const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader);
 
 // Draw solids, and where `view` asks for it a slice of the field, which then is up to date.
 hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
@@ -84,7 +87,16 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
 void        hair_draw_free_expanded(struct hair_draw* draw);
 void        hair_draw_bind_expanded(struct hair_draw* draw);
 
-// They read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
+// motion.c: with vertices that are up to date, begin a frame, or go on with it; before vertices are written anew, keep those
+// that the frame before has shown; what was seen goes along with a head that is teleported.
+hair_result hair_draw_need_motion(struct hair_draw* draw);
+void        hair_draw_free_motion(struct hair_draw* draw);
+void        hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame);
+void        hair_draw_keep_shown(struct hair_draw* draw);
+void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
+void hair_draw_bind_motion(struct hair_draw* draw);
+
+// Vertices of all followers read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
 // UINT32_MAX.
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     hair_vec4** out);

@@ -40,6 +40,7 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &expanded->tangent);
     expanded->vertices = 0;
     expanded->there    = 0;
+    hair_draw_free_motion(draw);
 }
 
 // Whatever moves or changes followers has them looked at for solids again.
@@ -62,6 +63,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     hair_draw_write_params(draw, NULL, NULL, &params);
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth, 0);
+    hair_draw_keep_shown(draw);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
@@ -69,6 +71,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     hair_gl_run(gl, pass, (uint32_t)((expanded->vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
     // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, NULL);
+    ++expanded->writes;
     expanded->there = 1;
     expanded->met   = draw->hits.met;
     expanded->made  = gl->made;

@@ -10,6 +10,7 @@ struct hair_expanded {
     size_t   vertices;                          // that there is room for
     int      there;                             // vertices have been written,
     uint32_t met, made;                         // for these counts of hair_hits.met and hair_gl.made
+    uint32_t writes;                            // of vertices, so far
 };
 
 #endif

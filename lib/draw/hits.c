@@ -103,7 +103,7 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
     return hair_look_is_styled(&draw->look) ? pass + 1 : pass;
 }
 
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
+hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass)
 {
     static const struct {
         hair_gl_pass first, last, with_hits;
@@ -115,10 +115,15 @@ hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
     };
     if (draw->hits.active)
         for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-            if (*pass >= rows[i].first && *pass <= rows[i].last) {
-                *pass = rows[i].with_hits + (*pass - rows[i].first);
+            if (pass >= rows[i].first && pass <= rows[i].last) {
+                pass = rows[i].with_hits + (pass - rows[i].first);
                 break;
             }
-    *pass = hair_draw_styled(draw, *pass);
+    return hair_draw_styled(draw, pass);
+}
+
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
+{
+    *pass = hair_draw_choose(draw, *pass);
     return hair_gl_need(draw->gl, *pass);
 }

@@ -53,6 +53,45 @@ static void write_shadow(const struct hair_draw* draw, const struct hair_pose* h
     out->light.w    = per_metre > 0 ? draw->look.absorption / per_metre : 0;
 }
 
+// Moves what is drawn by so many pixels.
+static void jitter(float projection[16], const float by[2], const float viewport[4])
+{
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 2; ++i)
+            projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
+}
+
+static void write_clip(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
+{
+    GLfloat viewport[4] = {0};
+    float   projection[16];
+    memcpy(projection, view->projection, sizeof projection);
+    if (view->jitter[0] != 0 || view->jitter[1] != 0) {
+        draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+        jitter(projection, view->jitter, viewport);
+    }
+    memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
+}
+
+// Clip space of this frame and of the one before, from the head's origins.
+static void write_motion(const struct hair_motion* motion, const hair_view* view,
+                         struct hair_draw_params* out)
+{
+    float            matrix[16], turn[16] = {[15] = 1}, placed[16], clip[16];
+    struct hair_pose was = {.rotation = {0, 0, 0, 1}};
+    for (int i = 0; i < 3; ++i)
+        hair_store3(turn + 4 * i, hair_rotate(motion->before.turn, hair_v3(i == 0, i == 1, i == 2)));
+    memcpy(was.position, motion->before.position, sizeof was.position);
+    hair_mat4 before = from_head(view->before_view, &was);
+    memcpy(matrix, &before, sizeof matrix);
+    hair_mat4_multiply(matrix, turn, placed);
+    hair_mat4_multiply(view->before_projection, placed, clip);
+    memcpy(&out->before_to_clip, clip, sizeof clip);
+    memcpy(matrix, &out->view, sizeof matrix);
+    hair_mat4_multiply(view->projection, matrix, clip);
+    memcpy(&out->now_to_clip, clip, sizeof clip);
+}
+
 static void write_view(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_draw_params* out)
 {
@@ -62,7 +101,10 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     out->light_to   = (hair_vec4){light.x, light.y, light.z, 0};
     out->light      = (hair_vec4){view->light[0], view->light[1], view->light[2], 0};
     out->ambient    = (hair_vec4){view->ambient[0], view->ambient[1], view->ambient[2], 0};
-    memcpy(&out->view_to_clip, view->projection, sizeof out->view_to_clip);
+    out->origin =
+        (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2], 0};
+    write_clip(draw, view, out);
+    if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
     if (view->shadow_texture && view->pass == HAIR_PASS_COLOR) write_shadow(draw, head, view, out);
 }
 

@@ -35,19 +35,39 @@ struct hair_gl_saved {
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
+// What is added to passes that draw, in any mixture: bits.
+#define HAIR_GL_TINTED 1u // strands have colours or places on the scalp of their own
+#define HAIR_GL_IDS 2u    // numbers in place of colour
+#define HAIR_GL_MOTION 4u // velocities in place of colour
+#define HAIR_GL_SHARES 8u // strands cover shares of pixels
+#define HAIR_GL_VARIANTS 16
+
+// The rows of passes that draw strands.
+#define HAIR_GL_DRAWN (HAIR_GL_INSTANCED_HITS_FIBRES_LINES_STYLED - HAIR_GL_TESSELLATED_RIBBONS + 1)
+
+// The host's own shading; without text ours. What has been needed of it so far.
+struct hair_gl_shader {
+    char*    label;
+    char*    text;
+    int      pixels; // shades pixels, not vertices
+    uint32_t made;   // as hair_gl.made was
+    GLuint   program[HAIR_GL_VARIANTS][HAIR_GL_DRAWN];
+};
+
 struct hair_gl {
-    hair_host            host;
-    hair_gl_state        promise;
-    char*                glsl_dir; // NULL: the text built in
-    int                  timings;
-    int                  software; // the driver is a software rasteriser
-    int                  subgroup; // work groups of 32 threads are one
-    uint32_t             made;     // how often all programs have been compiled
-    GLuint               program[HAIR_GL_PASS_COUNT];
-    struct hair_gl_timer timer[HAIR_GL_PASS_COUNT];
-    GLuint               vertex_array; // empty: every vertex comes from its number
-    GLuint               shadow_sampler;
-    uint32_t             max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
+    hair_host             host;
+    hair_gl_state         promise;
+    char*                 glsl_dir; // NULL: the text built in
+    int                   timings;
+    int                   software; // the driver is a software rasteriser
+    int                   subgroup; // work groups of 32 threads are one
+    uint32_t              made;     // how often all programs have been compiled
+    GLuint                program[HAIR_GL_PASS_COUNT];
+    struct hair_gl_shader ours; // variants of the same
+    struct hair_gl_timer  timer[HAIR_GL_PASS_COUNT];
+    GLuint                vertex_array; // empty: every vertex comes from its number
+    GLuint                shadow_sampler;
+    uint32_t              max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
     int lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
@@ -74,6 +94,18 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
                          GLuint* out);
 hair_result hair_gl_selftest(struct hair_gl* gl);
 
+// variant.c: a shader of the host's, whose members are zero; programs of it, or of gl->ours, made when first needed.
+hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
+                                struct hair_gl_shader* out);
+void        hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
+hair_result hair_gl_need_variant(struct hair_gl* gl, struct hair_gl_shader* shader, uint32_t bits,
+                                 hair_gl_pass pass, GLuint* out);
+// Its definitions.
+void hair_gl_write_variant(const struct hair_gl_shader* shader, uint32_t bits, char* out, size_t size);
+// program.c: compile and link one.
+hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
+                                 hair_gl_pass pass, GLuint* out);
+
 // source.c --------------------------------------------------------------------------------------------------
 
 #define HAIR_GL_MAX_SOURCES 32 // Files of one shader, itself included.
@@ -88,6 +120,10 @@ struct hair_gl_source {
 // `prefix` follows the #version line. glsl_dir NULL: the text built in.
 hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name,
                                 const char* prefix, struct hair_gl_source* out);
+// The same with `own`, unless it is NULL, for the text of HAIR_GL_OWN.
+#define HAIR_GL_OWN "own.glsl"
+hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir, const char* name,
+                                     const char* prefix, const char* own, struct hair_gl_source* out);
 
 // state.c ---------------------------------------------------------------------------------------------------
 

@@ -33,33 +33,50 @@ static GLenum stage_of(const char* name)
     return 0;
 }
 
-// Drivers begin a message with the number of the file: "2:50(7): error" (Mesa) or "2(50) : error" (NVIDIA).
-static void report(struct hair_gl* gl, const struct hair_gl_source* source, const char* message)
+// Drivers begin a message with the number of the file: "2:50(7): error" (Mesa) or "2(50) : error" (NVIDIA). What the host
+// has written is told by its own name and lines, in the one sentence of the call that it fails.
+static hair_result report(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
+                          const char* name, const char* message)
 {
-    char*       rest = NULL;
-    const char* at   = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
-    long        file = strtol(at, &rest, 10);
+    char        where[128] = "", *rest = NULL;
+    const char* at    = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
+    long        file  = strtol(at, &rest, 10);
+    int         whose = 0; // the host's
+    if (own && file == HAIR_GL_MAX_SOURCES)
+        file = 0; // See source.c.
+    else
+        whose = own && file == 0;
     if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
         char* after = NULL;
         long  line  = strtol(rest + 1, &after, 10);
         while (*after && strchr("(): 0123456789", *after)) ++after;
-        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s:%ld: %.*s", source->file[file], line,
-                 (int)strcspn(after, "\n"), after);
+        snprintf(where, sizeof where, whose ? "%.0s%ld: " : "glsl/%s:%ld: ", source->file[file], line);
+        at = after;
     } else {
-        hair_log(&gl->host, HAIR_LOG_ERROR, "glsl/%s: %.*s", source->file[0], (int)strcspn(message, "\n"),
-                 message);
+        snprintf(where, sizeof where, "glsl/%s: ", source->file[0]);
+        at    = message;
+        whose = 0;
     }
+    int length = (int)strcspn(at, "\n");
+    if (own)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s:%s%s%.*s", own, whose ? "" : " ", where, length,
+                         at);
+    hair_log(&gl->host, HAIR_LOG_ERROR, "%s%.*s", where, length, at);
+    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
-static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char* name, const char* prefix)
+static hair_result compile_stage(struct hair_gl* gl, const struct hair_gl_shader* of, GLuint program,
+                                 const char* name, const char* prefix)
 {
     struct hair_gl_source source;
-    hair_result           result = hair_gl_read_source(&gl->host, gl->glsl_dir, name, prefix, &source);
+    hair_result result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, name, prefix, of->text, &source);
     if (result) return result;
 
     GLuint shader = gl->CreateShader(stage_of(name));
     GLint  done   = 0;
-    if (shader) {
+    if (!shader)
+        result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", name);
+    else {
         const char* text = source.text;
         gl->ShaderSource(shader, 1, &text, NULL);
         gl->CompileShader(shader);
@@ -69,16 +86,16 @@ static hair_result compile_stage(struct hair_gl* gl, GLuint program, const char*
         } else {
             char message[1024] = "";
             gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
-            report(gl, &source, message);
+            result = report(gl, &source, of->label, name, message);
         }
         gl->DeleteShader(shader); // Lives on while it is attached.
     }
     hair_free(&gl->host, source.text);
-    return done ? HAIR_OK : hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
+    return result;
 }
 
-hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
-                         GLuint* out)
+static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
+                        const char* label, const char* stages, const char* captured, GLuint* out)
 {
     GLuint program = gl->CreateProgram();
     if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
@@ -87,6 +104,8 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
     if (gl->subgroup)
         used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define HAIR_SUBGROUP 1\n");
+    hair_gl_write_variant(shader, bits, prefix + used, sizeof prefix - used);
+    used += strlen(prefix + used);
     for (const char* at = stages; *at && !result;) {
         char   word[64];
         size_t length = strcspn(at, " ");
@@ -98,7 +117,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
             if (used >= sizeof prefix)
                 result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", label);
         } else {
-            result = compile_stage(gl, program, word, prefix);
+            result = compile_stage(gl, shader, program, word, prefix);
         }
         at += length + strspn(at + length, " ");
     }
@@ -110,7 +129,8 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
         if (!done) {
             char message[512] = "";
             gl->GetProgramInfoLog(program, sizeof message, NULL, message);
-            result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s does not link: %.*s", label,
+            result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
+                               shader->text ? shader->label : "", shader->text ? ": " : "", label,
                                (int)strcspn(message, "\n"), message);
         }
     }
@@ -121,6 +141,18 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     gl->ObjectLabel(GL_PROGRAM, program, -1, label);
     *out = program;
     return HAIR_OK;
+}
+
+hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
+                         GLuint* out)
+{
+    return link(gl, &gl->ours, 0, label, stages, captured, out);
+}
+
+hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
+                                 hair_gl_pass pass, GLuint* out)
+{
+    return link(gl, shader, bits, passes[pass].label, passes[pass].stages, NULL, out);
 }
 
 static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)

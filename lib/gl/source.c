@@ -78,11 +78,21 @@ struct reader {
     const hair_host*       host;
     const char*            folder;
     const char*            prefix;
+    const char*            own;
     struct text            text;
     struct hair_gl_source* out;
 };
 
 static hair_result read_one(struct reader* reader, const char* name, size_t length);
+
+// What a file is called in directives. One compiler takes some errors in any file for the first one's: that is the host's
+// text, where there is one.
+static uint32_t called(const struct reader* reader, uint32_t number)
+{
+    if (!reader->own) return number;
+    if (number == 0) return HAIR_GL_MAX_SOURCES;
+    return strcmp(reader->out->file[number], HAIR_GL_OWN) == 0 ? 0 : number;
+}
 
 static hair_result put_lines(struct reader* reader, const char* text, uint32_t number)
 {
@@ -97,14 +107,16 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
             hair_result result = read_one(reader, name, length);
             if (result) return result;
             append(&reader->text, directive,
-                   (size_t)snprintf(directive, sizeof directive, "#line %d %u\n", line_number + 1, number));
+                   (size_t)snprintf(directive, sizeof directive, "#line %d %u\n", line_number + 1,
+                                    called(reader, number)));
         } else {
             append(&reader->text, line, (size_t)(end - line));
             append(&reader->text, "\n", 1);
             if (number == 0 && strncmp(line, "#version", 8) == 0) {
                 append(&reader->text, reader->prefix, strlen(reader->prefix));
                 append(&reader->text, directive,
-                       (size_t)snprintf(directive, sizeof directive, "#line %d 0\n", line_number + 1));
+                       (size_t)snprintf(directive, sizeof directive, "#line %d %u\n", line_number + 1,
+                                        called(reader, 0)));
             }
         }
         line = stop ? stop + 1 : end;
@@ -125,15 +137,17 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
         if (strcmp(out->file[i], own) == 0) return HAIR_OK; // Each file once.
     ++out->files;
 
-    char*       read   = NULL;
-    hair_result result = reader->folder ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
+    char*       read    = NULL;
+    const char* given   = strcmp(own, HAIR_GL_OWN) == 0 ? reader->own : NULL;
+    int         in_file = reader->folder && !given;
+    hair_result result  = in_file ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
     if (result) return result;
-    const char* text = reader->folder ? read : find_built_in(own);
+    const char* text = given ? given : in_file ? read : find_built_in(own);
     if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);
     if (number > 0) {
         char directive[32];
         append(&reader->text, directive,
-               (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", number));
+               (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", called(reader, number)));
     }
     result = put_lines(reader, text, number);
     hair_free(reader->host, read);
@@ -143,9 +157,15 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
 hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name,
                                 const char* prefix, struct hair_gl_source* out)
 {
+    return hair_gl_read_source_with(host, glsl_dir, name, prefix, NULL, out);
+}
+
+hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir, const char* name,
+                                     const char* prefix, const char* own, struct hair_gl_source* out)
+{
     memset(out, 0, sizeof *out);
     struct reader reader = {
-        .host = host, .folder = glsl_dir, .prefix = prefix, .text = {.host = host}, .out = out};
+        .host = host, .folder = glsl_dir, .prefix = prefix, .own = own, .text = {.host = host}, .out = out};
     hair_result result = read_one(&reader, name, strlen(name));
     if (!result && reader.text.failed) result = hair_fail_memory(host, "shader text");
     if (result) {

@@ -1,0 +1,19 @@
+// shading.glsl - light from a strand to the eye as views ask for it: ours, or the host's, which may call ours.
+#if defined(HAIR_OWN_VERTICES) || (defined(HAIR_OWN_PIXELS) && !defined(HAIR_OF_VERTICES))
+#define HAIR_OWN 1
+#define hair_shade hair_shade_ours
+#endif
+#include "shade.glsl"
+#ifdef HAIR_OWN
+#undef hair_shade
+
+vec3 hair_world(hair_fragment f) { return draw.origin.xyz + f.position; }
+
+uint  hair_lights() { return 1u; }
+vec3  hair_light(hair_fragment f, uint i, out vec3 to) { to = draw.light_to.xyz; return draw.light.rgb; }
+float hair_light_through(hair_fragment f, uint i) { float met; return light_through(f.position, f.seed, vec3(1.0), met).x; }
+vec3  hair_sky(hair_fragment f) { return draw.ambient.rgb; }
+
+vec4 hair_shade(hair_fragment f);
+#include "own.glsl"
+#endif

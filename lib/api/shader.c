@@ -1,0 +1,46 @@
+// shader.c - shading of the host's own.
+#include "lib/api/api.h"
+
+static hair_result fill(hair_shader* shader, hair_context* context, const hair_shader_desc* desc)
+{
+    struct hair_gl* gl      = &context->gl;
+    GLuint          program = 0;
+    shader->context         = context;
+    hair_result result      = hair_gl_make_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
+                                                  desc->at == HAIR_SHADE_PIXELS, &shader->gl);
+    if (result) return result;
+    hair_gl_enter(gl); // What most views draw with; what fails in another fails here.
+    result = hair_gl_need_variant(gl, &shader->gl, 0, HAIR_GL_TESSELLATED_FIBRES_RIBBONS, &program);
+    hair_gl_leave(gl);
+    return result;
+}
+
+hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc, hair_shader** out)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &context->host;
+    hair_shader_desc own;
+    hair_result      result = HAIR_TAKE(host, hair_shader_desc, desc, &own);
+    if (result) return result;
+    if (!own.glsl) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_shader_desc.glsl is NULL");
+    if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    result = hair_check_current(context);
+    if (result) return result;
+    hair_shader* shader = hair_alloc(host, 1, sizeof *shader);
+    if (!shader) return hair_fail_memory(host, "a shader");
+    result = fill(shader, context, &own);
+    if (result) {
+        hair_shader_destroy(shader);
+        return result;
+    }
+    *out = shader;
+    return HAIR_OK;
+}
+
+void hair_shader_destroy(hair_shader* shader)
+{
+    if (!shader) return;
+    hair_context* context = shader->context;
+    hair_gl_free_shader(&context->gl, &shader->gl);
+    hair_free(&context->host, shader);
+}

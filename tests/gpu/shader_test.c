@@ -1,0 +1,292 @@
+// shader_test.c - shading of the host's own: it has what it is promised, its errors have its own lines, and no text breaks
+// anything.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIDE 96
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+static struct fixture start(void** state)
+{
+    struct fixture f    = {.test = *state};
+    hair_desc      desc = hair_desc_default();
+    hair_look      look = hair_look_default();
+    look.radius         = 0.004f;
+    look.shading        = HAIR_SHADING_LINES;
+    desc.look           = &look;
+    f.groom             = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static hair_result make(struct fixture* f, const char* glsl, hair_shade_at at, hair_shader** out)
+{
+    hair_shader_desc desc = hair_shader_desc_default();
+    desc.label            = "mine";
+    desc.glsl             = glsl;
+    desc.at               = at;
+    return hair_shader_create(f->test->context, &desc, out);
+}
+
+static hair_view view_of(hair_pass pass, hair_shader* shader)
+{
+    hair_view view     = hair_view_default();
+    view.pass          = pass;
+    view.shader        = shader;
+    view.projection[0] = view.projection[5] = 2;
+    view.projection[10]                     = -0.5f;
+    view.projection[13]                     = -0.2f;
+    return view;
+}
+
+static void draw(struct fixture* f, const hair_view* view, float* pixels)
+{
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&frame, pixels);
+    hair_test_frame_free(&frame);
+}
+
+// Strand, guide and place along it, each from 1; 0 where there is no hair.
+static void draw_ids(struct fixture* f, uint32_t* ids)
+{
+    GLuint              framebuffer, target[2];
+    static const float  far_away   = 1;
+    static const GLuint nothing[4] = {0};
+    glCreateFramebuffers(1, &framebuffer);
+    glCreateRenderbuffers(2, target);
+    glNamedRenderbufferStorage(target[0], GL_RGBA32UI, SIDE, SIDE);
+    glNamedRenderbufferStorage(target[1], GL_DEPTH_COMPONENT32F, SIDE, SIDE);
+    glNamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target[0]);
+    glNamedFramebufferRenderbuffer(framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target[1]);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, SIDE, SIDE);
+    glEnable(GL_DEPTH_TEST);
+    glClearNamedFramebufferuiv(framebuffer, GL_COLOR, 0, nothing);
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_away);
+    hair_view view = view_of(HAIR_PASS_ID, NULL);
+    hair_test_ok(f->test, hair_draw(f->hair, &view));
+    glReadPixels(0, 0, SIDE, SIDE, GL_RGBA_INTEGER, GL_UNSIGNED_INT, ids);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(2, target);
+}
+
+static void a_shader_that_calls_ours_changes_nothing(void** state)
+{
+    static float   plain[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
+    struct fixture f = start(state);
+    hair_shader*   shader;
+    hair_test_ok(f.test,
+                 make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f), 1.0); }\n",
+                      HAIR_SHADE_VERTICES, &shader));
+    hair_view view = view_of(HAIR_PASS_COLOR, NULL);
+    draw(&f, &view, plain);
+    view.shader = shader;
+    draw(&f, &view, own);
+    double lit = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) lit += (double)plain[4 * i];
+    assert_true(lit > 10);
+    for (int i = 0; i < 4 * SIDE * SIDE; ++i) hair_test_near("value", (size_t)i, own[i], plain[i], 1e-6);
+    hair_shader_destroy(shader);
+    finish(&f);
+}
+
+// The pass of numbers says which strand is where.
+static void shaders_of_pixels_know_strand_place_and_side(void** state)
+{
+    static float    pixels[4 * SIDE * SIDE];
+    static uint32_t ids[4 * SIDE * SIDE];
+    struct fixture  f = start(state);
+    hair_shader*    shader;
+    hair_test_ok(
+        f.test,
+        make(&f,
+             "vec4 hair_shade(hair_fragment f)\n{\n    return vec4(f.t + 1.0, f.strand + 1u, f.across + 2.0, "
+             "f.lock + 1u);\n}\n",
+             HAIR_SHADE_PIXELS, &shader));
+    hair_view view = view_of(HAIR_PASS_COLOR, shader);
+    draw(&f, &view, pixels);
+    draw_ids(&f, ids);
+    uint32_t covered = 0, strands = 0, left = 0, right = 0, last = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const float*    p  = pixels + 4 * i;
+        const uint32_t* id = ids + 4 * i;
+        assert_true((p[1] > 0) == (id[0] > 0));
+        if (!id[0]) continue;
+        ++covered;
+        assert_true((uint32_t)p[1] == id[0] && (uint32_t)p[3] == id[1]);
+        assert_true(id[0] <= f.groom->info.follower_count && id[1] <= f.groom->info.guide_count);
+        assert_int_equal(f.groom->followers[id[0] - 1].guide0, id[1] - 1);
+        hair_test_near("place", (size_t)i, p[0] - 1, id[2] / 65535.0, 2e-5);
+        assert_true(p[2] >= 1 && p[2] <= 3);
+        left += p[2]<1.7f, right += p[2]> 2.3f;
+        strands += id[0] != last;
+        last = id[0];
+    }
+    print_message("    %u pixels of at least %u strands, %u to one side, %u to the other\n", covered, strands,
+                  left, right);
+    assert_true(covered > 150 && left > covered / 8 && right > covered / 8);
+    hair_shader_destroy(shader);
+    finish(&f);
+}
+
+static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
+{
+    static float   pixels[4 * SIDE * SIDE];
+    struct fixture f = start(state);
+    hair_shader*   shader;
+    hair_test_ok(
+        f.test,
+        make(&f,
+             "layout(location = 1) out vec4 mine_second;\n"
+             "vec4 hair_shade(hair_fragment f)\n{\n"
+             "    vec3 to, sum = vec3(0.0);\n"
+             "    for (uint i = 0u; i < hair_lights(); ++i) sum += hair_light(f, i, to) * "
+             "hair_light_through(f, i);\n"
+             "    mine_second = vec4(to + 2.0, distance(hair_world(f), f.position) + hair_sky(f).x + 1.0);\n"
+             "    return vec4(sum, 0.5);\n}\n",
+             HAIR_SHADE_PIXELS, &shader));
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    GLuint              second;
+    static const GLenum both[]  = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    static const float  none[4] = {0};
+    glCreateRenderbuffers(1, &second);
+    glNamedRenderbufferStorage(second, GL_RGBA32F, SIDE, SIDE);
+    glNamedFramebufferRenderbuffer(frame.framebuffer, GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER, second);
+    glNamedFramebufferDrawBuffers(frame.framebuffer, 2, both);
+    glClearNamedFramebufferfv(frame.framebuffer, GL_COLOR, 1, none);
+    hair_view view = view_of(HAIR_PASS_COLOR, shader);
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    uint32_t covered = 0;
+    for (int target = 0; target < 2; ++target) {
+        glNamedFramebufferReadBuffer(frame.framebuffer, both[target]);
+        glReadPixels(0, 0, SIDE, SIDE, GL_RGBA, GL_FLOAT, pixels);
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            const float* p = pixels + 4 * i;
+            if (p[3] == 0) continue;
+            ++covered;
+            if (target == 0) { // The defaults, without shadow.
+                for (int k = 0; k < 3; ++k) hair_test_near("light", (size_t)k, p[k], 3, 1e-5);
+                hair_test_near("alpha", 0, p[3], 0.5, 0);
+            } else {
+                double length = sqrt(0.4 * 0.4 + 0.8 * 0.8 + 0.45 * 0.45);
+                hair_test_near("x", 0, p[0] - 2, 0.4 / length, 1e-5);
+                hair_test_near("y", 0, p[1] - 2, 0.8 / length, 1e-5);
+            }
+        }
+    }
+    assert_true(covered > 300);
+    hair_test_frame_free(&frame);
+    glDeleteRenderbuffers(1, &second);
+    hair_shader_destroy(shader);
+    finish(&f);
+}
+
+static void what_is_no_colour_is_drawn_as_black(void** state)
+{
+    static const char* const texts[] = {
+        "vec4 hair_shade(hair_fragment f) { return vec4(-1.0, sqrt(f.t - 2.0), log(-1.0 - f.t), 1.0); }",
+        "vec4 hair_shade(hair_fragment f) { return vec4(0.0 / (f.t - f.t), -1e30, -1.0 / (f.t - f.t), 1.0); "
+        "}"};
+    static float   pixels[4 * SIDE * SIDE];
+    struct fixture f = start(state);
+    for (int i = 0; i < 4; ++i) {
+        hair_shader* shader;
+        hair_test_ok(f.test,
+                     make(&f, texts[i / 2], i % 2 ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES, &shader));
+        hair_view view = view_of(HAIR_PASS_COLOR, shader);
+        draw(&f, &view, pixels);
+        for (int k = 0; k < SIDE * SIDE; ++k)
+            for (int c = 0; c < 3; ++c) assert_true(pixels[4 * k + c] == 0);
+        hair_shader_destroy(shader);
+    }
+    finish(&f);
+}
+
+static void errors_have_the_hosts_own_lines(void** state)
+{
+    struct fixture   f      = start(state);
+    hair_shader*     shader = NULL;
+    hair_shader_desc desc   = hair_shader_desc_default();
+    hair_test_refused(f.test, hair_shader_create(f.test->context, &desc, &shader), HAIR_ERROR_ARGUMENT,
+                      "hair_shader_desc.glsl is NULL");
+    for (int at = 0; at < 2; ++at) {
+        hair_result result =
+            make(&f, "// A comment.\n\nvec4 hair_shade(hair_fragment f)\n{\n    return nonsense;\n}\n",
+                 (hair_shade_at)at, &shader);
+        print_message("    %s\n", f.test->host.sentence);
+        hair_test_refused(f.test, result, HAIR_ERROR_OPENGL, "mine:5: ");
+        result = make(&f, "float mine_only;\n", (hair_shade_at)at, &shader);
+        print_message("    %s\n", f.test->host.sentence);
+        hair_test_refused(f.test, result, HAIR_ERROR_OPENGL, "mine: ");
+    }
+    assert_null(shader);
+    finish(&f);
+}
+
+static void no_text_breaks_anything(void** state)
+{
+    static const char* const texts[] = {
+        "",
+        "#endif\n#endif\n",
+        "/* without an end",
+        "#version 330\nvec4 hair_shade(hair_fragment f) { return vec4(1); }",
+        "#include \"../../etc/passwd\"\n",
+        "#include \"own.glsl\"\n",
+        "#include \"a_name_that_is_much_too_long_for_any_file_of_the_library.glsl\"\n",
+        "}}}}\n{{{{",
+        "#error no\n",
+        "#line 1 4000000000\nnonsense",
+        "#if 1\nvec4 hair_shade(hair_fragment f) { return vec4(1.0); }\n",
+        "void main() {}\nvec4 hair_shade(hair_fragment f) { return vec4(1.0); }",
+        "\xff\xfe\x01%s%n%d \\\n\\",
+        "struct hair_fragment { int x; };"};
+    static float   before[4 * SIDE * SIDE], after[4 * SIDE * SIDE];
+    struct fixture f    = start(state);
+    hair_view      view = view_of(HAIR_PASS_COLOR, NULL);
+    draw(&f, &view, before);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
+        hair_shader* shader = NULL;
+        hair_result  result = make(&f, texts[i], i % 2 ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES, &shader);
+        assert_true(result == HAIR_ERROR_OPENGL || (!result && shader));
+        assert_true(result == HAIR_OK || !shader);
+        hair_shader_destroy(shader);
+        hair_test_forgive(f.test);
+    }
+    draw(&f, &view, after);
+    assert_memory_equal(before, after, sizeof before);
+    finish(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_shader_that_calls_ours_changes_nothing),
+        HAIR_TEST(shaders_of_pixels_know_strand_place_and_side),
+        HAIR_TEST(shaders_have_the_lights_and_outputs_of_their_own),
+        HAIR_TEST(what_is_no_colour_is_drawn_as_black),
+        HAIR_TEST(errors_have_the_hosts_own_lines),
+        HAIR_TEST(no_text_breaks_anything),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
