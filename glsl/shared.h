@@ -154,8 +154,9 @@ typedef uint32_t hair_uint;
 #define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,
+#define HAIR_FEW_SOLIDS 16         // of them as many as solvers of rods look at one by one: grids are faster for more
 #define HAIR_CELL_SOLIDS 64        // and in a cell of the grid where it has not
-#define HAIR_CONTACT_TEXELS 12
+#define HAIR_CONTACT_TEXELS 13
 #define HAIR_MEMBER_NUMBER 1048575u // of a member of a cell: which hair_contact,
 #define HAIR_MEMBER_WALKED 16777216u // and whether it is no sphere or capsule
 #define HAIR_FOLLOWER_TEXELS 6
@@ -276,6 +277,7 @@ struct hair_contact {
     hair_vec4 grid; // of a form: xyz: its first node, w: from node to node, m
     hair_uint nodes_x, nodes_y, nodes_z;
     hair_uint first; // of its nodes
+    hair_vec4 ball;  // around all that it is during what is left of the step: xyz: middle, w: radius, with the margin; m
 };
 HAIR_SIZE(hair_contact, 16 * HAIR_CONTACT_TEXELS)
 

@@ -79,7 +79,7 @@ vec4 left_of(vec4 freedom, vec3 normal)
     return l > 0.1 && freedom.w != STICKS ? vec4(way / l, GLIDES) : freedom;
 }
 
-#if defined(HAIR_BODIES) || defined(HAIR_ANY)
+#ifdef HAIR_BODIES
 #include "sim/body.glsl"
 #endif
 
@@ -113,7 +113,11 @@ vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out v
     freedom    = vec4(0.0, 0.0, 0.0, FREE);
 #ifdef HAIR_ANY // In a loop, so that a compiler need not make so much of it twice.
     uint contacts = 2u;
-    for (uint n = 0u; n < 2u && contacts > 1u; ++n) contacts = push_out(i, start, solids, kept, head_moved, d, freedom, met);
+    for (uint n = 0u; n < 2u && contacts > 1u; ++n) {
+        uvec2 tried = enough(i, start, start + d - head_moved);
+        contacts    = push_out(i, start, tried | kept, kept, head_moved, d, freedom, met);
+        if (tried != enough(i, start, start + d - head_moved)) contacts = 2u; // It was led to others.
+    }
 #else
     if (push_out(i, start, solids, kept, head_moved, d, freedom, met) > 1u)
         push_out(i, start, solids, kept, head_moved, d, freedom, met);

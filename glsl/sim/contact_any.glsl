@@ -1,40 +1,27 @@
 // contact_any.glsl - any number of solids of any shape: which a vertex can touch, by the list of the cell it is in, and out
 // of them, one after the other.
-OWN(uint, members); // the first of its cell's, of which the bits are
+//
+// A list is gone through once for as many substeps as it serves: until the vertex goes where it could touch what is not in
+// the list. Of what it can touch, what it can touch near where it was then is enough as long as it stays there.
+OWN(uint, members);    // the first of its cell's, of which the bits are
+OWN(vec4, listed_near); // xyz: where it was then, halfway; w: how far about there `close` is enough
+OWN(uvec2, close);
+#ifdef HAIR_BODIES
 OWN(uvec2, walked); // of reachable: no spheres or capsules
+#endif
+bool has_lists = false;
 
-// A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely. Of a way
+// A vertex is taken to be moved by the fitting of lengths no more than this farther than it would go freely. Of a way
 // longer than the lists are made for its end counts.
-void find_solids(vec3 head_moved)
+#define FIT 0.02   // m
+#define ABOUT 0.004 // m
+
+vec3 halfway(vec3 position, vec3 way, float far)
 {
-    EACH(guide_count) {
-        own(reachable) = own(met) = own(walked) = uvec2(0u);
-        if (own(slack) > 0.0) {
-            vec3  way    = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
-            float far    = length(way), reach = 0.02 + far;
-            vec3  middle = position - way * (min(0.5 * far, params.cells_give) / max(far, 1e-9));
-            uvec2 list   = cell_members(middle);
-            own(members) = list.x;
-            for (uint n = 0u; n < min(list.y - list.x, uint(HAIR_CELL_SOLIDS)); ++n) {
-                uint    member = cell_entry(list.x + n), k = member & HAIR_MEMBER_NUMBER, bit = 1u << (n & 31u);
-                capsule solid  = solid_at(k, share_now);
-                if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid)) {
-                    own(reachable)[n / 32u] |= bit;
-                    own(walked)[n / 32u] |= (member & HAIR_MEMBER_WALKED) != 0u ? bit : 0u;
-                }
-            }
-        }
-    }
+    return position - way * (min(0.5 * far, params.cells_give) / max(far, 1e-9));
 }
 
 uint member_at(uint first, uint word, uint bit) { return cell_entry(first + 32u * word + uint(findLSB(bit))) & HAIR_MEMBER_NUMBER; }
-
-// What is far from all that is around a solid need not be walked.
-bool is_around(uint k, vec3 end, vec3 way)
-{
-    capsule around = solid_at(k, share_now);
-    return length(from_axis(end, around)) <= around.radius + length(way) + swept_by(k, around);
-}
 
 uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
 
@@ -42,23 +29,99 @@ uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) :
 #define EACH_BIT(bits)                                                                                       \
     for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
 
+// Of the solids around, for the rest of the step.
+void list_solids(uint i, vec3 middle, float far)
+{
+    uvec2 list       = cell_members(middle), all = uvec2(0u), few = uvec2(0u), others = uvec2(0u);
+    float about      = min(ABOUT + 2.0 * far, params.cells_give);
+    float reach      = FIT + max(0.5 * far, params.cells_give);
+    for (uint n = 0u; n < min(list.y - list.x, uint(HAIR_CELL_SOLIDS)); ++n) {
+        uint    member = cell_entry(list.x + n), k = member & HAIR_MEMBER_NUMBER, bit = 1u << (n & 31u);
+        vec4    ball = BALL(k);
+        float   off  = length(middle - ball.xyz) - ball.w;
+        if (off < reach) { // Of what is long there is more around.
+            capsule then = solid_at(k, share_then), end = solid_at(k, 1.0);
+            vec3    start = end.start - then.start;
+            float   moves = max(length(start), length(start + end.axis - then.axis));
+            off = length(from_axis(middle, end)) - end.radius - moves;
+        }
+        uvec2   mask  = uvec2(n < 32u ? bit : 0u, n < 32u ? 0u : bit);
+        all |= off < reach ? mask : uvec2(0u);
+        few |= off < about ? mask : uvec2(0u);
+#ifdef HAIR_BODIES
+        others |= (member & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
+#endif
+    }
+    own(members)     = list.x;
+    own(listed_near) = vec4(middle, about);
+    own(reachable)   = all;
+    own(close)       = few;
+#ifdef HAIR_BODIES
+    own(walked) = others;
+#endif
+}
+
+void find_solids(vec3 head_moved)
+{
+    bool serves = has_lists;
+    EACH(guide_count) {
+        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
+        float far = length(way);
+        own(met)  = uvec2(0u);
+        if (own(slack) > 0.0 && has_lists)
+            serves = serves && length(halfway(position, way, far) - own(listed_near).xyz) + 0.5 * far <= params.cells_give;
+    }
+    if (!any_of(bvec2(!serves, false)).x) return;
+    EACH(guide_count) {
+        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
+        float far = length(way);
+        own(reachable) = uvec2(0u);
+        if (own(slack) > 0.0) list_solids(i, halfway(position, way, far), far);
+    }
+    has_lists = true;
+}
+
+// Of them those that are enough for a way.
+uvec2 enough(uint i, vec3 start, vec3 end)
+{
+    vec4 near = own(listed_near);
+    return max(length(start - near.xyz), length(end - near.xyz)) <= near.w ? own(close) : own(reachable);
+}
+
+// What is far from all that it is need not be looked at.
+bool is_around(uint k, vec3 end, vec3 way)
+{
+    vec4 ball = BALL(k);
+    return length(end - ball.xyz) <= ball.w + length(way);
+}
+
 // Out of one solid after the other, capsules first; returns of how many.
 uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
     uint contacts = 0u;
     vec3 normal, surface;
-    EACH_BIT(solids & ~own(walked)) {
-        uint  k     = member_at(own(members), at.x, at.y);
-        float depth = depth_in(k, start, d, head_moved, normal, surface);
-        contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+#ifdef HAIR_BODIES
+    uvec2 capsules = solids & ~own(walked);
+#else
+    uvec2 capsules = solids;
+#endif
+    EACH_BIT(capsules) {
+        uint k   = member_at(own(members), at.x, at.y);
+        vec3 way = d - head_moved;
+        if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
+            float depth = depth_in(k, start, d, head_moved, normal, surface);
+            contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+        }
     }
+#ifdef HAIR_BODIES
     EACH_BIT(solids & own(walked)) {
-        uint k    = member_at(own(members), at.x, at.y);
-        vec3 way  = d - head_moved;
+        uint k   = member_at(own(members), at.x, at.y);
+        vec3 way = d - head_moved;
         if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
             float depth = depth_in_body(k, start, start + way, head_moved, normal, surface);
             contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
         }
     }
+#endif
     return contacts;
 }

@@ -1,4 +1,4 @@
-// contact_few.glsl - solids that are in the step's parameters, HAIR_STEP_SOLIDS at most: which a guide can touch, and out
+// contact_few.glsl - solids that are in the step's parameters, HAIR_FEW_SOLIDS at most: which a guide can touch, and out
 // of them, one after the other.
 // The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
 // again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.

@@ -16,6 +16,7 @@ uint  cell_entry(uint i) { return texelFetch(cell_texture, int(i)).x; }
 #define BODY_POSITION(k, n) contact_part(k, 5u + uint(n))
 #define BODY_ROTATION(k, n) contact_part(k, 7u + uint(n))
 #define BODY_SIZE(k) contact_part(k, 9u)
+#define BALL(k) contact_part(k, 12u)
 
 // The members of the cell around a place: the first, and the end.
 uvec2 cell_members(vec3 place)

@@ -90,11 +90,30 @@ static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, con
     return b;
 }
 
+// Around what a contact is in what is left of the step.
+static hair_vec4 ball_of(const struct hair_capsule* around, const struct hair_cells_desc* desc)
+{
+    hair_vec4 ball = {0, 0, 0, 0};
+    float     half = 0, moved = 0;
+    ball.x = 0.5f * (around->end[0].x + around->end[1].x);
+    ball.y = 0.5f * (around->end[0].y + around->end[1].y);
+    ball.z = 0.5f * (around->end[0].z + around->end[1].z);
+    for (int k = 0; k < 2; ++k) {
+        const hair_vec4 *a = &around->start[k], *b = &around->end[k];
+        half  = fmaxf(half, hair_length(hair_v3(b->x - ball.x, b->y - ball.y, b->z - ball.z)));
+        moved = fmaxf(moved, hair_length(hair_v3(b->x - a->x, b->y - a->y, b->z - a->z)));
+    }
+    ball.w =
+        half + fmaxf(around->start[0].w, around->end[0].w) + (1 - desc->share_start) * moved + desc->margin;
+    return ball;
+}
+
 hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
                               const struct hair_solids* solids, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, const struct hair_cells_desc* desc)
 {
     cells->contacts    = 0;
+    cells->bodies      = 0;
     hair_result result = make_room(host, cells, solids->now.count);
     for (uint32_t i = 0; i < solids->now.count && !result; ++i) {
         const hair_solid* solid = &solids->now.solid[i];
@@ -105,11 +124,13 @@ hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
         for (int k = 0; k < 3; ++k)
             far |= !(bounds.lower[k] <= desc->reach && bounds.upper[k] >= -desc->reach);
         if (far) continue;
+        contact.ball                    = ball_of(&contact.around, desc);
         cells->contact[cells->contacts] = contact;
         cells->bounds[cells->contacts]  = bounds;
         cells->solid[cells->contacts]   = i;
-        cells->member[cells->contacts] =
-            cells->contacts | (solid->shape > HAIR_SHAPE_CAPSULE ? HAIR_MEMBER_WALKED : 0);
+        int walked                      = solid->shape > HAIR_SHAPE_CAPSULE;
+        cells->member[cells->contacts]  = cells->contacts | (walked ? HAIR_MEMBER_WALKED : 0);
+        cells->bodies += (uint32_t)walked;
         ++cells->contacts;
     }
     return result;

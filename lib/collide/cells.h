@@ -25,7 +25,8 @@ struct hair_cells {
     uint32_t*                member;  // how lists have it,
     struct hair_cell_bounds* bounds;  // and where
     uint32_t                 contacts, room;
-    uint32_t*                entry; // as HAIR_UNIT_CELL has it
+    uint32_t                 bodies; // of them, that are no spheres or capsules
+    uint32_t*                entry;  // as HAIR_UNIT_CELL has it
     uint32_t                 entries, entry_room;
     struct hair_contact*     last; // that the lists are of, and what else they depend on
     uint32_t                 last_contacts, last_room;

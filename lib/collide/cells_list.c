@@ -98,18 +98,43 @@ struct pairs {
     uint32_t  count;
 };
 
-static void find_pairs(const struct hair_cells* cells, const struct hair_cells_desc* desc, struct pairs* out)
+// What of a contact says which cells it has: a segment, and how far from it their middles may be.
+struct span {
+    hair_vec3 from, axis;
+    float     over, reach; // over: 1 / the square of the axis' length
+};
+
+static struct span span_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
+{
+    const hair_vec4* end  = cells->contact[i].around.end;
+    hair_vec3        from = {end[0].x, end[0].y, end[0].z}, to = {end[1].x, end[1].y, end[1].z};
+    hair_vec3        axis = hair_sub(to, from);
+    return (struct span){from, axis, 1 / fmaxf(hair_dot(axis, axis), 1e-20f), reach_of(cells, desc, i)};
+}
+
+static int is_within(const struct span* span, hair_vec3 at)
+{
+    hair_vec3 arm = hair_sub(at, span->from);
+    float     t   = hair_dot(arm, span->axis) * span->over; // Without fminf and fmaxf, which are calls.
+    hair_vec3 off = hair_sub(arm, hair_scale(span->axis, t < 0 ? 0 : t > 1 ? 1 : t));
+    return hair_dot(off, off) <= span->reach * span->reach;
+}
+
+// Counts of each cell, in `number[cell + 1]`, how many contacts it has.
+static void find_pairs(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t* number,
+                       struct pairs* out)
 {
     for (uint32_t i = 0; i < cells->contacts; ++i) {
-        const struct hair_capsule* around = &cells->contact[i].around;
-        int                        all    = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE;
-        float                      reach  = reach_of(cells, desc, i);
-        struct range               r      = range_of(cells, &cells->bounds[i]);
+        int          all  = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE;
+        struct span  span = span_of(cells, desc, i);
+        struct range r    = range_of(cells, &cells->bounds[i]);
         for (uint32_t z = r.first[2]; z <= r.last[2]; ++z)
             for (uint32_t y = r.first[1]; y <= r.last[1]; ++y)
                 for (uint32_t x = r.first[0]; x <= r.last[0]; ++x) {
-                    if (!all && from_axis(middle_of(cells, x, y, z), around->end) > reach) continue;
-                    out->cell[out->count]      = x + cells->cells[0] * (y + cells->cells[1] * z);
+                    if (!all && !is_within(&span, middle_of(cells, x, y, z))) continue;
+                    uint32_t cell = x + cells->cells[0] * (y + cells->cells[1] * z);
+                    ++number[cell + 1];
+                    out->cell[out->count]      = cell;
                     out->contact[out->count++] = i;
                 }
     }
@@ -133,6 +158,29 @@ static int by_number(const void* a, const void* b)
     return p->contact < q->contact ? -1 : p->contact > q->contact;
 }
 
+// The `kept` nearest to the front, in any order (Hoare 1961).
+static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t kept)
+{
+    uint32_t first = 0, last = count;
+    while (last - first > 1 && first < kept) {
+        struct candidate middle = candidate[first + (last - 1 - first) / 2];
+        uint32_t         i = first, k = last - 1;
+        for (;; ++i, --k) {
+            while (by_distance(&candidate[i], &middle) < 0) ++i;
+            while (by_distance(&middle, &candidate[k]) < 0) --k;
+            if (i >= k) break;
+            struct candidate other = candidate[i];
+            candidate[i]           = candidate[k];
+            candidate[k]           = other;
+        }
+        // All up to k are no farther than what is behind.
+        if (k + 1 >= kept)
+            last = k + 1;
+        else
+            first = k + 1;
+    }
+}
+
 // The nearest of a list that is too long, in their order. Returns how many.
 static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uint32_t cell,
                        const uint32_t* contact, uint32_t count, struct candidate* candidate)
@@ -142,6 +190,10 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
     for (uint32_t i = 0; i < count; ++i) {
         const hair_vec4* ends = cells->contact[contact[i]].around.end;
         candidate[i]          = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
+    }
+    if (count > HAIR_CELL_SOLIDS) {
+        select_nearest(candidate, count, HAIR_CELL_SOLIDS);
+        count = HAIR_CELL_SOLIDS;
     }
     qsort(candidate, count, sizeof *candidate, by_distance);
     while (kept < count && kept < HAIR_CELL_SOLIDS) {
@@ -195,8 +247,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
     if (!numbers) return hair_fail_memory(host, "what guides collide with");
     uint32_t *   end = numbers, *sorted = end + all + 1;
     struct pairs pairs = {sorted + most, sorted + 2 * (size_t)most, 0};
-    find_pairs(cells, desc, &pairs);
-    for (uint32_t i = 0; i < pairs.count; ++i) ++end[pairs.cell[i] + 1];
+    find_pairs(cells, desc, end, &pairs);
     for (uint32_t i = 0; i < all; ++i) {
         longest = end[i + 1] > longest ? end[i + 1] : longest;
         end[i + 1] += end[i];

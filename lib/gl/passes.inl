@@ -10,18 +10,20 @@
     PASS(name##_128, label "_128", "HAIR_GUIDE_THREADS=128 " stages) \
     PASS(name##_256, label "_256", "HAIR_GUIDE_THREADS=256 " stages)
 
-// A solver of rods is 256 such passes, for hair with and without what it can do without: solids, and among them bodies,
-// those that are no capsules, or any: forms too, and any number of them; curved or flat strands; the crowd of other hair;
-// ties; roots that ride on a skinned scalp; wind; and by a work group or a thread per guide.
+// A solver of rods is 320 such passes, for hair with and without what it can do without: solids, few or any number of them,
+// and among them bodies, those that are no capsules; curved or flat strands; the crowd of other hair; ties; roots that ride
+// on a skinned scalp; wind; and by a work group or a thread per guide.
 #define ROD_PASS_OF(name, label, defines) \
     GUIDE_PASS(name, label, defines "sim/rod.comp") \
     GUIDE_PASS(name##_SOLIDS, label "_solids", defines "HAIR_SOLIDS=1 sim/rod.comp") \
     GUIDE_PASS(name##_BODIES, label "_bodies", defines "HAIR_SOLIDS=1 HAIR_BODIES=1 sim/rod.comp") \
     GUIDE_PASS(name##_ANY, label "_any", defines "HAIR_SOLIDS=1 HAIR_ANY=1 sim/rod.comp") \
+    GUIDE_PASS(name##_ANY_BODIES, label "_any_bodies", defines "HAIR_SOLIDS=1 HAIR_ANY=1 HAIR_BODIES=1 sim/rod.comp") \
     GUIDE_PASS(name##_CURVED, label "_curved", defines "HAIR_CURVED=1 sim/rod.comp") \
     GUIDE_PASS(name##_CURVED_SOLIDS, label "_curved_solids", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 sim/rod.comp") \
     GUIDE_PASS(name##_CURVED_BODIES, label "_curved_bodies", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 HAIR_BODIES=1 sim/rod.comp") \
-    GUIDE_PASS(name##_CURVED_ANY, label "_curved_any", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 HAIR_ANY=1 sim/rod.comp")
+    GUIDE_PASS(name##_CURVED_ANY, label "_curved_any", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 HAIR_ANY=1 sim/rod.comp") \
+    GUIDE_PASS(name##_CURVED_ANY_BODIES, label "_curved_any_bodies", defines "HAIR_CURVED=1 HAIR_SOLIDS=1 HAIR_ANY=1 HAIR_BODIES=1 sim/rod.comp")
 #define ROD_PASS_BY(name, label, defines) \
     ROD_PASS_OF(name, label, defines) \
     ROD_PASS_OF(name##_THREAD, label "_thread", "HAIR_THREAD_PER_GUIDE=1 " defines)

@@ -27,7 +27,7 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
 // Or else they are few, and none is a form.
 int hair_contacts_are_any(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->solids.forms || sim->solids.contacts > HAIR_STEP_SOLIDS);
+    return sim->rods && (sim->solids.forms || sim->solids.contacts > HAIR_FEW_SOLIDS);
 }
 
 static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)

@@ -45,8 +45,7 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, with solids, with bodies, with any, curved, by thread, in a crowd, tied, skinned,
-// in wind.
+// In the order of passes.inl: four sizes, what of solids there is, curved, by thread, in a crowd, tied, skinned, in wind.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
     static const hair_gl_pass smallest[] = {
@@ -57,9 +56,9 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     };
     hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
     int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
-    if (sim->contacts.any) met = 3;
-    int kind = met + 4 * hair_sim_is_curved(sim) + 8 * is_by_thread(sim) + 16 * hair_crowd_is_on(sim) +
-               32 * (sim->ties.count > 0) + 64 * hair_skin_is_on(sim) + 128 * hair_wind_is_on(&sim->wind);
+    if (sim->contacts.any) met = sim->contacts.cells.bodies ? 4 : 3;
+    int kind = met + 5 * hair_sim_is_curved(sim) + 10 * is_by_thread(sim) + 20 * hair_crowd_is_on(sim) +
+               40 * (sim->ties.count > 0) + 80 * hair_skin_is_on(sim) + 160 * hair_wind_is_on(&sim->wind);
     if (sim->rods)
         pass += 4 * (hair_gl_pass)kind;
     else if (hair_skin_is_on(sim))

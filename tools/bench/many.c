@@ -15,6 +15,12 @@
 #define SIDE 0.4f   // m: of the square that roots are on
 #define RADIUS 0.01f
 #define MOST_RUNS 41
+#define POSTS 10
+#define POST_RADIUS 0.02f
+
+enum kind { BALLS, FORMS, POSTS_WHOLE, POSTS_OF_BALLS };
+
+static const char* const names[] = {"balls", "forms", "posts", "posts of balls"};
 
 struct subject {
     struct bench*  bench;
@@ -22,6 +28,7 @@ struct subject {
     hair_instance* hair;
     hair_form*     form;
     hair_solid*    solids;
+    enum kind      kind;
     uint32_t       count, guides, frame;
 };
 
@@ -99,29 +106,49 @@ static void die(struct subject* subject)
     free(subject->solids);
 }
 
-static bool live(struct bench* bench, uint32_t guides, uint32_t count, bool forms, struct subject* out)
+// Anywhere among the hair; or posts in two rows, each a capsule or as many balls one upon the other as there are for it.
+static hair_solid solid_of(const struct subject* subject, enum kind kind, uint32_t i, uint32_t* random)
 {
-    *out             = (struct subject){.bench = bench, .count = count, .guides = guides};
-    hair_desc   desc = hair_desc_default();
-    hair_result result;
-    uint32_t    random = 7;
-    desc.mapping       = bench->options.mapping;
-    out->solids        = malloc(sizeof *out->solids * count);
-    result             = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
-    if (!result && forms) result = make_form(out);
-    if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
-    for (uint32_t i = 0; i < count && !result; ++i) {
-        hair_solid solid  = hair_solid_default();
-        solid.shape       = forms ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
-        solid.form        = out->form;
-        solid.size[0]     = forms ? 0 : RADIUS;
-        solid.position[0] = random_in(&random, -SIDE / 2, SIDE / 2);
-        solid.position[1] = random_in(&random, -LENGTH, -0.03f);
-        solid.position[2] = random_in(&random, -SIDE / 2, SIDE / 2);
-        out->solids[i]    = solid;
+    hair_solid solid = hair_solid_default();
+    if (kind == BALLS || kind == FORMS) {
+        solid.shape       = kind == FORMS ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
+        solid.form        = subject->form;
+        solid.size[0]     = kind == FORMS ? 0 : RADIUS;
+        solid.position[0] = random_in(random, -SIDE / 2, SIDE / 2);
+        solid.position[1] = random_in(random, -LENGTH, -0.03f);
+        solid.position[2] = random_in(random, -SIDE / 2, SIDE / 2);
+        return solid;
     }
+    uint32_t per_post = subject->count / POSTS, post = i / per_post;
+    float    half = 0.5f * LENGTH - 3 * POST_RADIUS, share = (float)(i % per_post) / (float)(per_post - 1);
+    solid.size[0]     = POST_RADIUS;
+    solid.position[0] = SIDE * ((float)(post % 5) - 2) / 5;
+    solid.position[1] = -0.5f * LENGTH;
+    solid.position[2] = post < 5 ? -0.25f * SIDE : 0.25f * SIDE;
+    if (kind == POSTS_OF_BALLS) {
+        solid.position[1] += half * (2 * share - 1);
+    } else {
+        solid.shape   = HAIR_SHAPE_CAPSULE;
+        solid.size[1] = half;
+    }
+    return solid;
+}
+
+static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind kind, struct subject* out)
+{
+    *out               = (struct subject){.bench = bench, .kind = kind, .count = count, .guides = guides};
+    hair_desc   desc   = hair_desc_default();
+    uint32_t    random = 7;
+    hair_result result;
+    desc.mapping = bench->options.mapping;
+    out->solids  = malloc(sizeof *out->solids * count);
+    result       = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
+    if (!result && kind == FORMS) result = make_form(out);
+    if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
+    for (uint32_t i = 0; i < count && !result; ++i) out->solids[i] = solid_of(out, kind, i, &random);
     if (!result) return true;
     die(out);
+    out->hair = NULL;
     return false;
 }
 
@@ -135,12 +162,13 @@ static double time_of_passes(hair_context* context)
     return ms;
 }
 
-// Of the GPU, and of the thread that asks it to.
+// Of the GPU, and of the thread that asks it to. Posts move together, else every solid its own way.
 static bool run_frame(struct subject* subject, double* ms, double* ms_host)
 {
     float  way    = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
     double passes = time_of_passes(subject->bench->context), start = hair_now();
-    for (uint32_t i = 0; i < subject->count; ++i) subject->solids[i].position[i % 3] += way;
+    for (uint32_t i = 0; i < subject->count; ++i)
+        subject->solids[i].position[subject->kind >= POSTS_WHOLE ? 0 : i % 3] += way;
     if (hair_set_solids(subject->hair, subject->solids, subject->count, sizeof *subject->solids) ||
         hair_step(subject->hair, 1.0f / 60))
         return false;
@@ -156,50 +184,64 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-// Returns ms of a frame, or 0.
-static double measure(struct bench* bench, uint32_t count, bool forms, double of_ten)
+static void add_row(struct subject* subject, double* ms, double* host, uint32_t runs, double of_few,
+                    double limit)
 {
-    const char*    method = forms ? "forms" : "balls";
-    struct subject subject;
-    double         ms[MOST_RUNS], host[MOST_RUNS], none;
-    uint32_t       runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
-    uint32_t guides = bench->options.strands ? bench->options.strands : bench->options.quick ? 16 : 1024;
-    if (!bench_begin(bench, "many solids", method)) return 0;
-    if (!live(bench, guides, count, forms, &subject)) {
-        bench_refuse(bench, "many solids", method);
-        return 0;
-    }
-    bool whole = true;
-    for (uint32_t k = 0; k < 3 && whole; ++k) whole = run_frame(&subject, &none, &none);
-    for (; runs < most && whole; runs += whole) whole = run_frame(&subject, &ms[runs], &host[runs]);
-    if (!runs || !whole) {
-        bench_refuse(bench, "many solids", method);
-        die(&subject);
-        return 0;
-    }
     qsort(ms, runs, sizeof *ms, compare);
     qsort(host, runs, sizeof *host, compare);
-    json_t* row = bench_rows_add(&bench->rows);
+    json_t* row = bench_rows_add(&subject->bench->rows);
     bench_set_text(row, "case", "many solids");
-    bench_set_text(row, "method", method);
-    bench_set_count(row, "strands", subject.guides);
+    bench_set_text(row, "method", names[subject->kind]);
+    bench_set_count(row, "strands", subject->guides);
     bench_set_count(row, "vertices", VERTICES);
-    bench_set_count(row, "solids", count);
+    bench_set_count(row, "solids", subject->count);
     bench_set_number(row, "ms", ms[runs / 2]);
     bench_set_number(row, "ms_host", host[runs / 2]);
     bench_set_count(row, "runs", runs);
-    if (of_ten > 0) bench_set_number(row, "ratio", ms[runs / 2] / of_ten);
-    die(&subject);
-    return ms[runs / 2];
+    if (of_few > 0) bench_set_number(row, "ratio", ms[runs / 2] / of_few);
+    if (limit > 0) {
+        bench_set_number(row, "limit", limit);
+        bench_set_flag(row, "pass", ms[runs / 2] <= limit * of_few);
+    }
+}
+
+// Many beside a few, frame by frame, for a GPU that has little to do slows down.
+static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind, uint32_t count,
+                         double limit)
+{
+    struct subject few, many;
+    double         ms[2][MOST_RUNS], host[2][MOST_RUNS], none;
+    uint32_t       runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
+    uint32_t guides = bench->options.strands ? bench->options.strands : bench->options.quick ? 16 : 1024;
+    if (!bench_begin(bench, "many solids", names[kind])) return;
+    if (!live(bench, guides, POSTS, few_kind, &few)) {
+        bench_refuse(bench, "many solids", names[few_kind]);
+        return;
+    }
+    bool whole = live(bench, guides, count, kind, &many);
+    for (uint32_t k = 0; k < 3 && whole; ++k)
+        whole = run_frame(&few, &none, &none) && run_frame(&many, &none, &none);
+    for (; runs < most && whole; runs += whole)
+        whole =
+            run_frame(&few, &ms[0][runs], &host[0][runs]) && run_frame(&many, &ms[1][runs], &host[1][runs]);
+    if (runs && whole) {
+        add_row(&few, ms[0], host[0], runs, 0, 0);
+        add_row(&many, ms[1], host[1], runs, ms[0][runs / 2], limit);
+    } else {
+        bench_refuse(bench, "many solids", names[kind]);
+    }
+    if (many.hair) die(&many);
+    die(&few);
 }
 
 void bench_many_solids(struct bench* bench)
 {
-    bool   quick = bench->options.quick;
-    double balls = measure(bench, 10, false, 0);
-    if (!quick) measure(bench, 100, false, balls);
-    measure(bench, 1000, false, balls);
-    if (!quick) measure(bench, 10000, false, balls);
-    double forms = measure(bench, 10, true, 0);
-    measure(bench, quick ? 100 : 1000, true, forms);
+    bool quick = bench->options.quick;
+    // The same bodies: what many solids cost where they are touched as often as a few.
+    compare_with(bench, POSTS_WHOLE, POSTS_OF_BALLS, quick ? 100 : 1000, 2);
+    // More bodies, which are touched more often.
+    if (!quick) compare_with(bench, BALLS, BALLS, 100, 0);
+    compare_with(bench, BALLS, BALLS, 1000, 0);
+    if (!quick) compare_with(bench, BALLS, BALLS, 10000, 0);
+    compare_with(bench, FORMS, FORMS, quick ? 100 : 1000, 0);
 }
