@@ -54,6 +54,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_LIMIT 6    // float[]        per node, never written: volume from which it presses
 #define HAIR_BIND_PUSH 7     // hair_vec4[]    per guide vertex: acceleration, m/s^2
 
+// The pass that looks at how far guides stir reads the state, and:
+#define HAIR_BIND_ANCHOR 3 // hair_vec4[]  per guide vertex: where it was, from the head's origin
+#define HAIR_BIND_STIR 4   // uint[4]      two in turn of: farthest from there, m, and fastest, m/s, as bits of floats
+
 // The passes that let roots ride on a skinned scalp have guides, the rest shape, and:
 #define HAIR_BIND_GIVEN 2      // float[]     what holds the scalp's positions, as it is given
 #define HAIR_BIND_RIDE 3       // hair_ride[]     per guide
@@ -105,6 +109,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, likewise
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the passes of the fluid,
 #define HAIR_BIND_LEVEL 1        // and hair_fluid_level
+#define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, likewise
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids and the field
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
@@ -356,6 +361,15 @@ struct hair_crowd_params {
     hair_uint unused;
 };
 HAIR_SIZE(hair_crowd_params, 80)
+
+// How the guides are looked at that may have come to rest.
+struct hair_stir_params {
+    hair_uint vertices; // of all guides
+    hair_uint turn;     // which of the two answers this one is; the other is cleared
+    hair_uint anchors;  // 1: where vertices are becomes where they were
+    float     rate;     // speed per displacement, 1/s
+};
+HAIR_SIZE(hair_stir_params, 16)
 
 // A strand that is made while drawing. With t from 0 at its root to 1 at its tip, u = t length_ratio,
 // g_k(u) and F_k(u) position and frame of guide k, o(t) the cubic Bezier curve of `offset`:

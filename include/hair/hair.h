@@ -297,6 +297,10 @@ typedef struct hair_physics {
     /// longer, but none is longer than 1/60 s; steps that complete none only move on what is drawn, which is one
     /// substep behind. Of redblack, which stretches the more the fewer they are, nothing is left out.
     float rate; ///< [0.0625, 1]. Default 1.
+    /// Hair that is this near to where it comes to rest sleeps: hair_step then calls no OpenGL and costs next to nothing.
+    /// It wakes when the head moves by a quarter of this, and when physics, wind, ties, a skinned scalp or solids within
+    /// reach change; in wind that moves of its own it stays awake. At 0 it never sleeps.
+    float sleep; ///< m. [0, 0.01]. Default 1e-4.
 } hair_physics;
 HAIR_DESC(hair_physics)
 

@@ -106,8 +106,8 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     hair_physics own;
     hair_result  result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    hair->sim.physics     = own;
-    hair->draw.hits.fresh = 0; // The margin may be another.
+    if (own.margin != hair->sim.physics.margin) hair->draw.hits.fresh = 0;
+    hair->sim.physics = own;
     return HAIR_OK;
 }
 
@@ -118,8 +118,8 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
     if (result) return result;
     hair_look_soak(&own);
-    hair->draw.look       = own;
-    hair->draw.hits.fresh = 0;
+    if (memcmp(&own, &hair->draw.look, sizeof own) != 0) hair->draw.hits.fresh = 0;
+    hair->draw.look = own;
     return HAIR_OK;
 }
 
@@ -135,10 +135,10 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    const hair_host* host = &hair->context->host;
-    hair->draw.hits.fresh = 0;
-    hair_result result    = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
-    uint32_t    contacts  = hair_sim_contacts(&hair->sim);
+    const hair_host* host     = &hair->context->host;
+    hair_result      result   = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
+    uint32_t         contacts = hair_sim_contacts(&hair->sim);
+    if (hair->sim.solids.changed) hair->draw.hits.fresh = 0;
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
         hair_log(host, HAIR_LOG_WARNING,
@@ -156,9 +156,6 @@ hair_result hair_step(hair_instance* hair, float dt)
         return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: dt is %g, not 0 or more", hair->label,
                          (double)dt);
     if (dt == 0) return HAIR_OK;
-    hair_result result = hair_check_current(context);
-    if (result) return result;
-
     double time = (double)dt;
     if (time > hair->max_dt) {
         if (!hair->has_slowed)
@@ -167,6 +164,9 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->has_slowed = 1;
         time             = hair->max_dt;
     }
+    if (hair_sleep_through(&hair->sim, time)) return HAIR_OK;
+    hair_result result = hair_check_current(context);
+    if (result) return result;
     hair_gl_enter(&context->gl);
     result = hair_sim_step(&hair->sim, time);
     if (!result) hair->smooth.done = 0;

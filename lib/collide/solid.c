@@ -147,6 +147,16 @@ static hair_result check_list(const hair_host* host, const hair_solid* from, uin
     return HAIR_OK;
 }
 
+// The same solids once more are no news.
+static int are_there(const struct hair_solid_list* list, const hair_solid* from, uint32_t count,
+                     size_t stride)
+{
+    int same = list->count == count;
+    for (uint32_t i = 0; i < count && same; ++i)
+        same = memcmp(&list->solid[i], (const unsigned char*)from + i * stride, sizeof *from) == 0;
+    return same;
+}
+
 hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, const hair_solid* from,
                             uint32_t count, size_t stride)
 {
@@ -159,6 +169,7 @@ hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, c
             result = hair_fail(host, HAIR_ERROR_ARGUMENT,
                                "solids[%u].form is not NULL, but its shape is not HAIR_SHAPE_FORM", i);
     }
+    if (!result && are_there(&solids->now, from, count, stride)) return HAIR_OK;
     if (!result) result = reserve_all(host, solids, count, solids->before.count);
     if (!result)
         result = hair_pair_solids(host, from, count, stride, solids->before.solid, solids->before.count,
@@ -166,6 +177,7 @@ hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, c
     if (result) return result;
     put(&solids->now, from, count, stride);
     count_contacts(solids);
+    solids->changed = 1;
     return HAIR_OK;
 }
 
@@ -180,6 +192,7 @@ hair_result hair_solids_restore(const hair_host* host, struct hair_solids* solid
     put(&solids->now, now, count, sizeof *now);
     put(&solids->before, before, count_before, sizeof *before);
     count_contacts(solids);
+    solids->changed = 1;
     return HAIR_OK;
 }
 
@@ -204,6 +217,8 @@ const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t 
 
 void hair_solids_settle(struct hair_solids* solids)
 {
+    if (!solids->changed) return;
+    solids->changed = 0;
     put(&solids->before, solids->now.solid, solids->now.count, sizeof *solids->now.solid);
     for (uint32_t i = 0; i < solids->now.count; ++i) solids->pair[i] = i;
 }
@@ -211,4 +226,5 @@ void hair_solids_settle(struct hair_solids* solids)
 void hair_solids_forget(struct hair_solids* solids)
 {
     put(&solids->before, NULL, 0, 0);
+    solids->changed = 1;
 }

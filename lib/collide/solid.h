@@ -22,6 +22,7 @@ struct hair_solids {
     uint32_t               bodies;      // and what hair_solids_bodies will
     uint32_t               contacts;    // all but forms without their mesh,
     uint32_t               forms;       // and the forms among them
+    int                    changed;     // since `before` was
 };
 
 #define HAIR_UNPAIRED UINT32_MAX

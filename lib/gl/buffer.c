@@ -58,6 +58,29 @@ void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
 }
 
+hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
+                           const void** mapped)
+{
+    static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    GLuint                  buffer = 0;
+    GLint64                 got    = 0;
+    const void*             at     = NULL;
+    gl->CreateBuffers(1, &buffer);
+    if (buffer) {
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)size, NULL, access);
+        gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
+        if (got == (GLint64)size) at = gl->MapNamedBufferRange(buffer, 0, (GLsizeiptr)size, access);
+    }
+    if (!at) {
+        if (buffer) gl->DeleteBuffers(1, &buffer);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver maps no %zu bytes for %s", size, label);
+    }
+    gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
+    *out    = buffer;
+    *mapped = at;
+    return HAIR_OK;
+}
+
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {

@@ -143,6 +143,11 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out);
 void        hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
 
+// A buffer that the GPU copies into and the host reads where it is `mapped`, as long as there is the buffer: what was copied
+// is there once a fence after it has been passed.
+hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
+                           const void** mapped);
+
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
 

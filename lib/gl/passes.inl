@@ -77,6 +77,7 @@ PASS(RESET_ROD_SKINNED, "sim/reset_rod_skinned", "HAIR_SKINNED=1 HAIR_ROD=1 sim/
 PASS(SCALP, "sim/scalp", "HAIR_SKINNED=1 sim/scalp.comp")
 PASS(RIDE, "sim/ride", "HAIR_SKINNED=1 sim/ride.comp")
 PASS(SEAT, "interpolate/seat", "HAIR_SKINNED=1 interpolate/seat.comp")
+PASS(STIR, "sim/stir", "sim/stir.comp")
 PASS(CROWD_CLEAR, "sim/crowd_clear", "HAIR_CROWD=1 sim/crowd_clear.comp")
 PASS(CROWD_SPLAT, "sim/crowd_splat", "HAIR_CROWD=1 sim/crowd_splat.comp")
 PASS(CROWD_GATHER, "sim/crowd_gather", "HAIR_CROWD=1 sim/crowd_gather.comp")

@@ -171,7 +171,8 @@ static int is_optional(hair_gl_pass pass)
     const char* stages = passes[pass].stages;
     return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") ||
            strstr(stages, "HITS=") || strstr(stages, "HAIR_STYLED=") || strstr(stages, "HAIR_LISTED=") ||
-           strstr(stages, "HAIR_SKINNED=") || strstr(stages, "HAIR_FLUID=") || strstr(stages, "draw/strand.") || strstr(stages, "draw/depth.");
+           strstr(stages, "HAIR_SKINNED=") || strstr(stages, "HAIR_FLUID=") || strstr(stages, "sim/stir.") ||
+           strstr(stages, "draw/strand.") || strstr(stages, "draw/depth.");
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)

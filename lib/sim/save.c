@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 7 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 8 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -30,7 +30,8 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
 #define MOST_BEAT 1000 // substeps of the crowd's block: more than there are of the shortest
-#define MOST_BUFFERS 8 // that walk() lists
+#define MOST_CALM 1e9  // s
+#define MOST_BUFFERS 9 // that walk() lists
 #define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 #define KNOT_BYTES 36
@@ -301,6 +302,27 @@ static void walk_skin(struct cursor* c, struct hair_sim* sim, int skinned)
     walk_buffer(c, "scalp to come", skin->scalp[1], size);
 }
 
+// Whether hair sleeps, and what has been seen of its coming to rest.
+static void walk_sleep(struct cursor* c, struct hair_sim* sim)
+{
+    struct hair_sleep* sleep    = &sim->sleep;
+    float*             number[] = {&sleep->now.far, &sleep->now.speed, &sleep->before, &sleep->answer.far,
+                                   &sleep->answer.speed};
+    walk_flag(c, "whether hair sleeps", &sleep->asleep);
+    walk_flag(c, "whether hair has been stirred", &sleep->stirred);
+    walk_double(c, "time since hair was stirred", &sleep->calm, -MOST_CALM, MOST_CALM);
+    walk_double(c, "time when guides are looked at", &sleep->due, -MOST_CALM, MOST_CALM);
+    walk_uint(c, "number of looks at guides", &sleep->looks, UINT32_MAX);
+    for (int i = 0; i < 5; ++i) walk_float(c, "stirring of guides", number[i], MOST_STATE);
+    walk_flag(c, "whether a look is under way", &sleep->waits);
+    walk_uint(c, "number of steps since a look", &sleep->steps, UINT32_MAX);
+    walk_double(c, "time since a look", &sleep->time, 0, MOST_CALM);
+    walk_pose(c, "head at rest", &sleep->head, MOST_PAST);
+    if (c->read && sleep->looks && !c->result) c->result = hair_sleep_make(sim);
+    if (sleep->looks && !c->result)
+        walk_buffer(c, "anchors of guides", sleep->anchor, sim->guide_vertices * sizeof(hair_vec4));
+}
+
 // All that is saved, in order: of which haircut it is, and what the coming motion depends on.
 static void walk(struct cursor* c, struct hair_sim* sim)
 {
@@ -327,6 +349,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
                 sim->guide_vertices * sizeof(struct hair_history));
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
     walk_skin(c, sim, skinned);
+    walk_sleep(c, sim);
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)
@@ -339,6 +362,7 @@ static uint64_t hash(const unsigned char* bytes, size_t size)
 size_t hair_sim_save_size(struct hair_sim* sim)
 {
     struct cursor c = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
+    hair_sleep_settle(sim);
     walk(&c, sim);
     return c.at + TRAILER;
 }
@@ -346,6 +370,7 @@ size_t hair_sim_save_size(struct hair_sim* sim)
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
     struct cursor c = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
+    hair_sleep_settle(sim);
     walk(&c, sim);
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, VERSION);
@@ -416,7 +441,8 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (result) return result;
     struct hair_sim loaded = *sim;
     struct cursor   c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
-    c.own             = hair_alloc(host, 1, c.end);
+    loaded.sleep.fence = NULL;
+    c.own              = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
     struct hair_solids solids = {0};
     GLuint             still  = 0;
@@ -431,9 +457,11 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (result) {
         hair_free(host, c.ties.knot);
         hair_solids_free(host, &solids);
+        if (!sim->sleep.anchor) hair_sleep_free(&loaded);
         return result;
     }
     hair_solids_free(host, &sim->solids);
+    hair_sleep_load(&loaded, &sim->sleep);
     *sim        = loaded;
     sim->solids = solids;
     hair_ties_take(sim, c.ties.knot, c.ties.count);

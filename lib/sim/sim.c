@@ -121,6 +121,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_air_free(&sim->air, sim->gl);
     hair_sim_free_rods(sim);
     hair_skin_free(sim);
+    hair_sleep_free(sim);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
@@ -302,11 +303,13 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
-    int    waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
-    int    again = 0;
-    double from  = -sim->left;
+    int    waits   = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
+    int    again   = 0;
+    double from    = -sim->left;
+    int    stirred = hair_sleep_is_stirred(sim);
     hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
     if (!result) result = need(sim, from, dt);
+    if (!result) result = hair_sleep_need(sim, stirred, dt);
     if (result) return result;
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
@@ -323,7 +326,16 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     advance(sim, again, total, from, dt);
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
+    hair_sleep_watch(sim, stirred, dt);
     return HAIR_OK;
+}
+
+void hair_sim_pass_time(struct hair_sim* sim, double dt)
+{
+    uint32_t total = count_substeps(sim, dt + sim->left);
+    sim->left      = fmax(dt + sim->left - total * sim->substep, 0);
+    if (hair_crowd_is_on(sim)) hair_crowd_count(sim, total);
+    hair_solids_settle(&sim->solids);
 }
 
 // Head and solids are where they are, and were never elsewhere.
@@ -350,6 +362,7 @@ void hair_sim_reset(struct hair_sim* sim)
 {
     struct hair_step_params params = {0};
     settle(sim);
+    hair_sleep_stir(sim);
     sim->struck = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
@@ -376,6 +389,7 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
     hair_ties_teleport(sim, &from, to);
+    hair_sleep_stir(sim);
     sim->crowd.beat = 0;              // What other hair does was found for how the head was turned.
     hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
     write_physics(sim, &params);

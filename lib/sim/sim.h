@@ -10,6 +10,7 @@
 #include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
+#include "lib/sim/sleep.h"
 #include "lib/sim/ties.h"
 #include "lib/wind/air.h"
 
@@ -52,6 +53,7 @@ struct hair_sim {
     struct hair_ties     ties;
     struct hair_air      air;
     struct hair_skin     skin;
+    struct hair_sleep    sleep;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
@@ -60,6 +62,7 @@ void        hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
 hair_result hair_sim_step(struct hair_sim* sim, double dt);
+void        hair_sim_pass_time(struct hair_sim* sim, double dt);          // as if it had, at rest
 void        hair_sim_reset(struct hair_sim* sim);                         // rest pose under sim->head
 void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
 void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head

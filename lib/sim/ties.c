@@ -65,6 +65,17 @@ static uint32_t hash_of(const struct hair_knot* knot, uint32_t count)
     return count ? which | 1 : 0;
 }
 
+static int are_alike(const struct hair_ties* ties, const struct hair_knot* knot, uint32_t count)
+{
+    int alike = ties->count == count;
+    for (uint32_t i = 0; i < count && alike; ++i) {
+        const struct hair_knot* other = &ties->knot[i];
+        alike                         = compare(other, &knot[i]) == 0 && other->world == knot[i].world &&
+                memcmp(other->place, knot[i].place, sizeof other->place) == 0;
+    }
+    return alike;
+}
+
 void hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count)
 {
     hair_free(&sim->gl->host, sim->ties.knot);
@@ -95,10 +106,12 @@ hair_result hair_ties_set(struct hair_sim* sim, const hair_tie* from, uint32_t c
             result =
                 hair_fail(host, HAIR_ERROR_ARGUMENT, "ties[%u] and ties[%u] both hold vertex %u of guide %u",
                           knot[i - 1].given, knot[i].given, knot[i].vertex, knot[i].guide);
-    if (result)
+    if (result) {
         hair_free(host, knot);
-    else
+    } else {
+        if (!are_alike(&sim->ties, knot, count)) hair_sleep_stir(sim);
         hair_ties_take(sim, knot, count);
+    }
     return result;
 }
 

@@ -125,6 +125,10 @@ static const struct member members[] = {
     FLOAT(hair_crowd_params, volume),
     FLOAT(hair_crowd_params, most_push),
     UINT(hair_crowd_params, unused),
+    UINT(hair_stir_params, vertices),
+    UINT(hair_stir_params, turn),
+    UINT(hair_stir_params, anchors),
+    FLOAT(hair_stir_params, rate),
     UINT(hair_follower, guide0),
     UINT(hair_follower, guide1),
     UINT(hair_follower, guide2),
@@ -315,6 +319,7 @@ static const struct {
     STRUCT(hair_share),        STRUCT(hair_cubic),        STRUCT(hair_strand_look), STRUCT(hair_strand),
     STRUCT(hair_draw_command), STRUCT(hair_contact),      STRUCT(hair_seat),        STRUCT(hair_ride),
     STRUCT(hair_scalp_params), STRUCT(hair_fluid_params), STRUCT(hair_fluid_level), STRUCT(hair_fluid_motion),
+    STRUCT(hair_stir_params),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)

@@ -308,7 +308,7 @@ hair_physics hair_test_bare(void)
     physics.fiber_radius = 5e-5f;
     physics.damping      = 1;
     physics.hold         = 0;
-    physics.pull_root = physics.pull_tip = 0;
+    physics.pull_root = physics.pull_tip = physics.sleep = 0;
     return physics;
 }
 

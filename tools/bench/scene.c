@@ -9,7 +9,7 @@ struct bench_scene bench_scene_default(void)
     hair_physics*      p     = &scene.physics;
     *p                       = hair_physics_default();
     scene.wind               = hair_wind_default();
-    p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = 0;
+    p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = p->sleep = 0;
     p->angular                                                    = 0;
     return scene;
 }

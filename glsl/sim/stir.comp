@@ -1,0 +1,32 @@
+// stir.comp - how far any guide vertex is from where it was, and how fast, seen from a head that does not move. A thread
+// goes over as many vertices as it takes.
+#version 450 core
+#include "shared.h"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_STATE) readonly restrict buffer state_buffer { hair_state state[]; };
+layout(std430, binding = HAIR_BIND_ANCHOR) restrict buffer anchor_buffer { vec4 anchor[]; };
+layout(std430, binding = HAIR_BIND_STIR) restrict buffer stir_buffer { uint stir[]; };
+layout(std140, binding = HAIR_BIND_STIR_PARAMS) uniform stir_params_buffer { hair_stir_params params; };
+
+shared uint most[2]; // Bits of floats that are not negative are in the order of the floats.
+
+void main()
+{
+    uint thread = gl_LocalInvocationID.x, first = hair_group() * HAIR_GROUP_SIZE + thread;
+    if (thread < 2u) most[thread] = 0u;
+    if (first < 2u) stir[2u - 2u * params.turn + first] = 0u;
+    synchronise();
+    float away = 0.0, speed = 0.0;
+    for (uint i = first; i < params.vertices; i += gl_NumWorkGroups.x * HAIR_GROUP_SIZE) {
+        vec3 at = state[i].position.xyz;
+        away    = max(away, distance(at, anchor[i].xyz));
+        speed   = max(speed, params.rate * length(state[i].displacement.xyz));
+        if (params.anchors > 0u) anchor[i] = vec4(at, 0.0);
+    }
+    atomicMax(most[0], floatBitsToUint(away));
+    atomicMax(most[1], floatBitsToUint(speed));
+    synchronise();
+    if (thread < 2u) atomicMax(stir[2u * params.turn + thread], most[thread]);
+}

@@ -1,0 +1,276 @@
+// sleep.c - whether guides have come to rest, and what stirs them again.
+//
+// What comes to rest does so by about as much less in every round of looks as in the one before: of a round's way d after
+// one of d_0, d q / (1 - q) is left, q = d / d_0. What neither comes nor goes is taken for what rounding leaves, or for a
+// slow creep, of which NEARLY_ALL says how slow.
+#include "lib/sim/sleep.h"
+#include "lib/sim/sim.h"
+
+#include <string.h>
+
+#define ROUND 3         // looks
+#define LEAST_STEPS 4   // from a look until its answer is used: a GPU is three frames behind at most,
+#define LEAST_TIME 0.1  // s: of which each may have several steps
+#define NEARLY_ALL 0.95 // q: 19 times d is left
+#define SPEED_SPAN 0.03 // s: in which what moves as fast as was seen gets no farther than it may
+#define SHARE                                                                                                \
+    0.5f // of what may be left. The head may go a quarter; the rest is for what is seen between looks
+#define HEAD_SHARE 0.25f
+#define LOOSE 1.05f // hair may stretch a little
+#define AROUND                                                                                               \
+    0.1f // m: farther from hair no solid matters to it: FIT and MOST_GIVE of contacts.c, and its margin
+#define MOST_GROUPS 256
+#define LONGEST_WAIT 1000000000u // ns
+
+// s: until guides are looked at for the first time, then from a look to the next. Not in step with each other, so that
+// whatever swings is not met at the same place time after time.
+#define FIRST 0.2
+static const double gaps[ROUND] = {0.10, 0.13, 0.17};
+
+static void drop_answer(struct hair_sim* sim)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    if (sleep->fence) sim->gl->DeleteSync(sleep->fence);
+    sleep->fence = NULL;
+    sleep->waits = sleep->known = 0;
+}
+
+void hair_sleep_free(struct hair_sim* sim)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    drop_answer(sim);
+    hair_gl_free_buffer(sim->gl, &sleep->anchor);
+    hair_gl_free_buffer(sim->gl, &sleep->stir);
+    hair_gl_free_buffer(sim->gl, &sleep->seen); // Which is unmapped by that.
+    hair_gl_free_buffer(sim->gl, &sleep->params);
+    sleep->mapped = NULL;
+}
+
+void hair_sleep_stir(struct hair_sim* sim)
+{
+    sim->sleep.stirred = 1;
+}
+
+// What stirs hair -------------------------------------------------------------------------------------------
+
+// No point of hair goes farther from one pose to the other.
+static float distance_between(const struct hair_pose* a, const struct hair_pose* b, float reach)
+{
+    hair_quat p = a->rotation, q = b->rotation;
+    float     sign = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
+    float     x = p.x - sign * q.x, y = p.y - sign * q.y, z = p.z - sign * q.z, w = p.w - sign * q.w;
+    return hair_length(hair_pose_offset(a, b)) + 2.01f * sqrtf(x * x + y * y + z * z + w * w) * reach;
+}
+
+// On its way from one place to the other, or at one of them.
+static int comes_near(const struct hair_sim* sim, const hair_solid* a, const hair_solid* b)
+{
+    const hair_solid* ends[] = {a, b};
+    struct hair_pose  at[2];
+    float             radius = 0;
+    if (a->shape == HAIR_SHAPE_FORM && !(a->form && b->form)) return 1;
+    for (int i = 0; i < 2; ++i) {
+        hair_vec3 middle, half;
+        hair_solid_extent(ends[i], &middle, &half);
+        radius = fmaxf(radius, hair_length(middle) + hair_length(half) + ends[i]->rounding);
+        for (int k = 0; k < 3; ++k) at[i].position[k] = (double)ends[i]->position[k];
+    }
+    hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
+    float     most  = LOOSE * sim->reach + AROUND + sim->physics.margin + radius + 0.5f * hair_length(way);
+    hair_vec3 mid   = hair_add(away, hair_scale(way, 0.5f));
+    int       bound = sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
+    return !bound || !(hair_length(mid) > most);
+}
+
+static int are_alike(const hair_solid* a, const hair_solid* b)
+{
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+static int has_solid_near(const struct hair_sim* sim)
+{
+    const struct hair_solids*     solids = &sim->solids;
+    const struct hair_solid_list *now = &solids->now, *before = &solids->before;
+    if (!solids->changed) return 0;
+    for (uint32_t i = 0; i < now->count; ++i) {
+        const hair_solid* was = hair_solids_before(solids, i);
+        int               is  = was != &now->solid[i] && are_alike(was, &now->solid[i]);
+        if (!is && comes_near(sim, was, &now->solid[i])) return 1;
+    }
+    for (uint32_t i = 0; i < before->count; ++i) {
+        int is = i < now->count && are_alike(&before->solid[i], &now->solid[i]);
+        if (!is && comes_near(sim, &before->solid[i], &before->solid[i])) return 1;
+    }
+    return 0;
+}
+
+int hair_sleep_is_stirred(const struct hair_sim* sim)
+{
+    const struct hair_sleep* sleep = &sim->sleep;
+    if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return 1;
+    if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return 1;
+    if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
+    if (sim->wind.model != HAIR_WIND_AMBIENT) return 1; // Air moves of its own then.
+    float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
+    return !(far <= HEAD_SHARE * sim->physics.sleep) || has_solid_near(sim);
+}
+
+// Calm begins with what is now.
+static void calm_down(struct hair_sim* sim)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    drop_answer(sim);
+    sleep->asleep  = 0;
+    sleep->stirred = 0;
+    sleep->calm    = 0;
+    sleep->due     = FIRST;
+    sleep->looks   = 0;
+    sleep->head    = sim->head;
+    sleep->physics = sim->physics;
+    sleep->wind    = sim->wind;
+    sleep->made    = sim->gl->made;
+}
+
+// Looking ---------------------------------------------------------------------------------------------------
+
+hair_result hair_sleep_make(struct hair_sim* sim)
+{
+    struct hair_gl*    gl     = sim->gl;
+    struct hair_sleep* sleep  = &sim->sleep;
+    size_t             size   = sim->guide_vertices * sizeof(hair_vec4);
+    hair_result        result = hair_gl_need(gl, HAIR_GL_STIR);
+    if (!result && !sleep->anchor) result = hair_gl_storage(gl, "hair anchors", size, NULL, &sleep->anchor);
+    if (!result && !sleep->stir)
+        result = hair_gl_storage(gl, "hair stirring", 4 * sizeof(uint32_t), NULL, &sleep->stir);
+    if (!result && !sleep->params)
+        result = hair_gl_uniform(gl, "hair stirring", sizeof(struct hair_stir_params), &sleep->params);
+    if (!result && !sleep->mapped)
+        result = hair_gl_mapped(gl, "hair stirring seen", 4 * sizeof(uint32_t), &sleep->seen,
+                                (const void**)&sleep->mapped);
+    if (result) hair_sleep_free(sim);
+    return result;
+}
+
+static void look(struct hair_sim* sim)
+{
+    struct hair_gl*         gl        = sim->gl;
+    struct hair_sleep*      sleep     = &sim->sleep;
+    uint32_t                groups    = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    struct hair_stir_params params    = {.vertices = sim->guide_vertices,
+                                         .turn     = sleep->turn,
+                                         .anchors  = sleep->looks % ROUND == 0,
+                                         .rate     = (float)(1 / sim->last_substep)};
+    GLuint                  storage[] = {sim->state, sleep->anchor, sleep->stir};
+    GLintptr                at        = (GLintptr)(2 * sizeof(uint32_t) * sleep->turn);
+    hair_gl_write_uniform(gl, sleep->params, sizeof params, &params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STIR_PARAMS, 1, &sleep->params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
+    hair_gl_run(gl, HAIR_GL_STIR, groups < MOST_GROUPS ? groups : MOST_GROUPS);
+    gl->CopyNamedBufferSubData(sleep->stir, sleep->seen, at, at, 2 * sizeof(uint32_t));
+    sleep->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    sleep->due   = sleep->calm + gaps[sleep->looks % ROUND];
+    sleep->waits = sleep->looks > 0; // The first has nothing to compare with.
+    sleep->steps = 0;
+    sleep->time  = 0;
+    ++sleep->looks;
+    if (!sleep->waits) {
+        sleep->now    = (struct hair_stirring){0, 0};
+        sleep->before = -1;
+        drop_answer(sim);
+    }
+}
+
+// The answer, waited for if it is not there. What cannot be had is that all is in motion.
+static void read_answer(struct hair_sim* sim)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    if (sleep->known) return;
+    GLenum status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    if (status == GL_TIMEOUT_EXPIRED)
+        status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, LONGEST_WAIT);
+    const float* seen = sleep->mapped + 2 * sleep->turn;
+    int          came = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
+    sleep->answer     = came ? (struct hair_stirring){seen[0], seen[1]} : (struct hair_stirring){1e9f, 1e9f};
+    drop_answer(sim);
+    sleep->waits = sleep->known = 1;
+}
+
+static int has_come_to_rest(const struct hair_sim* sim)
+{
+    const struct hair_sleep* sleep = &sim->sleep;
+    float                    may   = SHARE * sim->physics.sleep;
+    if (sleep->before < 0) return 0;
+    double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
+    return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
+}
+
+static void use_answer(struct hair_sim* sim)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    sleep->waits = sleep->known = 0;
+    sleep->now.far              = fmaxf(sleep->now.far, sleep->answer.far);
+    sleep->now.speed            = fmaxf(sleep->now.speed, sleep->answer.speed);
+    if ((sleep->looks - 1) % ROUND) return;
+    sleep->asleep = has_come_to_rest(sim);
+    sleep->before = sleep->now.far;
+    sleep->now    = (struct hair_stirring){0, 0};
+}
+
+static int looks_after(const struct hair_sim* sim, double dt)
+{
+    return sim->physics.sleep > 0 && sim->sleep.calm + dt >= sim->sleep.due;
+}
+
+hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt)
+{
+    return !stirred && looks_after(sim, dt) ? hair_sleep_make(sim) : HAIR_OK;
+}
+
+void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    int                looks = looks_after(sim, dt);
+    if (stirred) {
+        calm_down(sim);
+        return;
+    }
+    sleep->calm += dt;
+    ++sleep->steps;
+    sleep->time += dt;
+    if (sleep->waits && sleep->steps >= LEAST_STEPS && sleep->time >= LEAST_TIME) {
+        read_answer(sim);
+        use_answer(sim);
+    }
+    if (!looks || sleep->waits || sleep->asleep) return;
+    sleep->turn = 1 - sleep->turn;
+    look(sim);
+}
+
+int hair_sleep_through(struct hair_sim* sim, double dt)
+{
+    if (!sim->sleep.asleep || hair_sleep_is_stirred(sim)) return 0;
+    hair_sim_pass_time(sim, dt);
+    return 1;
+}
+
+// Saved states ----------------------------------------------------------------------------------------------
+
+void hair_sleep_settle(struct hair_sim* sim)
+{
+    if (hair_sleep_is_stirred(sim)) {
+        calm_down(sim);
+        hair_sleep_stir(sim);
+    }
+    if (sim->sleep.waits) read_answer(sim);
+}
+
+void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was)
+{
+    struct hair_sleep* sleep = &sim->sleep;
+    if (was->fence) sim->gl->DeleteSync(was->fence);
+    sleep->fence   = NULL;
+    sleep->known   = sleep->waits;
+    sleep->physics = sim->physics;
+    sleep->wind    = sim->wind;
+    sleep->made    = sim->gl->made;
+}

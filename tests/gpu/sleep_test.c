@@ -1,0 +1,360 @@
+// sleep_test.c - hair that has come to rest is not simulated, and moves as if it had been once something stirs it.
+#define _POSIX_C_SOURCE 200809L
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "lib/api/api.h"
+#include "tests/support/grooms.h"
+#include "tests/support/handmade.h"
+#include "tests/support/motion.h"
+#include "tests/support/trace.h"
+
+enum { FPS = 60, GUIDES = 7, MOST = 512, PATIENCE = 15 * FPS };
+
+static hair_context* make_context(struct hair_test* test)
+{
+    hair_context*     context = NULL;
+    hair_context_desc desc    = hair_context_desc_default();
+    desc.host                 = &test->host.host;
+    desc.get_proc             = hair_test_trace_proc;
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    return context;
+}
+
+static hair_instance* make(struct hair_test* test, hair_context* context, hair_solver solver, float sleep)
+{
+    struct hair_test_handmade wanted  = hair_test_handmade_default();
+    hair_physics              physics = hair_physics_default();
+    hair_desc                 desc    = hair_desc_default();
+    hair_instance*            hair    = NULL;
+    wanted.guides                     = GUIDES;
+    wanted.turn                       = 0.1f;
+    physics.sleep                     = sleep;
+    desc.physics                      = &physics;
+    desc.solver                       = solver;
+    hair_groom* groom                 = hair_test_groom(&test->host.host, wanted);
+    hair_test_ok(test, hair_create(context, groom, &desc, &hair));
+    hair_groom_destroy(groom);
+    return hair;
+}
+
+static void turn_head(struct hair_test* test, hair_instance* hair, float angle, float x)
+{
+    const float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
+                            sinf(angle), 0, cosf(angle),  0, x, 0, 0, 1};
+    hair_test_ok(test, hair_set_transform(hair, head));
+}
+
+static void step(struct hair_test* test, hair_instance* hair)
+{
+    hair_test_ok(test, hair_step(hair, 1.0f / FPS));
+}
+
+// Shaken for half a second, and then left alone. Frames until it sleeps, PATIENCE if it does not.
+static uint32_t let_sleep(struct hair_test* test, hair_instance* hair, int finishes)
+{
+    uint32_t frame = 0;
+    for (; frame < FPS / 2; ++frame) {
+        turn_head(test, hair, 0.4f * sinf(6.2831853f * (float)(frame + 1) / (FPS / 2)), 0);
+        step(test, hair);
+    }
+    for (; frame < PATIENCE && !hair->sim.sleep.asleep; ++frame) {
+        step(test, hair);
+        if (finishes) glFinish();
+    }
+    return frame;
+}
+
+static float farthest(struct hair_test* test, hair_instance* a, hair_instance* b)
+{
+    float    at[2][3 * MOST], far = 0;
+    uint32_t count[2];
+    hair_test_ok(test, hair_read(a, HAIR_READ_SMOOTH, at[0], MOST, &count[0]));
+    hair_test_ok(test, hair_read(b, HAIR_READ_SMOOTH, at[1], MOST, &count[1]));
+    assert_int_equal(count[0], count[1]);
+    assert_in_range(count[0], 2, MOST);
+    for (uint32_t i = 0; i < count[0]; ++i)
+        far = fmaxf(far, hair_distance(hair_load3(at[0] + 3 * i), hair_load3(at[1] + 3 * i)));
+    return far;
+}
+
+static hair_solid ball_at(float x)
+{
+    hair_solid ball = hair_solid_default();
+    ball.size[0] = 0.05f, ball.position[0] = x, ball.position[1] = -0.01f;
+    return ball;
+}
+
+// How far the nearest vertex is from the ball.
+static float nearest(struct hair_test* test, hair_instance* hair, const hair_solid* ball)
+{
+    float    at[3 * MOST], near = 1;
+    uint32_t count;
+    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, at, MOST, &count));
+    for (uint32_t i = 0; i < count; ++i)
+        near = fminf(near, hair_distance(hair_load3(at + 3 * i), hair_load3(ball->position)) - ball->size[0]);
+    return near;
+}
+
+static double now_us(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+// The head is set anew in every frame, and so are solids, as hosts do it.
+static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = make_context(test);
+    hair_instance*    hair    = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
+    hair_solid        solid   = hair_solid_default();
+    double            us[999];
+    solid.size[0] = 0.08f;
+    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    uint32_t frames = let_sleep(test, hair, 0);
+    print_message("    asleep after %u frames\n", frames);
+    assert_true(frames < PATIENCE);
+    hair_test_trace_clear();
+    for (size_t i = 0; i < sizeof us / sizeof *us; ++i) {
+        turn_head(test, hair, 0, 0);
+        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        double start = now_us();
+        step(test, hair);
+        us[i] = now_us() - start;
+    }
+    if (hair_test_trace_count("")) fail_msg("calls of %s", hair_test_trace_list());
+    qsort(us, sizeof us / sizeof *us, sizeof *us, compare);
+    print_message("    %.2f us a step, clock and check of its result included\n",
+                  us[sizeof us / sizeof *us / 2]);
+    assert_true(us[sizeof us / sizeof *us / 2] <= 2);
+    hair_destroy(hair);
+    hair_context_destroy(context);
+}
+
+// Shaken, left alone for seconds, and shaken again: the hair that sleeps meanwhile beside hair that never does. With a ball
+// against which it lies, which then moves too.
+static void check_waking(struct hair_test* test, hair_context* context, hair_solver solver, float bound,
+                         int solids)
+{
+    enum { CALM = 7 * FPS, END = CALM + FPS / 4 };
+    hair_instance* hair[2] = {make(test, context, solver, bound), make(test, context, solver, 0)};
+    float          asleep = 0, awake = 0;
+    uint32_t       slept = 0;
+    for (uint32_t frame = 0; frame < END; ++frame) {
+        float      time = (float)frame / FPS, later = fmaxf(time - (float)CALM / FPS, 0);
+        float      angle = frame < FPS / 2 ? 0.4f * sinf(12.566371f * time) : 0.5f * sinf(24 * later);
+        hair_solid ball  = ball_at(0.2f + 0.2f * later);
+        for (int i = 0; i < 2; ++i) {
+            if (solids) hair_test_ok(test, hair_set_solids(hair[i], &ball, 1, sizeof ball));
+            turn_head(test, hair[i], angle, 0.2f * later);
+            step(test, hair[i]);
+        }
+        slept += (uint32_t)hair[0]->sim.sleep.asleep;
+        if (frame + 1 == CALM && solids) assert_true(nearest(test, hair[0], &ball) < 2e-3f);
+        if (hair[0]->sim.sleep.asleep) asleep = fmaxf(asleep, farthest(test, hair[0], hair[1]));
+        if (frame >= CALM) awake = fmaxf(awake, farthest(test, hair[0], hair[1]));
+    }
+    print_message("    solver %d, %d solids: slept %u frames of %u; off by %.1e m then, by %.1e m awake\n",
+                  (int)solver, solids, slept, (unsigned)CALM, (double)asleep, (double)awake);
+    assert_true(slept > FPS);
+    assert_false(hair[0]->sim.sleep.asleep);
+    assert_true(asleep <= bound);
+    assert_true(awake <= bound);
+    assert_true(hair[0]->sim.left == hair[1]->sim.left);
+    for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
+}
+
+static void hair_that_wakes_is_within_the_bound_of_hair_that_never_slept(void** state)
+{
+    hair_context* context = make_context(*state);
+    check_waking(*state, context, HAIR_SOLVER_DIRECT, 1e-4f, 0);
+    check_waking(*state, context, HAIR_SOLVER_DIRECT, 1e-4f, 1);
+    check_waking(*state, context, HAIR_SOLVER_DIRECT, 2e-3f, 0);
+    check_waking(*state, context, HAIR_SOLVER_ACCURATE, 1e-4f, 0);
+    hair_context_destroy(context);
+}
+
+// Hair asleep, one that is used up by every question asked of it.
+struct dozing {
+    struct hair_test*     test;
+    hair_instance*        hair;
+    struct hair_test_blob blob;
+};
+
+// The next step is slept through, or is not. Asleep again afterwards.
+static void check_stir(struct dozing* d, const char* what, int stirs)
+{
+    hair_test_trace_clear();
+    step(d->test, d->hair);
+    if (stirs == d->hair->sim.sleep.asleep || stirs != (hair_test_trace_count("") > 0))
+        fail_msg("%s: the hair %s", what, stirs ? "sleeps on" : "wakes");
+    if (!stirs) return;
+    hair_test_ok(d->test, hair_load(d->hair, d->blob.bytes, d->blob.size));
+    hair_test_ok(d->test, hair_set_solids(d->hair, NULL, 0, sizeof(hair_solid)));
+    step(d->test, d->hair);
+    assert_true(d->hair->sim.sleep.asleep);
+}
+
+static void put_ball(struct dozing* d, float x)
+{
+    hair_solid ball = ball_at(x);
+    hair_test_ok(d->test, hair_set_solids(d->hair, &ball, 1, sizeof ball));
+}
+
+static void check_solids(struct dozing* d)
+{
+    put_ball(d, 5);
+    check_stir(d, "a ball has come into being far off", 0);
+    put_ball(d, 4.9f);
+    check_stir(d, "a ball moves far off", 0);
+    put_ball(d, -5);
+    check_stir(d, "a ball flies right through", 1);
+    put_ball(d, 0.4f);
+    check_stir(d, "a ball has come into being near by", 1);
+    hair_solid plane = hair_solid_default();
+    plane.shape = HAIR_SHAPE_PLANE, plane.position[1] = -50;
+    hair_test_ok(d->test, hair_set_solids(d->hair, &plane, 1, sizeof plane));
+    check_stir(d, "there is a plane, which is everywhere", 1);
+}
+
+static void check_settings(struct dozing* d)
+{
+    hair_physics physics = d->hair->sim.physics;
+    hair_tie     tie     = hair_tie_default();
+    hair_wind    wind    = hair_wind_default();
+    hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
+    check_stir(d, "the same physics", 0);
+    physics.damping += 0.01f;
+    hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
+    check_stir(d, "other physics", 1);
+    hair_test_ok(d->test, hair_set_wind(d->hair, NULL));
+    check_stir(d, "no wind once more", 0);
+    wind.velocity[2] = 0.01f;
+    hair_test_ok(d->test, hair_set_wind(d->hair, &wind));
+    check_stir(d, "wind", 1);
+    hair_test_ok(d->test, hair_set_ties(d->hair, NULL, 0, sizeof tie));
+    check_stir(d, "no ties once more", 0);
+    hair_test_ok(d->test, hair_set_ties(d->hair, &tie, 1, sizeof tie));
+    check_stir(d, "a tie", 1);
+    hair_test_ok(d->test, hair_reset(d->hair));
+    check_stir(d, "a reset", 1);
+    float head[16];
+    hair_test_pose(1, head);
+    hair_test_ok(d->test, hair_teleport(d->hair, head));
+    check_stir(d, "a teleport", 1);
+}
+
+static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
+{
+    struct dozing d       = {.test = *state};
+    hair_context* context = make_context(d.test);
+    d.hair                = make(d.test, context, HAIR_SOLVER_DIRECT, 1e-4f);
+    assert_true(let_sleep(d.test, d.hair, 0) < PATIENCE);
+    d.blob = hair_test_save(d.test, d.hair);
+    turn_head(d.test, d.hair, 0, 0);
+    check_stir(&d, "the head is set where it is", 0);
+    turn_head(d.test, d.hair, 0, 0.2e-4f);
+    check_stir(&d, "the head moves by a fifth of the bound", 0);
+    turn_head(d.test, d.hair, 0, 0.3e-4f);
+    check_stir(&d, "the head moves by a third of the bound", 1);
+    turn_head(d.test, d.hair, 1e-3f, 0);
+    check_stir(&d, "the head turns", 1);
+    check_solids(&d);
+    check_settings(&d);
+    hair_destroy(d.hair);
+    hair_context_destroy(context);
+    free(d.blob.bytes);
+}
+
+static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** state)
+{
+    static struct hair_test_seen seen[2];
+    struct hair_test*            test    = *state;
+    hair_context*                context = make_context(test);
+    uint32_t                     frames[2];
+    for (int finishes = 0; finishes < 2; ++finishes) {
+        hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
+        frames[finishes]    = let_sleep(test, hair, finishes);
+        hair_test_look(test, hair, &seen[finishes]);
+        hair_destroy(hair);
+    }
+    assert_true(frames[0] < PATIENCE);
+    assert_int_equal(frames[0], frames[1]);
+    hair_test_same(&seen[0], &seen[1]);
+    hair_context_destroy(context);
+}
+
+static void what_is_saved_falls_asleep_as_it_would_have(void** state)
+{
+    static struct hair_test_seen straight, loaded;
+    struct hair_test*            test    = *state;
+    hair_context*                context = make_context(test);
+    hair_instance*               hair    = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
+    hair_instance*               other   = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
+    uint32_t                     slept   = 0;
+    for (uint32_t frame = 0; frame < 6 * FPS && slept < 3; ++frame) {
+        turn_head(test, hair, frame < FPS / 2 ? 0.4f * sinf(0.2f * (float)frame) : 0, 0);
+        step(test, hair);
+        slept += (uint32_t)hair->sim.sleep.asleep;
+        if (frame < FPS || (frame % 9 && !slept)) continue;
+        struct hair_test_blob blob = hair_test_save(test, hair);
+        hair_test_ok(test, hair_load(other, blob.bytes, blob.size));
+        free(blob.bytes);
+        for (int k = 0; k < 4; ++k, ++frame) {
+            step(test, hair);
+            step(test, other);
+            assert_int_equal(hair->sim.sleep.asleep, other->sim.sleep.asleep);
+        }
+        hair_test_look(test, hair, &straight);
+        hair_test_look(test, other, &loaded);
+        hair_test_same(&straight, &loaded);
+    }
+    assert_true(slept >= 3);
+    hair_destroy(hair);
+    hair_destroy(other);
+    hair_context_destroy(context);
+}
+
+// Which nothing dampens: it swings by more than the bound for ever.
+static void hair_that_swings_and_hair_that_may_not_never_sleep(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = make_context(test);
+    hair_instance*    swings  = make(test, context, HAIR_SOLVER_ACCURATE, 1e-4f);
+    hair_instance*    may_not = make(test, context, HAIR_SOLVER_DIRECT, 0);
+    hair_physics      physics = hair_physics_default();
+    physics.damping           = 0;
+    hair_test_ok(test, hair_set_physics(swings, &physics));
+    assert_int_equal(let_sleep(test, swings, 0), PATIENCE);
+    assert_int_equal(let_sleep(test, may_not, 0), PATIENCE);
+    assert_int_equal(may_not->sim.sleep.anchor, 0);
+    hair_destroy(swings);
+    hair_destroy(may_not);
+    hair_context_destroy(context);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(a_head_at_rest_is_stepped_without_opengl_within_two_microseconds),
+        HAIR_TEST(hair_that_wakes_is_within_the_bound_of_hair_that_never_slept),
+        HAIR_TEST(what_moves_hair_wakes_it_and_nothing_else_does),
+        HAIR_TEST(hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done),
+        HAIR_TEST(what_is_saved_falls_asleep_as_it_would_have),
+        HAIR_TEST(hair_that_swings_and_hair_that_may_not_never_sleep),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
