@@ -74,6 +74,17 @@ static void make_ready(hair_instance* hair)
     hair_draw_seat(&hair->draw, &hair->smooth, &hair->sim);
 }
 
+// No strand of which a guide's root is held gets farther from there than it is long. The solver redblack stretches it; what
+// is tied, or rides on a scalp that is skinned, is where that has it. Velocities want to be asked for in every frame.
+static int is_out_of_view(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_sim* sim = &hair->sim;
+    if (view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_MOTION) return 0;
+    if (!sim->rods || sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim))
+        return 0;
+    return hair_draw_is_out_of_view(&hair->draw, &sim->at_step, view);
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -89,7 +100,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = check_shadow(hair, &own);
     if (!result) result = check_framebuffer(hair);
-    if (result) return result;
+    if (result || is_out_of_view(hair, &own)) return result;
     hair_gl_enter(&context->gl);
     if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);

@@ -14,6 +14,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->skull           = groom->skull;
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
+    hair_draw_find_extent(draw, groom);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
                                         groom->followers, &draw->follower);
     if (!result)
@@ -129,11 +130,12 @@ static void draw_guides(struct hair_draw* draw)
     hair_gl_end(gl, HAIR_GL_GUIDES);
 }
 
-static void draw_followers(struct hair_draw* draw, const hair_view* view, const struct drawn* with)
+static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view,
+                           const struct hair_draw_params* params, const struct drawn* with)
 {
     struct hair_gl* gl     = draw->gl;
     int             listed = with->path != HAIR_PATH_TESSELLATION;
-    if (listed) hair_draw_list(draw);
+    if (listed) hair_draw_list(draw, smooth, params);
     if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     gl->BindVertexArray(gl->vertex_array);
@@ -176,6 +178,6 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     if (guides)
         draw_guides(draw);
     else
-        draw_followers(draw, view, &with);
+        draw_followers(draw, smooth, view, &params, &with);
     return HAIR_OK;
 }

@@ -17,6 +17,12 @@ struct hair_fibres {
 // tint.c: make a look as wet as it is asked to be.
 void hair_look_soak(hair_look* look);
 
+// How far hair gets whose roots are held, in the head's frame: from the box of roots, and how long it is. m
+struct hair_extent {
+    hair_vec3 lower, upper;
+    float     reach, length;
+};
+
 struct hair_draw {
     struct hair_gl*      gl;
     hair_look            look;                            // soaked
@@ -28,6 +34,7 @@ struct hair_draw {
     hair_vec4            skull;   // of the groom
     int                  bounded; // roots are held: no strand leaves its patch's reach
     uint32_t             seated;  // for which run of smooth.comp followers are
+    struct hair_extent   extent;
     struct hair_hits     hits;
     struct hair_listed   listed;
     struct hair_expanded expanded;
@@ -70,8 +77,15 @@ void        hair_draw_free_fibres(struct hair_draw* draw);
 // them with the program that is current.
 hair_result hair_draw_make_listed(struct hair_draw* draw);
 void        hair_draw_free_listed(struct hair_draw* draw);
-void        hair_draw_list(struct hair_draw* draw);
-void        hair_draw_listed(struct hair_draw* draw);
+// Unless they are listed, as `params` and the smoothed guides have them.
+void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
+                    const struct hair_draw_params* params);
+void hair_draw_listed(struct hair_draw* draw);
+
+// cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
+void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
+int  hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view);
 
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked. shader: of the host; NULL: ours.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,

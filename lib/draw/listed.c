@@ -2,11 +2,15 @@
 // as both ends of every segment, which the driver makes once for the two segments that share them.
 #include "lib/draw/draw.h"
 
+#include <string.h>
+
 static hair_result make_lists(struct hair_draw* draw)
 {
     struct hair_gl*     gl     = draw->gl;
     struct hair_listed* listed = &draw->listed;
     hair_result         result = HAIR_OK;
+    if (!listed->of) listed->of = hair_alloc(&gl->host, 1, sizeof *listed->of);
+    if (!listed->of) return hair_fail_memory(&gl->host, "the list of strands");
     if (!listed->start)
         result =
             hair_gl_storage(gl, "hair strand starts", draw->patches * sizeof(uint32_t), NULL, &listed->start);
@@ -77,20 +81,47 @@ void hair_draw_free_listed(struct hair_draw* draw)
     if (listed->vertex_array) gl->DeleteVertexArrays(1, &listed->vertex_array);
     listed->vertex_array = 0;
     hair_gl_free_texture(gl, &listed->strand_texture);
+    hair_free(&gl->host, listed->of);
+    listed->of = NULL;
     hair_gl_free_buffer(gl, &listed->start);
     hair_gl_free_buffer(gl, &listed->strand);
     hair_gl_free_buffer(gl, &listed->command);
     hair_gl_free_buffer(gl, &listed->index);
 }
 
-void hair_draw_list(struct hair_draw* draw)
+// Where levels of detail look at nothing that a view has, all views have the same list.
+static struct hair_listing describe(const struct hair_gl* gl, const struct hair_smooth* smooth,
+                                    const struct hair_draw_params* params)
+{
+    struct hair_listing of;
+    memset(&of, 0, sizeof of);
+    of.made = gl->made;
+    if (params->pixels_per_unit > 0) {
+        of.runs   = smooth->runs;
+        of.params = *params;
+        return of;
+    }
+    of.params.density       = params->density;
+    of.params.segments      = params->segments;
+    of.params.map_weights   = params->map_weights;
+    of.params.strand_share  = params->strand_share;
+    of.params.segment_share = params->segment_share;
+    of.params.width_power   = params->width_power;
+    return of;
+}
+
+void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
+                    const struct hair_draw_params* params)
 {
     struct hair_gl*     gl        = draw->gl;
     struct hair_listed* listed    = &draw->listed;
     GLuint              buffers[] = {listed->start, listed->strand, listed->command};
+    struct hair_listing of        = describe(gl, smooth, params);
+    if (memcmp(&of, listed->of, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_COUNT, 1);
     hair_gl_run(gl, HAIR_GL_LIST, draw->patches);
+    *listed->of = of;
 }
 
 void hair_draw_listed(struct hair_draw* draw)

@@ -4,11 +4,19 @@
 
 #include "lib/gl/gl.h"
 
+// What a list was made of.
+struct hair_listing {
+    uint32_t                made;   // as in hair_gl; 0: there is none
+    uint32_t                runs;   // of smooth.comp, where the list depends on where hair is
+    struct hair_draw_params params; // what the list depends on, else 0
+};
+
 struct hair_listed {
-    GLuint   start, strand, command; // buffers, as in shared.h; 0 until they are needed
-    GLuint   strand_texture;         // of the second, for what draws
-    GLuint   index, vertex_array;    // both ends of every segment of an instance
-    uint32_t segments;               // that those are for
+    struct hair_listing* of;
+    GLuint               start, strand, command; // buffers, as in shared.h; 0 until they are needed
+    GLuint               strand_texture;         // of the second, for what draws
+    GLuint               index, vertex_array;    // both ends of every segment of an instance
+    uint32_t             segments;               // that those are for
 };
 
 #endif

@@ -1,0 +1,89 @@
+// cull.c - whether a view can show any of the hair, decided without looking at where it is: by how far it can get.
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+#define GIVE 1.1f  // as in glsl/detail.glsl
+#define WIDEST 4.0 // that a map makes a strand, as a multiple
+#define EDGE 8.0   // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
+
+void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom)
+{
+    struct hair_extent* extent = &draw->extent;
+    extent->lower              = hair_v3(INFINITY, INFINITY, INFINITY);
+    extent->upper              = hair_v3(-INFINITY, -INFINITY, -INFINITY);
+    for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
+        hair_vec4 root = groom->rest[groom->guides[i].first].position;
+        extent->lower  = hair_v3(fminf(extent->lower.x, root.x), fminf(extent->lower.y, root.y),
+                                 fminf(extent->lower.z, root.z));
+        extent->upper  = hair_v3(fmaxf(extent->upper.x, root.x), fmaxf(extent->upper.y, root.y),
+                                 fmaxf(extent->upper.z, root.z));
+        extent->reach  = fmaxf(extent->reach, groom->guides[i].arc_length);
+    }
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
+        extent->reach  = fmaxf(extent->reach, groom->patches[i].reach);
+        extent->length = fmaxf(extent->length, groom->patches[i].length);
+    }
+}
+
+// Beyond the box of roots, m.
+static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
+{
+    const hair_look* look  = &draw->look;
+    double           width = (double)(look->radius * hair_curve_most(&look->taper)) * WIDEST;
+    if (lod)
+        width *=
+            pow(fmax((double)(lod->strands * (lod->dynamic ? lod->least : 1)), 1e-6), -(double)lod->width);
+    double reach = (double)(GIVE * fmaxf(hair_curve_most(&look->clump_width), 1) * draw->extent.reach);
+    return reach + (double)(hair_look_most_stray(look) * draw->extent.length + hair_look_most_aside(look)) +
+           width;
+}
+
+// In double, since far out the head's place and what it is multiplied by nearly cancel.
+static void find_corner(const hair_view* view, const struct hair_pose* head, hair_vec3 corner, double clip[4])
+{
+    hair_vec3    at       = hair_rotate(head->rotation, corner);
+    const double world[4] = {head->position[0] + (double)at.x, head->position[1] + (double)at.y,
+                             head->position[2] + (double)at.z, 1};
+    double       eye[4]   = {0};
+    for (int i = 0; i < 16; ++i) eye[i % 4] += (double)view->view[i] * world[i / 4];
+    for (int i = 0; i < 4; ++i) clip[i] = 0;
+    for (int i = 0; i < 16; ++i) clip[i % 4] += (double)view->projection[i] * eye[i / 4];
+}
+
+// What is outside of one of these by all corners of a box is so by the whole box: each is linear in clip space.
+enum { LEFT, RIGHT, BELOW, ABOVE, BEHIND, FAR, NEAR, SIDES };
+
+static unsigned find_outside(const double clip[4], const double edge[2])
+{
+    double x = clip[0], y = clip[1], z = clip[2], w = clip[3];
+    return (unsigned)(x < -w * edge[0]) << LEFT | (unsigned)(x > w * edge[0]) << RIGHT |
+           (unsigned)(y < -w * edge[1]) << BELOW | (unsigned)(y > w * edge[1]) << ABOVE |
+           (unsigned)(w < 0) << BEHIND | (unsigned)(z > w) << FAR | (unsigned)(z < -w) << NEAR;
+}
+
+int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                             const hair_view* view)
+{
+    const struct hair_gl*     gl          = draw->gl;
+    const struct hair_extent* e           = &draw->extent;
+    GLfloat                   viewport[4] = {0};
+    double                    edge[2], reach = reach_of(draw, view->lod);
+    unsigned                  outside = (1u << SIDES) - 1;
+    float                     r       = (float)reach;
+    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    for (int k = 0; k < 2; ++k)
+        edge[k] = 1 + 2 * (EDGE + fabs((double)view->jitter[k])) / fmax((double)viewport[2 + k], 1);
+    for (int i = 0; i < 8 && outside; ++i) {
+        double clip[4];
+        find_corner(view, head,
+                    hair_v3(i & 1 ? e->upper.x + r : e->lower.x - r, i & 2 ? e->upper.y + r : e->lower.y - r,
+                            i & 4 ? e->upper.z + r : e->lower.z - r),
+                    clip);
+        outside &= find_outside(clip, edge);
+    }
+    // Depth may be clamped, and then nothing is cut off near or far.
+    if (outside & (1u << FAR | 1u << NEAR))
+        if (gl->IsEnabled(GL_DEPTH_CLAMP)) outside &= ~(1u << FAR | 1u << NEAR);
+    return outside != 0;
+}

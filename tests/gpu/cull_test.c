@@ -1,0 +1,268 @@
+// cull_test.c - hair that no view shows is not drawn, lists that are there are not made again, and nothing is waited for.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+#include "tests/support/trace.h"
+
+enum { SIZE = 48, MOST = 4096 };
+
+struct fixture {
+    struct hair_test*      test;
+    hair_context*          context;
+    hair_instance*         hair;
+    struct hair_test_frame frame;
+};
+
+static hair_instance* make(struct hair_test* test, hair_context* context)
+{
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc                 desc   = hair_desc_default();
+    hair_look                 look   = hair_look_default();
+    hair_instance*            hair   = NULL;
+    look.segments                    = 12;
+    look.radius                      = 1e-3f;
+    look.shading                     = HAIR_SHADING_LINES;
+    desc.look                        = &look;
+    hair_groom* groom                = hair_test_groom(&test->host.host, wanted);
+    hair_test_ok(test, hair_create(context, groom, &desc, &hair));
+    hair_groom_destroy(groom);
+    return hair;
+}
+
+static struct fixture start(void** state)
+{
+    struct fixture    f    = {.test = *state};
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host              = &f.test->host.host;
+    desc.get_proc          = hair_test_trace_proc;
+    desc.timings           = 1;
+    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
+    f.hair = make(f.test, f.context);
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_context_destroy(f->context);
+}
+
+static void clear(struct fixture* f)
+{
+    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
+    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
+}
+
+// From `eye`, looking along `way`.
+static void look_along(hair_vec3 eye, hair_vec3 way, float view[16])
+{
+    hair_vec3   z = hair_scale(hair_normalize(way, hair_v3(0, 0, -1)), -1), x = hair_perpendicular(z);
+    hair_vec3   y     = hair_cross(z, x);
+    const float m[16] = {x.x,
+                         y.x,
+                         z.x,
+                         0,
+                         x.y,
+                         y.y,
+                         z.y,
+                         0,
+                         x.z,
+                         y.z,
+                         z.z,
+                         0,
+                         -hair_dot(x, eye),
+                         -hair_dot(y, eye),
+                         -hair_dot(z, eye),
+                         1};
+    memcpy(view, m, sizeof m);
+}
+
+// What games have: perspective, orthographic, reversed without end, and one whose left half is all that is shown.
+static void project(int kind, float projection[16])
+{
+    const float n = 0.05f, f = 3, g = 1.6f;
+    const float kinds[4][16] = {
+        {g, 0, 0, 0, 0, g, 0, 0, 0, 0, (f + n) / (n - f), -1, 0, 0, 2 * f * n / (n - f), 0},
+        {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -2 / (f - n), 0, 0, 0, -(f + n) / (f - n), 1},
+        {g, 0, 0, 0, 0, g, 0, 0, 0, 0, 0, -1, 0, 0, n, 0},
+        {2 * g, 0, 0, 0, 0, g, 0, 0, 1, 0, (f + n) / (n - f), -1, 0, 0, 2 * f * n / (n - f), 0}};
+    memcpy(projection, kinds[kind], 16 * sizeof *projection);
+}
+
+static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
+{
+    float eye[4], clip[4];
+    for (int i = 0; i < 4; ++i)
+        eye[i] = view->view[i] * at[0] + view->view[4 + i] * at[1] + view->view[8 + i] * at[2] +
+                 view->view[12 + i];
+    for (int i = 0; i < 4; ++i) {
+        clip[i] = 0;
+        for (int k = 0; k < 4; ++k) clip[i] += view->projection[4 * k + i] * eye[k];
+    }
+    return fabsf(clip[0]) <= clip[3] && fabsf(clip[1]) <= clip[3] && clip[2] <= clip[3] &&
+           clip[2] >= (zero_to_one ? 0 : -clip[3]);
+}
+
+// Eyes all around and in the midst of it, looking anywhere: wherever a vertex is in view the hair is drawn, and mostly it is
+// not drawn where it is wholly out of view.
+static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void** state)
+{
+    static float   at[3 * MOST];
+    struct fixture f      = start(state);
+    uint32_t       random = 3, count, unseen = 0, culled = 0, wrong = 0;
+    hair_view      view     = hair_view_default();
+    const float    head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
+    hair_test_ok(f.test, hair_teleport(f.hair, head));
+    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, at, MOST, &count));
+    assert_in_range(count, 100, MOST);
+    for (int i = 0; i < 800; ++i) {
+        float     away = i % 5 ? 1.5f : 0.2f;
+        hair_vec3 eye, way;
+        float*    numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
+        for (int k = 0; k < 6; ++k) *numbers[k] = (2 * hair_random(&random) - 1) * (k < 3 ? away : 1);
+        look_along(hair_add(eye, hair_v3(5, 6, -7)), way, view.view);
+        project(i % 4, view.projection);
+        view.pass = i % 3 ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
+        int seen  = 0;
+        for (uint32_t k = 0; k < count && !seen; ++k) seen = is_inside(&view, at + 3 * k, i % 4 == 2);
+        glClipControl(GL_LOWER_LEFT, i % 4 == 2 ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+        hair_test_trace_clear();
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        uint32_t draws = hair_test_trace_count("glDraw") + hair_test_trace_count("glMultiDraw");
+        wrong += seen && !draws;
+        unseen += (uint32_t)!seen;
+        culled += !draws;
+        if (!draws) assert_int_equal(hair_test_trace_count("glDispatch"), 0);
+    }
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    print_message("    of 800 views %u show no vertex, %u of which are not drawn\n", unseen, culled);
+    assert_int_equal(wrong, 0);
+    assert_true(culled > unseen / 2);
+    finish(&f);
+}
+
+static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
+{
+    struct fixture f    = start(state);
+    hair_view      view = hair_view_default();
+    for (int clamps = 0; clamps < 2; ++clamps) {
+        look_along(hair_v3(0, 0, 9), hair_v3(0, 0, -1), view.view);
+        project(0, view.projection);
+        (clamps ? glEnable : glDisable)(GL_DEPTH_CLAMP);
+        hair_test_trace_clear();
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        assert_true((hair_test_trace_count("glDraw") > 0) == clamps);
+    }
+    glDisable(GL_DEPTH_CLAMP);
+    finish(&f);
+}
+
+// What may be anywhere is drawn.
+static void hair_of_free_roots_is_drawn_wherever_its_groom_is(void** state)
+{
+    struct fixture f       = start(state);
+    hair_view      view    = hair_view_default();
+    hair_physics   physics = hair_physics_default();
+    look_along(hair_v3(0, 0, 2), hair_v3(0, 0, 1), view.view);
+    project(0, view.projection);
+    physics.root = HAIR_ROOT_FREE;
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    hair_test_trace_clear();
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    assert_true(hair_test_trace_count("glDraw") > 0);
+    finish(&f);
+}
+
+static void read(struct fixture* f, const hair_view* view, float* pixels)
+{
+    clear(f);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&f->frame, pixels);
+}
+
+static float differ(const float* a, const float* b)
+{
+    float most = 0;
+    for (int i = 0; i < 4 * SIZE * SIZE; ++i) most = fmaxf(most, fabsf(a[i] - b[i]));
+    return most;
+}
+
+// The same picture as one for which all is done anew.
+static void what_has_not_changed_is_not_listed_again(void** state)
+{
+    static float   kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
+    struct fixture f    = start(state);
+    hair_view      view = hair_view_default();
+    hair_lod       lod  = hair_lod_default();
+    hair_look      look = f.hair->draw.look;
+    view.path           = HAIR_PATH_INSTANCED;
+    lod.strand_pixels   = 4;
+    project(0, view.projection);
+    for (int i = 0; i < 10; ++i) {
+        // Again; from elsewhere; less of it; by a level of detail; again; from elsewhere; stepped; again.
+        static const uint32_t dispatches[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
+        look_along(hair_v3(0, 0.1f, i >= 2 && i < 6 ? 0.7f : 0.8f), hair_v3(0, 0, -1), view.view);
+        look.density = i >= 3 ? 0.6f : 1;
+        view.lod     = i >= 4 ? &lod : NULL;
+        hair_test_ok(f.test, hair_set_look(f.hair, &look));
+        if (i == 7) hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+        hair_test_trace_clear();
+        read(&f, &view, kept);
+        if (i != 0 && i != 7) assert_int_equal(hair_test_trace_count("glDispatch"), dispatches[i]);
+        if (f.hair->draw.listed.of) f.hair->draw.listed.of->made = 0;
+        ++f.hair->draw.hits.met;
+        read(&f, &view, anew);
+        assert_true(differ(kept, anew) == 0);
+    }
+    finish(&f);
+}
+
+// A frame is a step and a draw, with solids that followers come into and all passes timed.
+static void no_frame_waits_for_the_gpu(void** state)
+{
+    struct fixture f     = start(state);
+    hair_view      view  = hair_view_default();
+    hair_solid     solid = hair_solid_default();
+    look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
+    project(0, view.projection);
+    solid.size[0] = 0.05f, solid.position[1] = 0.2f;
+    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    for (int path = 0; path < 3; ++path) {
+        view.path = (hair_path)path;
+        for (int frame = 0; frame < 40; ++frame) {
+            if (frame == 1) hair_test_trace_clear();
+            hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+            hair_test_ok(f.test, hair_draw(f.hair, &view));
+            glFlush(); // As who shows a picture does.
+        }
+        if (hair_test_trace_waits())
+            fail_msg("%u waits: %s", hair_test_trace_waits(), hair_test_trace_list());
+        static const char* const waiting[] = {"glFinish", "glReadPixels", "glGetError", "glGetTexImage",
+                                              "glMapBuffer"};
+        for (int i = 0; i < 5; ++i) assert_int_equal(hair_test_trace_count(waiting[i]), 0);
+    }
+    assert_true(hair_test_trace_count("glClientWaitSync") > 0); // Guides were looked at.
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out),
+        HAIR_TEST(nothing_is_cut_off_near_or_far_where_depth_is_clamped),
+        HAIR_TEST(hair_of_free_roots_is_drawn_wherever_its_groom_is),
+        HAIR_TEST(what_has_not_changed_is_not_listed_again),
+        HAIR_TEST(no_frame_waits_for_the_gpu),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
