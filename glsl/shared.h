@@ -84,7 +84,10 @@ typedef uint32_t hair_uint;
 // Of the passes that list the strands that are drawn without a tessellator:
 #define HAIR_BIND_START 3   // uint[]              per patch: where its strands begin in the list
 #define HAIR_BIND_STRAND 4  // hair_strand[]       per strand that is drawn
-#define HAIR_BIND_COMMAND 5 // hair_draw_command[2]
+#define HAIR_BIND_COMMAND 5 // hair_draw_command[2], and the one that draws them sorted
+// Of the passes that sort their segments, these too:
+#define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
+#define HAIR_BIND_SORTED 1 // uvec2[]              per segment: the numbers of its vertices
 
 // Of the passes of the fluid, which read what they do not write as textures:
 #define HAIR_BIND_VELOCITY 0 // float[]     per axis and slot: of the face along the axis, m/s; see glsl/wind/fluid.glsl
@@ -156,6 +159,7 @@ typedef uint32_t hair_uint;
 #define HAIR_MAX_ISOLINES 64         // made at once of a patch, and
 #define HAIR_MAX_ISOLINE_SEGMENTS 64 // of an isoline: what OpenGL promises
 #define HAIR_INSTANCE_STRANDS 64     // drawn as one instance, without a tessellator
+#define HAIR_SORT_BUCKETS 16384      // from far to near
 #define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,
@@ -574,7 +578,8 @@ HAIR_SIZE(hair_strand, 16)
 // Beginning with what OpenGL reads of an indirect draw with indices.
 struct hair_draw_command {
     hair_uint count, instances, first, base_vertex, base_instance;
-    hair_uint unused0, unused1, unused2;
+    hair_uint strands; // of the first of those that draw a list: in it
+    hair_uint unused0, unused1;
 };
 HAIR_SIZE(hair_draw_command, 32)
 
@@ -632,9 +637,10 @@ struct hair_draw_params {
     hair_vec4 origin;         // xyz: of the head, world, m
     // xy: pixels; z: by which ribbons are widened to each side to reach all pixels that they cover a share of; w: opacity
     hair_vec4 viewport;
+    hair_vec4 sort; // x: m from the eye where the nearest bucket begins; y: buckets in a metre
     HAIR_STRUCT(hair_tint) tint;
     HAIR_STRUCT(hair_strand_look) strand;
 };
-HAIR_SIZE(hair_draw_params, 6 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
+HAIR_SIZE(hair_draw_params, 6 * 64 + 11 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
 
 #endif

@@ -59,6 +59,12 @@ PICTURE("Dyed tips: a ramp of eight colours",
         "blue=1,1,1,1,1.5,2.2,2.5,2.5")
 PICTURE("Lines with a highlight that glitters (sparkle=1)", "--scene demo --set shading=lines --set sparkle=1")
 
+ROW("Thin strands: one sample a pixel, four, and one that shows shares")
+PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1")
+PICTURE("Opaque, four samples (the default)", "tools/scenes/far.json")
+PICTURE("Shares of pixels, sorted and blended (coverage=shares), one sample", "tools/scenes/far.json --samples 1 --set coverage=shares")
+PICTURE("Opaque, 64 samples", "tools/scenes/far.json --samples 4 --supersample 4")
+
 ROW("Level of detail: fewer strands, as much wider, of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")
 PICTURE("A lower one: 15 % of the strands, half the segments",

@@ -21,7 +21,7 @@ void write_commands(uint strands)
         each = (each + 1u) / 2u;
     }
     uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, instances = whole / HAIR_INSTANCE_STRANDS;
-    command[0] = hair_draw_command(HAIR_INSTANCE_STRANDS * 2u * each, instances, first, 0u, 0u, 0u, 0u, 0u);
+    command[0] = hair_draw_command(HAIR_INSTANCE_STRANDS * 2u * each, instances, first, 0u, 0u, strands, 0u, 0u);
     command[1] = hair_draw_command(left * 2u * each, 1u, first, whole * (draw.segments + 1u), 0u, 0u, 0u, 0u);
 }
 

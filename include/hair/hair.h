@@ -648,6 +648,16 @@ typedef enum hair_primitive {
     HAIR_LINES        ///< One pixel wide: the cheap setting.
 } hair_primitive;
 
+/// How pixels come to show strands that are thinner than they are.
+typedef enum hair_coverage {
+    HAIR_COVERAGE_SAMPLES = 0, ///< By their samples, which see opaque ribbons of true width; the default.
+    /// Of HAIR_PASS_COLOR, for ribbons only: by the share of the pixel that they cover, whatever its samples. Segments are
+    /// sorted from far to near and blended over what is there, as far as its depth lets them: draw the body before, the
+    /// hair's own depth is not written. Colours are multiplied by alpha. Memory: 32 bytes for each vertex of all followers,
+    /// whatever the picture's size; what lies between each other by less than 1/16384 of the hair's extent is in any order.
+    HAIR_COVERAGE_SHARES
+} hair_coverage;
+
 /// A slice through the field, at right angles to one of the head's axes. The solids before it are cut away.
 /// Blue is outside, red inside, white the surface; a line for every voxel from it.
 typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
@@ -720,6 +730,8 @@ typedef struct hair_view {
     float      slice_at;          ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
     const hair_lod* lod;          ///< NULL: all is drawn.
     hair_shader*    shader;       ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    hair_coverage   coverage;     ///< Default HAIR_COVERAGE_SAMPLES.
+    float           opacity;      ///< Of HAIR_COVERAGE_SHARES: of what strands cover. [0, 1]. Default 1.
     float           jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
     /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
     /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.

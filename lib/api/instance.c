@@ -57,7 +57,9 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
-    hair->longest = hair_find_reach(groom, hair->reach);
+    hair->longest    = hair_find_reach(groom, hair->reach);
+    hair_vec3 middle = hair_lerp(hair->reach[0], hair->reach[1], 0.5f);
+    hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->reach[1])};
     hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);

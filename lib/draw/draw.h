@@ -7,6 +7,7 @@
 #include "lib/draw/hits.h"
 #include "lib/draw/listed.h"
 #include "lib/draw/motion.h"
+#include "lib/draw/sorted.h"
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
 struct hair_fibres {
@@ -40,6 +41,8 @@ struct hair_draw {
     struct hair_expanded expanded;
     struct hair_fibres   fibres;
     struct hair_motion   motion;
+    struct hair_sorted   sorted;
+    hair_vec4            reach; // where hair can be, in the head's frame: a ball, w: its radius, m
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -109,6 +112,12 @@ void        hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pos
 void        hair_draw_keep_shown(struct hair_draw* draw);
 void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
 void hair_draw_bind_motion(struct hair_draw* draw);
+
+// sorted.c: segments of the strands that are listed from far to near; drawn with the program that is current, blended.
+hair_result hair_draw_need_sorted(struct hair_draw* draw);
+void        hair_draw_free_sorted(struct hair_draw* draw);
+void        hair_draw_sort(struct hair_draw* draw);
+void        hair_draw_sorted(struct hair_draw* draw);
 
 // Vertices of all followers read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
 // UINT32_MAX.

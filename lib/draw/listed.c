@@ -21,7 +21,7 @@ static hair_result make_lists(struct hair_draw* draw)
         result =
             hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, listed->strand, &listed->strand_texture);
     if (!result && !listed->command)
-        result = hair_gl_storage(gl, "hair commands", 2 * sizeof(struct hair_draw_command), NULL,
+        result = hair_gl_storage(gl, "hair commands", 3 * sizeof(struct hair_draw_command), NULL,
                                  &listed->command);
     if (!result) result = hair_gl_need(gl, HAIR_GL_COUNT);
     if (!result) result = hair_gl_need(gl, HAIR_GL_LIST);

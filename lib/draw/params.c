@@ -61,16 +61,30 @@ static void jitter(float projection[16], const float by[2], const float viewport
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
 }
 
-static void write_clip(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
+#define DIAGONAL 0.70711f // half of a pixel's: a ribbon reaches the pixels whose middles are so far beside it
+
+static void write_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                       struct hair_draw_params* out)
 {
     GLfloat viewport[4] = {0};
+    GLint   samples     = 0;
     float   projection[16];
+    int     shares = view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_SHARES;
     memcpy(projection, view->projection, sizeof projection);
-    if (view->jitter[0] != 0 || view->jitter[1] != 0) {
+    if (shares || view->jitter[0] != 0 || view->jitter[1] != 0)
         draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-        jitter(projection, view->jitter, viewport);
-    }
+    if (view->jitter[0] != 0 || view->jitter[1] != 0) jitter(projection, view->jitter, viewport);
     memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
+    if (!shares) return;
+    draw->gl->GetIntegerv(GL_SAMPLES, &samples);
+    // With samples, all of a pixel must be within the ribbon.
+    out->viewport =
+        (hair_vec4){viewport[2], viewport[3], samples > 1 ? 2 * DIAGONAL : DIAGONAL, view->opacity};
+    hair_vec3 at     = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
+    hair_vec3 eye    = {out->eye.x, out->eye.y, out->eye.z};
+    float     middle = out->eye.w > 0 ? hair_distance(eye, at) : -hair_dot(eye, at);
+    out->sort.x      = out->eye.w > 0 ? fmaxf(middle - draw->reach.w, 0) : middle - draw->reach.w;
+    out->sort.y      = HAIR_SORT_BUCKETS / fmaxf(2 * draw->reach.w, 1e-6f);
 }
 
 // Clip space of this frame and of the one before, from the head's origins.
@@ -103,7 +117,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     out->ambient    = (hair_vec4){view->ambient[0], view->ambient[1], view->ambient[2], 0};
     out->origin =
         (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2], 0};
-    write_clip(draw, view, out);
+    write_clip(draw, head, view, out);
     if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
     if (view->shadow_texture && view->pass == HAIR_PASS_COLOR) write_shadow(draw, head, view, out);
 }

@@ -31,7 +31,7 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
     hair_gl_begin(gl, pass);
     gl->DispatchCompute(rows > 1 ? MAX_GROUPS : groups, rows, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
     hair_gl_end(gl, pass);
 }
 

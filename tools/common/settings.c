@@ -96,6 +96,8 @@ static const struct row rows[] = {
 
     {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
+    {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"samples", "shares"}},
+    {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},
     {"lod", "level of detail", COUNT, {AT(has_lod)}, {"off", "on"}},
     {"lod.strands", "share of the strands drawn, at most", FLOAT, {AT(lod.strands)}, {0}},
     {"lod.segments", "share of their segments, at most", FLOAT, {AT(lod.segments)}, {0}},

@@ -1,0 +1,35 @@
+// bucket.comp - segments by how far they are from the eye: counted in buckets or, with HAIR_PLACES, written where their bucket
+// has room for them. One thread per segment.
+#version 450 core
+#include "expanded.glsl"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_BUCKET) restrict buffer bucket_buffer { uint bucket[]; };
+layout(std430, binding = HAIR_BIND_STRAND) readonly restrict buffer strand_buffer { hair_strand strand[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer { hair_draw_command command[]; };
+layout(std430, binding = HAIR_BIND_SORTED) writeonly restrict buffer sorted_buffer { uvec2 sorted[]; };
+
+vec3 position_at(uint number, float t)
+{
+    int   at;
+    float share = place_between(number, t, at);
+    return mix(texelFetch(expanded_texture, at).xyz, texelFetch(expanded_texture, at + 1).xyz, share);
+}
+
+void main()
+{
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint s = i / draw.segments, k = i % draw.segments;
+    if (s >= command[0].strands || k >= strand[s].segments) return;
+    hair_strand own    = strand[s];
+    vec3        middle = 0.5 * (position_at(own.follower, min(float(k) / own.whole, 1.0)) +
+                         position_at(own.follower, min(float(k + 1u) / own.whole, 1.0)));
+    float       away   = draw.eye.w > 0.0 ? distance(draw.eye.xyz, middle) : -dot(draw.eye.xyz, middle);
+    float       near   = clamp((away - draw.sort.x) * draw.sort.y, 0.0, float(HAIR_SORT_BUCKETS) - 1.0);
+    uint        number = uint(HAIR_SORT_BUCKETS) - 1u - uint(near);
+    uint        at     = atomicAdd(bucket[number], 1u);
+#ifdef HAIR_PLACES
+    sorted[at] = s * (draw.segments + 1u) + k + uvec2(0u, 1u);
+#endif
+}

@@ -1,0 +1,105 @@
+// sorted.c - segments sorted by compute, by buckets of distance from the eye, and blended. OpenGL blends primitives in the
+// order in which a draw has them.
+#include "lib/draw/draw.h"
+
+static hair_result make_index(struct hair_draw* draw, size_t segments)
+{
+    struct hair_gl*     gl     = draw->gl;
+    struct hair_sorted* sorted = &draw->sorted;
+    hair_gl_free_buffer(gl, &sorted->index);
+    sorted->segments   = 0;
+    hair_result result = hair_gl_storage(gl, "hair sorted segments", 8 * segments, NULL, &sorted->index);
+    if (result) return result;
+    if (!sorted->vertex_array) gl->CreateVertexArrays(1, &sorted->vertex_array);
+    if (!sorted->vertex_array)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "the driver makes no vertex array for sorted segments");
+    gl->VertexArrayElementBuffer(sorted->vertex_array, sorted->index);
+    sorted->segments = segments;
+    return HAIR_OK;
+}
+
+hair_result hair_draw_need_sorted(struct hair_draw* draw)
+{
+    struct hair_gl*     gl       = draw->gl;
+    struct hair_sorted* sorted   = &draw->sorted;
+    size_t              segments = (size_t)draw->followers * draw->look.segments;
+    hair_result         result   = HAIR_OK;
+    if (!sorted->bucket)
+        result =
+            hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL, &sorted->bucket);
+    if (!result && sorted->segments != segments) result = make_index(draw, segments);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_BUCKET);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_BUCKETS);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_PLACE);
+    return result;
+}
+
+void hair_draw_free_sorted(struct hair_draw* draw)
+{
+    struct hair_sorted* sorted = &draw->sorted;
+    if (sorted->vertex_array) draw->gl->DeleteVertexArrays(1, &sorted->vertex_array);
+    sorted->vertex_array = 0;
+    sorted->segments     = 0;
+    hair_gl_free_buffer(draw->gl, &sorted->bucket);
+    hair_gl_free_buffer(draw->gl, &sorted->index);
+}
+
+void hair_draw_sort(struct hair_draw* draw)
+{
+    struct hair_gl*     gl        = draw->gl;
+    struct hair_sorted* sorted    = &draw->sorted;
+    GLuint              sorts[]   = {sorted->bucket, sorted->index};
+    GLuint              strands[] = {draw->listed.strand, draw->listed.command};
+    uint32_t            groups    = (uint32_t)((sorted->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    gl->ClearNamedBufferData(sorted->bucket, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BUCKET, 2, sorts);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
+    hair_gl_run(gl, HAIR_GL_BUCKET, groups);
+    hair_gl_run(gl, HAIR_GL_BUCKETS, 1);
+    hair_gl_run(gl, HAIR_GL_PLACE, groups);
+}
+
+// What blending takes of the host's state is put back at once, as in prepass.c.
+struct saved {
+    GLint     equation[2], factor[4];
+    GLboolean blends, writes_depth;
+};
+
+static void enter(struct hair_gl* gl, struct saved* saved)
+{
+    static const GLenum factors[] = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA,
+                                     GL_BLEND_DST_ALPHA};
+    gl->GetIntegeri_v(GL_BLEND_EQUATION_RGB, 0, &saved->equation[0]);
+    gl->GetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &saved->equation[1]);
+    for (int i = 0; i < 4; ++i) gl->GetIntegeri_v(factors[i], 0, &saved->factor[i]);
+    gl->GetBooleanv(GL_DEPTH_WRITEMASK, &saved->writes_depth);
+    saved->blends = gl->IsEnabledi(GL_BLEND, 0);
+    gl->BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
+    gl->BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->Enablei(GL_BLEND, 0);
+    gl->DepthMask(0);
+}
+
+static void leave(struct hair_gl* gl, const struct saved* saved)
+{
+    const GLint* f = saved->factor;
+    gl->BlendEquationSeparatei(0, (GLenum)saved->equation[0], (GLenum)saved->equation[1]);
+    gl->BlendFuncSeparatei(0, (GLenum)f[0], (GLenum)f[1], (GLenum)f[2], (GLenum)f[3]);
+    (saved->blends ? gl->Enablei : gl->Disablei)(GL_BLEND, 0);
+    gl->DepthMask(saved->writes_depth);
+}
+
+void hair_draw_sorted(struct hair_draw* draw)
+{
+    struct hair_gl* gl    = draw->gl;
+    const char*     first = (const char*)NULL + 2 * sizeof(struct hair_draw_command);
+    struct saved    saved;
+    enter(gl, &saved);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
+    gl->BindVertexArray(draw->sorted.vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);
+    gl->Disable(GL_PRIMITIVE_RESTART);
+    gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_INT, first, 1, 0);
+    leave(gl, &saved);
+}

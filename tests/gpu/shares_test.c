@@ -1,0 +1,201 @@
+// shares_test.c - pixels that show strands by the share that they cover: as much as finer pixels see, the nearest in front
+// whatever the order of strands, over what is there and as far as its depth lets them; and nothing of it where it is not asked for.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIDE 96
+#define FINE 8
+#define WIDE 384 // strands are seven pixels wide on it
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+static struct fixture start(void** state, uint32_t followers, float radius)
+{
+    struct fixture            f      = {.test = *state};
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc                 desc   = hair_desc_default();
+    hair_look                 look   = hair_look_default();
+    wanted.followers                 = followers;
+    look.radius                      = radius;
+    look.taper                       = hair_curve_line(1, 1);
+    look.shading                     = HAIR_SHADING_LINES;
+    desc.look                        = &look;
+    f.groom                          = hair_test_groom(&f.test->host.host, wanted);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+// A metre around the head, seen along -z.
+static hair_view view_of(hair_coverage coverage)
+{
+    hair_view view     = hair_view_default();
+    view.coverage      = coverage;
+    view.projection[0] = view.projection[5] = 2;
+    view.projection[10]                     = -0.5f;
+    view.projection[13]                     = -0.2f;
+    return view;
+}
+
+static void draw(struct fixture* f, const hair_view* view, GLsizei side, GLsizei samples, float* pixels,
+                 float* depths)
+{
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, side, side, GL_RGBA32F, samples);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&frame, pixels);
+    if (depths) hair_test_frame_read_depth(&frame, depths);
+    hair_test_frame_free(&frame);
+}
+
+static double mean_alpha(const float* pixels, GLsizei side)
+{
+    double sum = 0;
+    for (GLsizei i = 0; i < side * side; ++i) sum += (double)pixels[4 * i + 3];
+    return sum / side / side;
+}
+
+// Few strands, so that hardly two share a pixel. A pixel is a 48th of a metre.
+static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
+{
+    static float       pixels[4 * SIDE * SIDE], fine[4 * SIDE * FINE * SIDE * FINE];
+    static const float widths[] = {0.08f, 0.25f, 0.5f, 1, 1.5f};
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; ++i) {
+        // Of thinner strands finer pixels than these see too little: they are taken to cover in proportion.
+        float          seen = fmaxf(widths[i], 0.5f), pixel = 1.0f / SIDE;
+        struct fixture f    = start(state, 5, 0.5f * seen * pixel);
+        hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
+        draw(&f, &view, FINE * SIDE, 4, fine, NULL);
+        double expected = mean_alpha(fine, FINE * SIDE) * (double)(widths[i] / seen);
+        finish(&f);
+        f             = start(state, 5, 0.5f * widths[i] * pixel);
+        view.coverage = HAIR_COVERAGE_SHARES;
+        for (GLsizei samples = 0; samples <= 4; samples += 4) {
+            draw(&f, &view, SIDE, samples, pixels, NULL);
+            double covered = mean_alpha(pixels, SIDE);
+            print_message("    %g px, %d samples: %.6f, expected %.6f\n", (double)widths[i], samples, covered,
+                          expected);
+            hair_test_near("coverage", i, covered / expected, 1, 0.04);
+        }
+        view.opacity = 0.25f;
+        draw(&f, &view, SIDE, 0, pixels, NULL);
+        hair_test_near("coverage at a quarter of the opacity", i, mean_alpha(pixels, SIDE) / expected, 0.25,
+                       0.012);
+        finish(&f);
+    }
+}
+
+// Where strands are wide, whole pixels are covered by the nearest alone: that is what opaque ones leave.
+static void the_nearest_strand_is_in_front(void** state)
+{
+    static float   opaque[4 * WIDE * WIDE], shares[4 * WIDE * WIDE];
+    struct fixture f    = start(state, 64, 0.009f);
+    hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
+    for (int lod = 0; lod < 2; ++lod) {
+        hair_lod part = hair_lod_default();
+        part.dynamic = 0, part.strands = 0.7f, part.segments = 0.5f;
+        view.path     = HAIR_PATH_INSTANCED;
+        view.lod      = lod ? &part : NULL;
+        view.coverage = HAIR_COVERAGE_SAMPLES;
+        draw(&f, &view, WIDE, 4, opaque, NULL);
+        view.coverage = HAIR_COVERAGE_SHARES;
+        draw(&f, &view, WIDE, 0, shares, NULL);
+        double   off     = 0;
+        uint32_t covered = 0;
+        for (int i = 0; i < WIDE * WIDE; ++i) {
+            if (opaque[4 * i + 3] < 1) continue;
+            ++covered;
+            for (int k = 0; k < 3; ++k)
+                off += fabs((double)opaque[4 * i + k] - (double)shares[4 * i + k]) / 3;
+        }
+        double sum = 0;
+        for (int i = 0; i < WIDE * WIDE; ++i) sum += opaque[4 * i + 3] < 1 ? 0 : (double)opaque[4 * i + 1];
+        print_message("    %u pixels, off by %.4f of the mean\n", covered, off / sum);
+        assert_true(covered > 1000);
+        assert_true(off / sum < 0.06); // Edges within pixels, where 4 samples and shares differ.
+    }
+    finish(&f);
+}
+
+static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** state)
+{
+    static float           pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
+    static const float     near = 0.2f, blue[4] = {0, 0, 0.5f, 1};
+    struct fixture         f    = start(state, 64, 0.002f);
+    hair_view              view = view_of(HAIR_COVERAGE_SHARES);
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    glClearNamedFramebufferfv(frame.framebuffer, GL_DEPTH, 0, &near);
+    glClearNamedFramebufferfv(frame.framebuffer, GL_COLOR, 0, blue);
+    glBlendFuncSeparatei(0, GL_DST_COLOR, GL_ZERO, GL_ONE_MINUS_DST_ALPHA, GL_SRC_COLOR);
+    glBlendEquationSeparatei(0, GL_MAX, GL_FUNC_REVERSE_SUBTRACT);
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    GLint     factor[4], equation[2];
+    GLboolean writes;
+    glGetIntegeri_v(GL_BLEND_SRC_RGB, 0, &factor[0]), glGetIntegeri_v(GL_BLEND_DST_RGB, 0, &factor[1]);
+    glGetIntegeri_v(GL_BLEND_SRC_ALPHA, 0, &factor[2]), glGetIntegeri_v(GL_BLEND_DST_ALPHA, 0, &factor[3]);
+    glGetIntegeri_v(GL_BLEND_EQUATION_RGB, 0, &equation[0]),
+        glGetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &equation[1]);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &writes);
+    assert_true(factor[0] == GL_DST_COLOR && factor[1] == GL_ZERO && factor[2] == GL_ONE_MINUS_DST_ALPHA &&
+                factor[3] == GL_SRC_COLOR && equation[0] == GL_MAX &&
+                equation[1] == GL_FUNC_REVERSE_SUBTRACT);
+    assert_true(writes && !glIsEnabledi(GL_BLEND, 0));
+    glBlendFunc(GL_ONE, GL_ZERO);
+    glBlendEquation(GL_FUNC_ADD);
+    hair_test_frame_read(&frame, pixels);
+    for (int i = 0; i < SIDE * SIDE; ++i) assert_true(pixels[4 * i] == 0 && pixels[4 * i + 2] == 0.5f);
+    hair_test_frame_free(&frame);
+    draw(&f, &view, SIDE, 0, pixels, depths);
+    double covered = mean_alpha(pixels, SIDE);
+    assert_true(covered > 0.005);
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        assert_true(depths[i] == 1);
+        assert_true(pixels[4 * i + 3] >= 0 && pixels[4 * i + 3] <= 1.0001f);
+    }
+    finish(&f);
+}
+
+static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
+{
+    static float   pixels[4 * SIDE * SIDE];
+    struct fixture f    = start(state, 64, 0.002f);
+    hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
+    view.path           = HAIR_PATH_EXPANDED;
+    draw(&f, &view, SIDE, 0, pixels, NULL);
+    assert_int_equal(f.hair->draw.sorted.bucket, 0);
+    assert_int_equal(f.hair->draw.sorted.index, 0);
+    view.coverage = HAIR_COVERAGE_SHARES;
+    view.pass     = HAIR_PASS_DEPTH; // Of depth there are no shares.
+    draw(&f, &view, SIDE, 0, pixels, NULL);
+    assert_int_equal(f.hair->draw.sorted.bucket, 0);
+    finish(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(strands_of_any_width_cover_what_finer_pixels_see),
+        HAIR_TEST(the_nearest_strand_is_in_front),
+        HAIR_TEST(what_is_nearer_stays_and_depth_and_state_are_as_they_were),
+        HAIR_TEST(hair_of_which_no_shares_are_asked_is_not_sorted),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
