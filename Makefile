@@ -2,6 +2,7 @@
 # make test            build and run every test; filter=groom runs the programs so named
 # make config=asan     release (default), debug, asan, tsan, coverage
 # make BULLET=0        without libhair_bullet; libhair is the same
+# make bench device=0  on that EGL device, with all cases; without it a quick run on the first that works
 # make V=1             show every command
 # make setup           install the Debian packages of tools/packages.txt that are missing; SETUP=0 skips it
 MAKEFLAGS += -r --no-print-directory
@@ -68,6 +69,22 @@ demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair i
 gallery: setup ## build/gallery.png: what the library does, pictures with captions
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
 	$(B)/hair-gallery -o build/gallery.png
+
+# What is measured here, and what was measured elsewhere and is kept, on one page.
+SUITES  := accuracy physics stability render table scale lod collision field wind skip
+MACHINE := build/bench/$(if $(device),device-$(device),here)
+bench: setup ## Every suite of hair-bench, into build/bench/
+	@$(MAKE) -j$(JOBS) $(B)/hair-bench
+	@mkdir -p $(MACHINE)
+	@for suite in $(SUITES); do echo "== $$suite"; \
+	  $(B)/hair-bench $$suite $(if $(device),--device $(device),--quick) --json $(MACHINE)/$$suite.json || exit 1; done
+
+report: setup ## build/report/index.html: run time against error on one page, after make bench and make demo
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/report/packages.txt
+	@ls build/bench/*/*.json >/dev/null 2>&1 || $(MAKE) bench
+	python3 tools/report/report.py build/report/index.html build/bench/* $(wildcard .readme/*/) \
+	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
+	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
 
 test: setup ## Everything a change must pass
 	@$(MAKE) -j$(JOBS) all $(TESTS)
@@ -172,14 +189,16 @@ run-tests: $(TESTS)
 	@failed=; for t in $(TESTS); do case $$t in *$(filter)*) echo "== $$t"; HAIR_TEST=required $$t || failed="$$failed $$t";; esac; done; \
 	  [ -z "$$failed" ] || { echo "failed:$$failed"; exit 1; }
 
-# As the library compiles them, but for the smaller of the four sizes of a work group.
+# As the library compiles them, but for the smaller of the four sizes of a work group; of the solvers' programs, which are
+# made for what there is of eight things, those with at most two or nearly all of them.
+FEATURES := HAIR_(CURVED|THREAD_PER_GUIDE|CROWD|SKINNED|TIED|WIND|STIFF|SOLIDS)=1
 glsl: ## Compile every shader offline, no GPU needed
 	@{ echo '#define PASS(name, label, stages) stages;'; echo '#include "lib/gl/passes.inl"'; \
 	   echo '"gl/selftest.tesc gl/selftest.tese";'; \
 	   for v in HAIR_IDS HAIR_OWN_VERTICES "HAIR_FIBRES=1 HAIR_OWN_PIXELS" "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_MOTION" \
 	     "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_FIBRES=1 HAIR_SHARES"; do \
 	     echo "\"$$v=1 draw/strand.vert draw/ribbon.geom draw/strand.frag\";"; done; } | $(CC) -E -P -I. -x c - | tr -d '"\n' | tr ';' '\n' | \
-	  grep -vE 'THREADS=(32|64|128) ' | while read -r stages; do defines=-DHAIR_LINES_LEVEL=0; \
+	  grep -vE 'THREADS=(32|64|128) ' | awk '{ n = gsub(/$(FEATURES)/, "&"); if (!/rod.comp/ || n < 3 || n > 6) print }' | while read -r stages; do defines=-DHAIR_LINES_LEVEL=0; \
 	    for s in $$stages; do case $$s in *=*) defines="$$defines -D$$s";; *) \
 	      glslc --target-env=opengl4.5 -Werror -fauto-map-locations $$defines -Iglsl -o /dev/null glsl/$$s || exit 1;; esac; \
 	    case $$s in sim/rod.comp) \
@@ -225,4 +244,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all libraries tools demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean
+.PHONY: all bench report libraries tools demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean

@@ -121,12 +121,32 @@ static int plan(struct bench* bench)
     return HAIR_EXIT_USAGE;
 }
 
+// As Linux names it; nothing where it does not.
+static void name_processor(char* name, int size)
+{
+    char  line[256];
+    FILE* file = fopen("/proc/cpuinfo", "r");
+    name[0]    = 0;
+    while (file && !name[0] && fgets(line, sizeof line, file)) {
+        const char* value = strncmp(line, "model name", 10) ? NULL : strchr(line, ':');
+        if (value) snprintf(name, (size_t)size, "%.*s", (int)strcspn(value + 2, "\n"), value + 2);
+    }
+    if (file) fclose(file);
+}
+
 static void write_json(const struct bench* bench, FILE* file)
 {
-    char     version[32];
+    char     version[32], processor[128];
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
-    bench_write_json(&bench->rows, bench->options.suite->name, version, bench->renderer, file);
+    name_processor(processor, sizeof processor);
+    struct bench_about about = {.suite     = bench->options.suite->name,
+                                .version   = version,
+                                .renderer  = bench->renderer,
+                                .processor = processor,
+                                .cores     = sysconf(_SC_NPROCESSORS_ONLN),
+                                .seconds   = 1e-3 * (hair_now() - bench->started)};
+    bench_write_json(&bench->rows, &about, file);
 }
 
 static void write_csv(const struct bench* bench, FILE* file)

@@ -1,10 +1,11 @@
 #!/bin/sh
-# setup.sh - install the Debian packages of packages.txt that are missing, saying so first.
+# setup.sh [LIST] - install the Debian packages of LIST (packages.txt) that are missing, saying so first.
 set -eu
-list=$(sed 's/#.*//' "$(dirname "$0")/packages.txt" | tr -s ' \n' ' ')
+file=${1:-$(dirname "$0")/packages.txt}
+list=$(sed 's/#.*//' "$file" | tr -s ' \n' ' ')
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-    echo "This is not a Debian system: install what corresponds to tools/packages.txt, then call make with SETUP=0." >&2
+    echo "This is not a Debian system: install what corresponds to $file, then call make with SETUP=0." >&2
     exit 1
 fi
 

@@ -98,11 +98,11 @@ void bench_mark_front(json_t* rows, const char* cost, const char* error)
 
 // Writing ---------------------------------------------------------------------------------------------------
 
-void bench_write_json(const struct bench_rows* rows, const char* suite, const char* version,
-                      const char* renderer, FILE* file)
+void bench_write_json(const struct bench_rows* rows, const struct bench_about* about, FILE* file)
 {
-    json_t* root = json_pack("{s:s, s:s, s:s, s:O}", "suite", suite, "version", version, "renderer", renderer,
-                             "rows", rows->rows);
+    json_t* root = json_pack("{s:s, s:s, s:s, s:s, s:i, s:f, s:O}", "suite", about->suite, "version",
+                             about->version, "renderer", about->renderer, "processor", about->processor,
+                             "cores", (int)about->cores, "seconds", about->seconds, "rows", rows->rows);
     json_dumpf(root, file, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS));
     fputc('\n', file);
     json_decref(root);

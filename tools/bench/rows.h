@@ -30,9 +30,15 @@ void    bench_set_null(json_t* row, const char* key);
 // in both and better in one.
 void bench_mark_front(json_t* rows, const char* cost, const char* error);
 
+// What was measured, and on what.
+struct bench_about {
+    const char *suite, *version, *renderer, *processor;
+    long        cores;
+    double      seconds; // that it took
+};
+
 // All to `file`; its stream holds whether that failed.
-void bench_write_json(const struct bench_rows* rows, const char* suite, const char* version,
-                      const char* renderer, FILE* file);
+void bench_write_json(const struct bench_rows* rows, const struct bench_about* about, FILE* file);
 void bench_write_csv(const struct bench_rows* rows, FILE* file);
 void bench_write_table(const struct bench_rows* rows,
                        FILE*                    file); // columns that are alike in all rows: once, above
