@@ -13,7 +13,7 @@ vec2 curve_at(int curve, float t)
     float at = t * float(HAIR_CURVE_INTERVALS);
     int   k  = min(int(at), HAIR_CURVE_INTERVALS - 1);
     float x  = at - float(k);
-    vec4  c  = draw.strand.curve[curve * HAIR_CURVE_INTERVALS + k].c;
+    vec4  c  = draw.strand.curve[curve * HAIR_CURVE_INTERVALS + k];
     return vec2(c.x + x * (c.y + x * (c.z + x * c.w)),
                 float(HAIR_CURVE_INTERVALS) * (c.y + x * (2.0 * c.z + 3.0 * x * c.w)));
 }
@@ -67,7 +67,7 @@ aside curl(uint guide, uint seed, float t, float length_)
     float at = places * fract(t * turns + draw.strand.curl_lock_phase * lock.x + draw.strand.curl_phase * own.x);
     int   k  = min(int(at), HAIR_TURN_PLACES - 1);
     float x  = at - float(k);
-    mat2x4 c = mat2x4(draw.strand.loop[k].c, draw.strand.loop[HAIR_TURN_PLACES + k].c);
+    mat2x4 c = mat2x4(draw.strand.loop[k], draw.strand.loop[HAIR_TURN_PLACES + k]);
     if (lock.y < draw.strand.curl_left) c[1] = -c[1];
     aside a = aside(vec4(1.0, x, x * x, x * x * x) * c, turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
     return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));

@@ -1,5 +1,6 @@
 // shade.glsl - light from a strand to the eye.
 #include "draw_params.glsl"
+#include "lights.glsl"
 #include "shadow.glsl"
 #include "tint.glsl"
 #ifdef HAIR_FIBRES
@@ -22,19 +23,33 @@ struct hair_fragment {
 
 vec3 albedo_of(hair_fragment f) { return f.color; }
 
+vec3 normal_of(hair_fragment f) // of the ribbon
+{
+    return normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6);
+}
+
+vec3 sky_of(hair_fragment f)
+{
+    vec3 normal = normal_of(f);
+    return sky_round(normal, cross(f.tangent, normal));
+}
+
 #ifdef HAIR_FIBRES
 vec3 hair_shade(hair_fragment f)
 {
-    vec3         albedo = albedo_of(f), mu = absorption_of(albedo);
-    fibre_angles a      = measure_angles(f.tangent, draw.light_to.xyz, f.to_eye);
-    fibre_crowd  crowd  = find_crowd(a, mu);
-    float        met;
-    vec4         light  = light_through(f.position, f.seed, 1.0 - crowd.on, met);
-    vec3         once   = scatter_once(a, mu, draw.fibre.z * tilt_of(f.random), draw.fibre.x * variance_of(f.seed));
-    vec3         direct = scatter_often(a, crowd, once, light.x, light.yzw, met) * a.light.y;
-    // What shades from the light hides the sky too.
-    vec3         sky    = albedo * 0.31830989 * (0.25 + 0.75 * sqrt(light.yzw));
-    return draw.light.rgb * direct + draw.ambient.rgb * sky;
+    vec3  albedo = albedo_of(f), mu = absorption_of(albedo), sum = vec3(0.0), open = vec3(1.0);
+    float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
+    for (uint i = 0u; i < draw.lights; ++i) {
+        hair_beam    beam  = beam_at(i, f.position);
+        fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
+        fibre_crowd  crowd = find_crowd(a, mu);
+        float        met;
+        vec4         light = light_through(i, f.position, f.seed, 1.0 - crowd.on, met);
+        vec3         once  = scatter_once(a, mu, tilt, variance);
+        sum += beam.irradiance * (a.light.y * scatter_often(a, crowd, once, light.x, light.yzw, met));
+        if (i == 0u) open = 0.25 + 0.75 * sqrt(light.yzw); // What shades from the first light hides the sky too.
+    }
+    return sum + sky_of(f) * albedo * open * 0.31830989;
 }
 #else
 // Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as Scheuermann 2004 approximates them: a white
@@ -48,23 +63,23 @@ float lobe(vec3 tangent, vec3 halfway, float exponent)
 
 vec3 hair_shade(hair_fragment f)
 {
-    float met, light = light_through(f.position, f.seed, vec3(1.0), met).x;
-    vec3  albedo  = albedo_of(f);
-    vec3  normal  = normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6); // Of the ribbon
-    vec3  halfway = normalize(draw.light_to.xyz + f.to_eye);
-    float along   = dot(f.tangent, draw.light_to.xyz);
-    float diffuse = sqrt(max(1.0 - along * along, 0.0));
-
-    float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0);
+    vec3  albedo  = albedo_of(f), normal = normal_of(f), sum = vec3(0.0);
+    float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0), open = 1.0;
     vec2  glossy  = draw.specular.zw / variance_of(f.seed);
-    vec3  first   = vec3(draw.specular.x) * lobe(normalize(f.tangent + shift * normal), halfway, glossy.x);
-    vec3  second  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo *
-                   lobe(normalize(f.tangent - 1.5 * shift * normal), halfway, glossy.y);
-    // Light from behind passes through the fibre but does not glint on its near side.
-    float facing  = clamp(0.5 + 0.75 * dot(normal, draw.light_to.xyz), 0.0, 1.0);
-
-    vec3 direct  = draw.light.rgb * light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * (first + second));
-    vec3 indirect = draw.ambient.rgb * albedo * (0.25 + 0.75 * sqrt(light)); // Hair that shades from the light hides the sky too.
-    return direct + indirect;
+    vec3  to_root = normalize(f.tangent + shift * normal), to_tip = normalize(f.tangent - 1.5 * shift * normal);
+    vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
+    for (uint i = 0u; i < draw.lights; ++i) {
+        hair_beam beam = beam_at(i, f.position);
+        float     met, light = light_through(i, f.position, f.seed, vec3(1.0), met).x;
+        vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
+        float     along   = dot(f.tangent, beam.to);
+        float     diffuse = sqrt(max(1.0 - along * along, 0.0));
+        vec3      glints  = draw.specular.x * lobe(to_root, halfway, glossy.x) + tinted * lobe(to_tip, halfway, glossy.y);
+        // Light from behind passes through the fibre but does not glint on its near side.
+        float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
+        sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
+        if (i == 0u) open = 0.25 + 0.75 * sqrt(light); // What shades from the first light hides the sky too.
+    }
+    return sum + sky_of(f) * albedo * open;
 }
 #endif

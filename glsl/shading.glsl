@@ -9,10 +9,15 @@
 
 vec3 hair_world(hair_fragment f) { return draw.origin.xyz + f.position; }
 
-uint  hair_lights() { return 1u; }
-vec3  hair_light(hair_fragment f, uint i, out vec3 to) { to = draw.light_to.xyz; return draw.light.rgb; }
-float hair_light_through(hair_fragment f, uint i) { float met; return light_through(f.position, f.seed, vec3(1.0), met).x; }
-vec3  hair_sky(hair_fragment f) { return draw.ambient.rgb; }
+uint  hair_lights() { return draw.lights; }
+vec3  hair_light(hair_fragment f, uint i, out vec3 to)
+{
+    hair_beam beam = beam_at(i, f.position);
+    to = beam.to;
+    return beam.irradiance;
+}
+float hair_light_through(hair_fragment f, uint i) { float met; return light_through(i, f.position, f.seed, vec3(1.0), met).x; }
+vec3  hair_sky(hair_fragment f) { return sky_of(f); }
 
 vec4 hair_shade(hair_fragment f);
 #include "own.glsl"

@@ -97,6 +97,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_RIGHT 4    // float[]     likewise: right side of its equation, m/s
 #define HAIR_BIND_MOTION 5   // hair_fluid_motion[] per solid, never written
 
+#define HAIR_LIGHTS 16     // of a view
+#define HAIR_SHADOW_MAPS 4 // of all of its lights
+#define HAIR_MOST_LIGHT 64000.0 // of a colour that is drawn: formats of half floats hold it
+
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2
@@ -122,7 +126,6 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_STRAND 4   // hair_strand[], likewise, in place of patches where there is no tessellator
-#define HAIR_UNIT_SHADOW 5   // the host's shadow map
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
 #define HAIR_UNIT_CONTACT 1  // of the same: hair_contact[], unsigned as followers are,
 #define HAIR_UNIT_TIE 2      // hair_held[], of the same, where guides are tied
@@ -145,6 +148,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_RIGHT 4
 #define HAIR_UNIT_WALL 6
 #define HAIR_UNIT_BEFORE 2 // of what draws velocities, in place of frames: as HAIR_UNIT_EXPANDED, of the frame before
+#define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
@@ -530,12 +534,6 @@ struct hair_fluid_motion {
 };
 HAIR_SIZE(hair_fluid_motion, 32)
 
-// A cubic over an interval: c.x + x (c.y + x (c.z + x c.w)), x from 0 to 1.
-struct hair_cubic {
-    hair_vec4 c;
-};
-HAIR_SIZE(hair_cubic, 16)
-
 // The curves of a look along a strand.
 #define HAIR_CURVE_TAPER 0
 #define HAIR_CURVE_CLUMP 1
@@ -548,8 +546,9 @@ HAIR_SIZE(hair_cubic, 16)
 
 // What a look makes of a strand's way, as hair_look has it.
 struct hair_strand_look {
-    HAIR_STRUCT(hair_cubic) curve[HAIR_CURVES * HAIR_CURVE_INTERVALS]; // of each its intervals
-    HAIR_STRUCT(hair_cubic) loop[2 * HAIR_TURN_PLACES]; // a turn of a curl of radius 1: x, then z, by intervals
+    // Cubics c over intervals: c.x + x (c.y + x (c.z + x c.w)), x from 0 to 1. Of each curve its intervals,
+    hair_vec4 curve[HAIR_CURVES * HAIR_CURVE_INTERVALS];
+    hair_vec4 loop[2 * HAIR_TURN_PLACES]; // and of a turn of a curl of radius 1: x, then z
     float tip_strays, strays;
     float kinks; // 1/m
     float drawn; // share
@@ -598,15 +597,19 @@ struct hair_tint {
 };
 HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 32)
 
+#define HAIR_LIGHT_TO 0    // xyz, w 0: unit, towards it; w 1: m, from the head's origin to it
+#define HAIR_LIGHT_COLOR 1 // rgb: irradiance, or that 1 m away; w: m^2: squared distance below which it is no brighter
+#define HAIR_LIGHT_AXIS 2  // xyz: of a spot: unit, from what it shines at; w: cosine from which on there is light
+// x: slope of its brightness by that cosine; y: 1 over the square of its range, 1/m^2, 0: any; z: absorption per unit of
+// depth in its shadow map; w: which of the shadow maps that is, HAIR_SHADOW_MAPS: it has none
+#define HAIR_LIGHT_MORE 3
+#define HAIR_LIGHT_VECTORS 4
+
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
     hair_mat4 view; // to view space
     hair_mat4 view_to_clip;
-    hair_mat4 shadow;     // to the shadow map: xy texture coordinates, z depth, both in [0, 1]
     hair_vec4 eye;        // xyz: eye, or direction to it when w is 0 (orthographic)
-    hair_vec4 light_to;   // xyz: unit
-    hair_vec4 light;      // rgb: irradiance; w: absorption per unit of shadow depth, 0: no shadow
-    hair_vec4 ambient;    // rgb: irradiance
     hair_vec4 specular;   // strengths of both highlights, their exponents
     hair_vec4 fibre;      // variance along, absorption per log of reflectance squared, tilt in radians, scattering
     float     radius;     // m
@@ -619,7 +622,8 @@ struct hair_draw_params {
     hair_uint collision; // hair_collision
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
-    hair_uint unused0, unused1, unused2;
+    hair_uint lights;    // how many there are
+    hair_uint unused0, unused1;
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m
@@ -640,7 +644,11 @@ struct hair_draw_params {
     hair_vec4 sort; // x: m from the eye where the nearest bucket begins; y: buckets in a metre
     HAIR_STRUCT(hair_tint) tint;
     HAIR_STRUCT(hair_strand_look) strand;
+    hair_vec4 light[HAIR_LIGHTS * HAIR_LIGHT_VECTORS]; // of each as HAIR_LIGHT_ says
+    hair_mat4 shadow[HAIR_SHADOW_MAPS]; // to each: xy texture coordinates, z depth, both in [0, 1]
+    hair_mat4 sky[3]; // of r, g, b: irradiance on a plane with unit normal n is (n, 1) sky (n, 1)
 };
-HAIR_SIZE(hair_draw_params, 6 * 64 + 11 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look))
+HAIR_SIZE(hair_draw_params, 5 * 64 + 8 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
+                                HAIR_LIGHTS * HAIR_LIGHT_VECTORS * 16 + (HAIR_SHADOW_MAPS + 3) * 64)
 
 #endif

@@ -3,6 +3,7 @@
 #version 450 core
 #include "shown.glsl"
 #include "field/shape.glsl"
+#include "lights.glsl"
 
 #define STEPS 96
 
@@ -58,10 +59,15 @@ void main()
     if (cut) t += 0.01 * length(extent); // Behind the slice that is drawn there.
     vec3 p      = start + t * way;
     vec3 facing = cut ? -way : normal_at(p, 10.0 * fine);
-    vec3 light  = rotate(turn, rotate(back, draw.light_to.xyz));
     vec3 hue    = 0.5 + 0.35 * cos(6.2831853 * (0.38196601 * float(own.number) + vec3(0.0, 0.33, 0.67)));
-    color       = vec4(hue * (draw.ambient.rgb + 0.3 * draw.light.rgb * max(dot(facing, light), 0.0)), 1.0);
+    vec3 at     = shown.solid.position.xyz + rotate(shown.solid.rotation, p);
+    vec3 normal_there = rotate(params.rotation, rotate(shown.solid.rotation, facing)), sum = sky_at(normal_there);
+    for (uint i = 0u; i < draw.lights; ++i) {
+        hair_beam beam = beam_at(i, rotate(params.rotation, at));
+        sum += 0.3 * beam.irradiance * max(dot(normal_there, beam.to), 0.0);
+    }
+    color = vec4(min(hue * sum, HAIR_MOST_LIGHT), 1.0);
     if (cut) color.rgb *= 0.4;
-    vec4 clip    = to_clip(shown.solid.position.xyz + rotate(shown.solid.rotation, p));
+    vec4 clip    = to_clip(at);
     gl_FragDepth = clamp(params.depth.x + params.depth.y * clip.z / clip.w, 0.0, 1.0);
 }

@@ -69,11 +69,12 @@ vec4 shade_pixel()
 vec4 shade_pixel() { return vec4(strand_color, 1.0); }
 #endif
 
-// Where a segment covers a pixel but not its middle, its colours are extrapolated, and might become negative.
+// Where a segment covers a pixel but not its middle, its colours are extrapolated, and might become negative; or more than
+// formats of half floats hold.
 void main()
 {
     vec4 shaded = shade_pixel();
-    color       = mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0)));
+    color       = min(mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0))), HAIR_MOST_LIGHT);
 #ifdef HAIR_SHARES
     color *= coverage_of(strand_share) * draw.viewport.w;
 #endif

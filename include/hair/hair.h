@@ -230,7 +230,7 @@ typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
     ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-4, 6 and 7,
-    ///< 2D texture, sampler of unit 5, 3D textures, samplers of units 8-9, image units 0-1.
+    ///< 2D textures, samplers of units 12-15, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
@@ -714,24 +714,48 @@ HAIR_API hair_result hair_shader_create(hair_context* context, const hair_shader
                                         hair_shader** out);
 HAIR_API void        hair_shader_destroy(hair_shader* shader); ///< Before its context.
 
+typedef enum hair_light_kind {
+    HAIR_LIGHT_DIRECTIONAL = 0, ///< So far away that all of its light comes from one side: the sun.
+    HAIR_LIGHT_POINT,           ///< A lamp that shines everywhere.
+    HAIR_LIGHT_SPOT             ///< One that shines into a cone.
+} hair_light_kind;
+
+typedef struct hair_light {
+    hair_made       made;
+    hair_light_kind kind; ///< Default HAIR_LIGHT_DIRECTIONAL.
+    /// Towards the light: from anywhere, or of a spot from the middle of what it shines at. Any length. World.
+    float    to[3];       ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
+    float    position[3]; ///< Of a point or spot. World. m. [-1e9, 1e9]. Default 0.
+    float    color[3];    ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
+    float    range;       ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
+    float    size;        ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
+    float    inner; ///< Of a spot: half of the angle of its full brightness. Radians. [0, 1.57]. Default 0.3.
+    float    outer; ///< And beyond which it does not shine: above inner. Radians. [0, 1.57]. Default 0.5.
+    uint32_t shadow_texture; ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow. Of up to 4 lights.
+    float    shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+} hair_light;
+HAIR_DESC(hair_light)
+
 typedef struct hair_view {
-    hair_made      made;
-    hair_pass      pass;           ///< Default HAIR_PASS_COLOR.
-    hair_path      path;           ///< Default HAIR_PATH_TESSELLATION.
-    hair_primitive primitive;      ///< Default HAIR_RIBBONS.
-    float          view[16];       ///< World to view. Default identity.
-    float          projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
-    float      light_to[3]; ///< Towards the light, any length. World. [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
-    float      light[3];    ///< Its irradiance. [0, 1e6]. Default 3.
-    float      ambient[3];  ///< Irradiance of the surroundings. [0, 1e6]. Default 0.35.
-    uint32_t   shadow_texture;    ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow.
-    float      shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
-    hair_slice slice;             ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
-    float      slice_at;          ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
-    const hair_lod* lod;          ///< NULL: all is drawn.
-    hair_shader*    shader;       ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
-    hair_coverage   coverage;     ///< Default HAIR_COVERAGE_SAMPLES.
-    float           opacity;      ///< Of HAIR_COVERAGE_SHARES: of what strands cover. [0, 1]. Default 1.
+    hair_made         made;
+    hair_pass         pass;           ///< Default HAIR_PASS_COLOR.
+    hair_path         path;           ///< Default HAIR_PATH_TESSELLATION.
+    hair_primitive    primitive;      ///< Default HAIR_RIBBONS.
+    float             view[16];       ///< World to view. Default identity.
+    float             projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
+    const hair_light* lights;         ///< light_count of them. NULL: each as hair_light_default() has it.
+    uint32_t          light_count;    ///< [0, 16]. Default 1.
+    float ambient[3]; ///< Irradiance of surroundings that are the same on all sides. [0, 1e6]. Default 0.35.
+    /// Radiance of the surroundings beside that, as 9 spherical harmonics of r, g, b each, up to order 2 and as Ramamoorthi
+    /// and Hanrahan 2001 order and scale them, over world axes: 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Each in
+    /// [-1e6, 1e6]. NULL: none.
+    const float*    sky;
+    hair_slice      slice;     ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
+    float           slice_at;  ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
+    const hair_lod* lod;       ///< NULL: all is drawn.
+    hair_shader*    shader;    ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    hair_coverage   coverage;  ///< Default HAIR_COVERAGE_SAMPLES.
+    float           opacity;   ///< Of HAIR_COVERAGE_SHARES: of what strands cover. [0, 1]. Default 1.
     float           jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
     /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
     /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.

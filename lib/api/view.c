@@ -3,21 +3,77 @@
 
 #include <string.h>
 
-static hair_result check_view(const hair_instance* hair, const hair_view* view)
+static hair_result check_light(const hair_instance* hair, const hair_light* light, uint32_t i)
 {
     const hair_host* host = &hair->context->host;
-    if (view->shader && view->shader->context != hair->context)
+    const float*     m    = light->shadow_matrix;
+    if (light->kind != HAIR_LIGHT_POINT && !(hair_length(hair_load3(light->to)) > 1e-12f))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].to has no direction",
+                         hair->label, i);
+    if (light->kind == HAIR_LIGHT_SPOT && !(light->inner < light->outer))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "%s: hair_view.lights[%u].inner is %g, not below its outer, %g", hair->label, i,
+                         (double)light->inner, (double)light->outer);
+    if (light->shadow_texture && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+        return hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "%s: hair_view.lights[%u].shadow_matrix is not orthographic: its last row is not (0, 0, 0, 1)",
+            hair->label, i);
+    return HAIR_OK;
+}
+
+// What a caller lends a view, checked and copied.
+struct loan {
+    hair_lod   lod;
+    hair_light light[HAIR_LIGHTS];
+};
+
+// They lie as far apart as the caller's are long.
+static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_light light[HAIR_LIGHTS])
+{
+    const hair_host* host    = &hair->context->host;
+    hair_light       usual   = hair_light_default();
+    const char*      at      = (const char*)view->lights;
+    size_t           stride  = at ? view->lights->made.size : 0;
+    uint32_t         shadows = 0;
+    hair_result      result  = HAIR_OK;
+    for (uint32_t i = 0; i < view->light_count && !result; ++i) {
+        result = HAIR_TAKE(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
+        if (!result) result = check_light(hair, &light[i], i);
+        if (!result) shadows += light[i].shadow_texture != 0;
+    }
+    view->lights = light;
+    if (!result && shadows > HAIR_SHADOW_MAPS)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "%s: %u of hair_view.lights have a shadow_texture, not at most %d", hair->label,
+                         shadows, HAIR_SHADOW_MAPS);
+    return result;
+}
+
+static hair_result check_sky(const hair_instance* hair, const float* sky)
+{
+    for (int i = 0; sky && i < 27; ++i)
+        if (!(sky[i] >= -1e6f && sky[i] <= 1e6f))
+            return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
+                             "%s: hair_view.sky[%d] is %g, not in [-1e6, 1e6]", hair->label, i,
+                             (double)sky[i]);
+    return HAIR_OK;
+}
+
+static hair_result take_view(const hair_instance* hair, const hair_view* view, hair_view* own,
+                             struct loan* loan)
+{
+    const hair_host* host   = &hair->context->host;
+    hair_result      result = HAIR_TAKE(host, hair_view, view, own);
+    if (!result && own->lod) {
+        result   = HAIR_TAKE(host, hair_lod, own->lod, &loan->lod);
+        own->lod = &loan->lod;
+    }
+    if (!result && own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
-    hair_vec3 to = hair_load3(view->light_to);
-    if (!(hair_length(to) > 1e-12f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.light_to has no direction", hair->label);
-    const float* m = view->shadow_matrix;
-    if (view->shadow_texture && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "%s: hair_view.shadow_matrix is not orthographic: its last row is not (0, 0, 0, 1)",
-                         hair->label);
-    return HAIR_OK;
+    if (!result) result = take_lights(hair, own, loan->light);
+    return result ? result : check_sky(hair, own->sky);
 }
 
 // Drawing into an incomplete one would raise the host's error flag and draw nothing.
@@ -31,16 +87,20 @@ static hair_result check_framebuffer(const hair_instance* hair)
 }
 
 // Binding what is no texture would raise the host's error flag; one of another target would stay bound.
-static hair_result check_shadow(const hair_instance* hair, const hair_view* view)
+static hair_result check_shadows(const hair_instance* hair, const hair_view* view)
 {
-    const struct hair_gl* gl     = &hair->context->gl;
-    GLint                 target = 0;
-    if (!view->shadow_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
-    if (gl->IsTexture(view->shadow_texture))
-        gl->GetTextureParameteriv(view->shadow_texture, GL_TEXTURE_TARGET, &target);
-    if (target == GL_TEXTURE_2D) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shadow_texture is %u, not a 2D texture",
-                     hair->label, view->shadow_texture);
+    const struct hair_gl* gl = &hair->context->gl;
+    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count; ++i) {
+        GLuint texture = view->lights[i].shadow_texture;
+        GLint  target  = 0;
+        if (!texture) continue;
+        if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+        if (target != GL_TEXTURE_2D)
+            return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                             "%s: hair_view.lights[%u].shadow_texture is %u, not a 2D texture", hair->label,
+                             i, texture);
+    }
+    return HAIR_OK;
 }
 
 // Only a slice needs the field, and forms, which shaders read from where the field has put them.
@@ -90,15 +150,10 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_view     own;
-    hair_lod      lod;
-    hair_result   result = HAIR_TAKE(&context->host, hair_view, view, &own);
-    if (!result && own.lod) {
-        result  = HAIR_TAKE(&context->host, hair_lod, own.lod, &lod);
-        own.lod = &lod;
-    }
-    if (!result) result = check_view(hair, &own);
+    struct loan   loan;
+    hair_result   result = take_view(hair, view, &own, &loan);
     if (!result) result = hair_check_current(context);
-    if (!result) result = check_shadow(hair, &own);
+    if (!result) result = check_shadows(hair, &own);
     if (!result) result = check_framebuffer(hair);
     if (result || is_out_of_view(hair, &own)) return result;
     hair_gl_enter(&context->gl);

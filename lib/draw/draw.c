@@ -44,18 +44,29 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &draw->params);
 }
 
-void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture)
+void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     struct hair_gl* gl         = draw->gl;
     GLuint          textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
-                                  draw->follower_texture, draw->patch_texture,      shadow_texture,
+                                  draw->follower_texture, draw->patch_texture,      0,
                                   draw->hits.hit_texture, draw->hits.repair_texture};
-    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
-    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
-    gl->BindSampler(HAIR_UNIT_SHADOW, gl->shadow_sampler);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
+}
+
+// What only colour needs.
+static void bind_light(struct hair_draw* draw, const hair_view* view)
+{
+    struct hair_gl* gl                     = draw->gl;
+    GLuint          maps[HAIR_SHADOW_MAPS] = {0};
+    uint32_t        count                  = hair_view_maps(view, maps);
+    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
+    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
+    for (GLuint i = 0; i < count; ++i) {
+        gl->BindTextureUnit(HAIR_UNIT_SHADOW + i, maps[i]);
+        gl->BindSampler(HAIR_UNIT_SHADOW + i, gl->shadow_sampler);
+    }
 }
 
 // Patches of one draw: as many as generate no more vertices than the driver keeps, all having the most isolines.
@@ -184,7 +195,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, smooth, view->pass == HAIR_PASS_COLOR ? view->shadow_texture : 0);
+    hair_draw_bind(draw, smooth);
+    if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
     if (guides)
         draw_guides(draw);
     else

@@ -70,7 +70,7 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
 hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
 // Buffers, textures and parameters of passes that make followers.
-void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth, GLuint shadow_texture);
+void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 
 // fibres.c: the table that colour needs, with the look as it is.
 hair_result hair_draw_need_fibres(struct hair_draw* draw);

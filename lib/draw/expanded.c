@@ -62,7 +62,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     struct hair_draw_params params;
     hair_draw_write_params(draw, NULL, NULL, &params);
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, smooth, 0);
+    hair_draw_bind(draw, smooth);
     hair_draw_keep_shown(draw);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);

@@ -59,7 +59,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     params.turn   = hits->turn;
     params.margin = margin + OUTSIDE;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, smooth, 0);
+    hair_draw_bind(draw, smooth);
     hair_field_bind(field);
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);

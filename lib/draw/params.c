@@ -1,12 +1,11 @@
-// params.c - matrices that take positions from the head's origin, the eye, the light, the look.
+// params.c - matrices that take positions from the head's origin, the eye, the look.
 #include "lib/draw/params.h"
 #include "lib/draw/fibre.h"
 
 #include <string.h>
 
-// The world matrix `m` for positions from the head's origin: its last column gains m times that origin. In double,
-// since far out both are large and their sum is small.
-static hair_mat4 from_head(const float m[16], const struct hair_pose* head)
+// In double, since far out both are large and their sum is small.
+hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 {
     hair_mat4 out;
     float     copy[16];
@@ -32,25 +31,6 @@ static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
         return (hair_vec4){back.x, back.y, back.z, 0};
     }
     return (hair_vec4){-hair_dot(x, t), -hair_dot(y, t), -hair_dot(z, t), 1};
-}
-
-// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says.
-static void write_shadow(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                         struct hair_draw_params* out)
-{
-    GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
-    draw->gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
-    float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
-    if (depth_mode == GL_ZERO_TO_ONE) {
-        halve[10] = 1;
-        halve[14] = 0;
-    }
-    float texture[16];
-    hair_mat4_multiply(halve, view->shadow_matrix, texture);
-    out->shadow = from_head(texture, head);
-    // Depth per metre along the light turns absorption per metre into absorption per unit of depth.
-    float per_metre = hair_length(hair_v3(texture[2], texture[6], texture[10]));
-    out->light.w    = per_metre > 0 ? draw->look.absorption / per_metre : 0;
 }
 
 // Moves what is drawn by so many pixels.
@@ -96,7 +76,7 @@ static void write_motion(const struct hair_motion* motion, const hair_view* view
     for (int i = 0; i < 3; ++i)
         hair_store3(turn + 4 * i, hair_rotate(motion->before.turn, hair_v3(i == 0, i == 1, i == 2)));
     memcpy(was.position, motion->before.position, sizeof was.position);
-    hair_mat4 before = from_head(view->before_view, &was);
+    hair_mat4 before = hair_mat4_from_head(view->before_view, &was);
     memcpy(matrix, &before, sizeof matrix);
     hair_mat4_multiply(matrix, turn, placed);
     hair_mat4_multiply(view->before_projection, placed, clip);
@@ -109,17 +89,13 @@ static void write_motion(const struct hair_motion* motion, const hair_view* view
 static void write_view(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_draw_params* out)
 {
-    hair_vec3 light = hair_normalize(hair_load3(view->light_to), hair_v3(0, 1, 0));
-    out->view       = from_head(view->view, head);
-    out->eye        = find_eye(&out->view, view->projection);
-    out->light_to   = (hair_vec4){light.x, light.y, light.z, 0};
-    out->light      = (hair_vec4){view->light[0], view->light[1], view->light[2], 0};
-    out->ambient    = (hair_vec4){view->ambient[0], view->ambient[1], view->ambient[2], 0};
+    out->view = hair_mat4_from_head(view->view, head);
+    out->eye  = find_eye(&out->view, view->projection);
     out->origin =
         (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2], 0};
     write_clip(draw, head, view, out);
     if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
-    if (view->shadow_texture && view->pass == HAIR_PASS_COLOR) write_shadow(draw, head, view, out);
+    hair_draw_write_lights(draw, head, view, out);
 }
 
 // Between a set and the next.

@@ -4,10 +4,10 @@
 #define SWEEPS 24 // Of Gauss and Seidel over a turn: what is left of an error then is below a float's.
 
 // From a to b, with these slopes at both ends, by the interval.
-static struct hair_cubic hermite(float a, float b, float slope_a, float slope_b)
+static hair_vec4 hermite(float a, float b, float slope_a, float slope_b)
 {
     float rise = b - a;
-    return (struct hair_cubic){{a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise}};
+    return (hair_vec4){a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise};
 }
 
 // Fritsch and Butland 1984: the harmonic mean of both sides, so that nothing goes beyond its neighbours.
@@ -36,7 +36,7 @@ static void write_curve(hair_curve curve, struct hair_strand_look* out, int numb
 }
 
 // The periodic spline of two continuous derivatives through places at equal distances.
-static void write_turn(const float at[HAIR_TURN_PLACES], float scale, struct hair_cubic* out)
+static void write_turn(const float at[HAIR_TURN_PLACES], float scale, hair_vec4* out)
 {
     float slope[HAIR_TURN_PLACES] = {0};
     for (int sweep = 0; sweep < SWEEPS; ++sweep)

@@ -419,17 +419,43 @@ static void views_without_sense_are_refused(void** state)
     hair_groom*       groom;
     hair_instance*    hair = make(test, &groom);
     hair_view         view = hair_view_default();
-    memset(view.light_to, 0, sizeof view.light_to);
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "light_to has no direction");
-    view                  = hair_view_default();
-    view.shadow_texture   = 1;
-    view.shadow_matrix[3] = 0.5f;
+    hair_light        light[5];
+    for (int i = 0; i < 5; ++i) light[i] = hair_light_default();
+    view.lights = light;
+    memset(light[0].to, 0, sizeof light[0].to);
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[0].to has no direction");
+    light[0].kind = HAIR_LIGHT_POINT; // It needs none.
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, "framebuffer is not complete");
+    light[0]         = hair_light_default();
+    view.light_count = 2;
+    light[1].kind    = HAIR_LIGHT_SPOT;
+    light[1].inner   = light[1].outer;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[1].inner is 0.5, not below its outer");
+    light[1]          = hair_light_default();
+    light[1].color[2] = NAN;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "hair_light.color[2] is nan");
+    light[1] = (hair_light){0};
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_VERSION, "hair_light.made");
+    view.light_count          = 1;
+    light[0].shadow_texture   = 1;
+    light[0].shadow_matrix[3] = 0.5f;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "shadow_matrix is not orthographic");
+    for (int i = 0; i < 5; ++i) {
+        light[i]                = hair_light_default();
+        light[i].shadow_texture = 1;
+    }
+    view.light_count = 5;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "5 of hair_view.lights have a shadow_texture");
+    float sky[27] = {[26] = INFINITY};
+    view          = hair_view_default();
+    view.sky      = sky;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "hair_view.sky[26] is inf");
 
     GLuint cube;
     glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube);
-    view                = hair_view_default();
-    view.shadow_texture = cube;
+    view                    = hair_view_default();
+    view.lights             = light;
+    light[0].shadow_texture = cube;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
     glDeleteTextures(1, &cube);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");

@@ -136,13 +136,19 @@ static hair_result draw(struct fixture* f)
 {
     hair_result result = HAIR_OK;
     for (int i = 0; i < 16 * 3 && !result; ++i) {
-        hair_view view      = hair_view_default();
-        view.pass           = (hair_pass)(i % 4);
-        view.primitive      = (hair_primitive)(i / 4 % 2);
-        view.slice          = (hair_slice)(i / 4 % 2);
-        view.shadow_texture = i / 8 % 2 ? f->shadow : 0;
-        view.path           = (hair_path)(i / 16);
-        result              = hair_draw(f->hair, &view);
+        hair_view view = hair_view_default();
+        view.pass      = (hair_pass)(i % 4);
+        view.primitive = (hair_primitive)(i / 4 % 2);
+        view.slice     = (hair_slice)(i / 4 % 2);
+        hair_light lights[4];
+        for (int k = 0; k < 4; ++k) {
+            lights[k]                = hair_light_default();
+            lights[k].shadow_texture = f->shadow;
+        }
+        view.lights      = i % 16 == 8 ? lights : NULL;
+        view.light_count = view.lights ? 4 : 1;
+        view.path        = (hair_path)(i / 16);
+        result           = hair_draw(f->hair, &view);
     }
     return result;
 }
@@ -238,7 +244,7 @@ static int may_change(const char* name)
     if (strncmp(name, "GL_SHADER_STORAGE_BUFFER_", 25) == 0) return i < 8;
     if (strncmp(name, "GL_UNIFORM_BUFFER_", 18) == 0) return i < 3;
     if (strncmp(name, "GL_TEXTURE_BINDING_", 19) == 0 || strncmp(name, "GL_SAMPLER_BINDING", 18) == 0)
-        return i < 10;
+        return i < 16;
     if (strncmp(name, "GL_IMAGE_BINDING_", 17) == 0) return i < 2;
     return 0;
 }

@@ -257,13 +257,13 @@ static void the_default_functions_follow_the_table(void** state)
     (void)state;
     hair_physics physics = hair_physics_default();
     hair_desc    desc    = hair_desc_default();
-    hair_view    view    = hair_view_default();
+    hair_light   light   = hair_light_default();
     assert_int_equal(physics.made.size, sizeof physics);
     assert_int_equal(physics.made.version, HAIR_VERSION);
     assert_true(physics.gravity[1] == -9.81f);
     assert_true(desc.substep == 0);
     for (int i = 0; i < 16; ++i) assert_true(desc.transform[i] == (float)(i % 5 == 0));
-    assert_true(view.light_to[1] == 0.8f);
+    assert_true(light.to[1] == 0.8f);
 }
 
 // A member that is stored before the struct's end of an older caller must not lie across it.

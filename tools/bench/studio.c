@@ -235,7 +235,10 @@ static float importance_of_shadow(const struct bench_studio* studio, const struc
 static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct hair_matrices* matrices,
                       const struct hair_matrices* light)
 {
-    hair_light_clip(light, view->shadow_matrix);
+    hair_light lit = studio->scene.settings.light;
+    hair_light_clip(light, lit.shadow_matrix);
+    if (view->pass == HAIR_PASS_COLOR) lit.shadow_texture = studio->targets.shadow;
+    view->lights = &lit;
     memcpy(view->view, matrices->view, sizeof view->view);
     memcpy(view->projection, matrices->projection, sizeof view->projection);
     if (studio->timed) bench_timer_start(&studio->timer);
@@ -269,7 +272,6 @@ static bool draw_strands(struct bench_studio* studio, const struct hair_matrices
     GLuint64  primitives = 0;
     hair_view view       = studio->shot.view;
     view.pass            = HAIR_PASS_COLOR;
-    view.shadow_texture  = studio->targets.shadow;
     if (studio->shot.has_lod) view.lod = &studio->shot.lod;
     if (studio->counts) glBeginQuery(GL_PRIMITIVES_GENERATED, studio->query);
     bool ok = draw_hair(studio, &view, camera, light);

@@ -13,7 +13,7 @@
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
-    hair_view view;    // its path and primitive; matrices, light and level of detail are set elsewhere
+    hair_view view;    // its path and primitive; matrices, lights and level of detail are set elsewhere
     bool      has_lod; // else all is drawn
     hair_lod  lod;
     uint32_t  samples;     // of a pixel, as OpenGL has them

@@ -93,7 +93,7 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
 void hair_light_direction(const struct hair_scene* scene, float out[3])
 {
     vec3 to;
-    copy_in(scene->settings.view.light_to, to);
+    copy_in(scene->settings.light.to, to);
     if (glm_vec3_norm(to) < 1e-12f) to[1] = 1;
     glm_vec3_normalize(to);
     memcpy(out, to, sizeof to);

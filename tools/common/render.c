@@ -188,13 +188,18 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
 static hair_result draw_hair(const struct frame* frame, const struct hair_matrices* matrices, hair_pass pass,
                              GLuint shadow)
 {
-    hair_view view      = frame->scene->settings.view;
-    view.pass           = pass;
-    view.lod            = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
-    view.shadow_texture = shadow;
+    hair_view  view = frame->scene->settings.view;
+    hair_light light[HAIR_SCENE_LIGHTS];
+    view.pass        = pass;
+    view.lod         = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
+    view.light_count = 1 + frame->scene->lights.count;
+    view.lights      = light;
+    light[0]         = frame->scene->settings.light;
+    memcpy(light + 1, frame->scene->lights.light, frame->scene->lights.count * sizeof *light);
+    light[0].shadow_texture = shadow;
     if (pass == HAIR_PASS_DEPTH && !view.lod)
         view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
-    hair_light_clip(&frame->light, view.shadow_matrix);
+    hair_light_clip(&frame->light, light[0].shadow_matrix);
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
     return hair_draw(frame->hair, &view);
@@ -230,16 +235,27 @@ static void draw_background(const struct hair_render* render, const struct frame
     glEnable(GL_DEPTH_TEST);
 }
 
+static void set_lights(GLuint program, const struct hair_scene* scene)
+{
+    GLint count = 1 + (GLint)scene->lights.count;
+    for (GLint i = 0; i < count; ++i) {
+        struct hair_lit lit = hair_lit_of(i ? &scene->lights.light[i - 1] : &scene->settings.light);
+        glProgramUniform4fv(program, HAIR_AT_LIGHT_TO + i, 1, lit.to);
+        glProgramUniform4fv(program, HAIR_AT_LIGHT + i, 1, lit.color);
+        glProgramUniform4fv(program, HAIR_AT_AXIS + i, 1, lit.axis);
+        glProgramUniform2fv(program, HAIR_AT_MORE + i, 1, lit.more);
+    }
+    glProgramUniform1i(program, HAIR_AT_LIGHTS, count);
+}
+
 static void draw_skin(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
     GLuint           program = render->program[SKIN];
     const hair_view* view    = &frame->scene->settings.view;
-    float            shadow[16], light_to[3];
+    float            shadow[16];
     hair_light_texture(&frame->light, shadow);
-    hair_light_direction(frame->scene, light_to);
     set_vec3(program, HAIR_AT_EYE, frame->scene->eye);
-    set_vec3(program, HAIR_AT_LIGHT_TO, light_to);
-    set_vec3(program, HAIR_AT_LIGHT, view->light);
+    set_lights(program, frame->scene);
     set_vec3(program, HAIR_AT_AMBIENT, view->ambient);
     set_mat4(program, HAIR_AT_SHADOW, shadow);
     glProgramUniform1f(program, HAIR_AT_TEXEL, frame->texel);

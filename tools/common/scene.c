@@ -107,6 +107,11 @@ static bool read_maps(const place* json, const char* key, const json_t* value, v
     return hair_scene_read_maps(json, key, value, &scene->maps);
 }
 
+static bool read_lights(const place* json, const char* key, const json_t* value, void* out)
+{
+    return hair_scene_read_lights(json, key, value, &((struct hair_scene*)out)->lights);
+}
+
 static bool read_bullet(const place* json, const char* key, const json_t* value, void* out)
 {
     return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
@@ -160,10 +165,10 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
 
 // The whole -------------------------------------------------------------------------------------------------
 
-static const entry light[] = {
-    HAIR_NUMBERS("to", AT(settings.view.light_to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
-    HAIR_NUMBERS("color", AT(settings.view.light), 3, 0, HAIR_SCENE_FAR),
-    HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR), HAIR_END};
+static const entry light[] = {HAIR_NUMBERS("to", AT(settings.light.to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                              HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
+                              HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR),
+                              HAIR_END};
 static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
                                    HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
 static const entry whole[]      = {HAIR_OTHER("style", read_style),
@@ -177,6 +182,7 @@ static const entry whole[]      = {HAIR_OTHER("style", read_style),
                                    HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                                    HAIR_OTHER("camera", read_camera),
                                    HAIR_OBJECT("light", light),
+                                   HAIR_OTHER("lights", read_lights),
                                    HAIR_OBJECT("background", background),
                                    HAIR_NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
                                    HAIR_NUMBERS("settle", AT(settle), 1, 0, 60),

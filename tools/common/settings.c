@@ -185,12 +185,12 @@ static const struct row rows[] = {
      {AT(look.collision)},
      {"push", "switch", "none"}},
     {"map_set", "of the scene's maps, from 0; between two a blend", FLOAT, {AT(look.map_set)}, {0}},
-    {"light_to.x", "from the hair towards the light", FLOAT, {AT(view.light_to[0])}, {0}},
-    {"light_to.y", "", FLOAT, {AT(view.light_to[1])}, {0}},
-    {"light_to.z", "", FLOAT, {AT(view.light_to[2])}, {0}},
-    {"light.r", "irradiance of the light", FLOAT, {AT(view.light[0])}, {0}},
-    {"light.g", "", FLOAT, {AT(view.light[1])}, {0}},
-    {"light.b", "", FLOAT, {AT(view.light[2])}, {0}},
+    {"light_to.x", "from the hair towards the light", FLOAT, {AT(light.to[0])}, {0}},
+    {"light_to.y", "", FLOAT, {AT(light.to[1])}, {0}},
+    {"light_to.z", "", FLOAT, {AT(light.to[2])}, {0}},
+    {"light.r", "irradiance of the light", FLOAT, {AT(light.color[0])}, {0}},
+    {"light.g", "", FLOAT, {AT(light.color[1])}, {0}},
+    {"light.b", "", FLOAT, {AT(light.color[2])}, {0}},
     {"ambient.r", "irradiance of the surroundings", FLOAT, {AT(view.ambient[0])}, {0}},
     {"ambient.g", "", FLOAT, {AT(view.ambient[1])}, {0}},
     {"ambient.b", "", FLOAT, {AT(view.ambient[2])}, {0}},
@@ -208,6 +208,7 @@ struct hair_settings hair_settings_default(void)
                                      .look    = hair_look_default(),
                                      .desc    = hair_desc_default(),
                                      .view    = hair_view_default(),
+                                     .light   = hair_light_default(),
                                      .lod     = hair_lod_default()};
     settings.import.scale         = HAIR_SCALE_GUESSED;
     return settings;

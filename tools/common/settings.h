@@ -21,6 +21,7 @@ struct hair_settings {
     hair_look       look;
     hair_desc       desc;
     hair_view       view;
+    hair_light      light; // the first of the view's
     hair_lod        lod;
     uint32_t        has_lod; // 1: views have it
 };

@@ -60,8 +60,11 @@ const char hair_nothing_frag[] = HEAD "void main() {}\n";
 // keeps the bust darker than its paint, so that what is seen first is the hair.
 const char hair_skin_frag[] = HEAD
     AT(HAIR_AT_EYE) "vec3 eye;\n"
-    AT(HAIR_AT_LIGHT_TO) "vec3 light_to;\n"
-    AT(HAIR_AT_LIGHT) "vec3 light;\n"
+    AT(HAIR_AT_LIGHTS) "int lights;\n"
+    AT(HAIR_AT_LIGHT_TO) "vec4 light_to[16];\n"
+    AT(HAIR_AT_LIGHT) "vec4 light_color[16];\n"
+    AT(HAIR_AT_AXIS) "vec4 light_axis[16];\n"
+    AT(HAIR_AT_MORE) "vec2 light_more[16];\n"
     AT(HAIR_AT_AMBIENT) "vec3 ambient;\n"
     AT(HAIR_AT_SHADOW) "mat4 shadow;\n" // World to texture and depth.
     AT(HAIR_AT_TEXEL) "float texel;\n"  // Of the shadow map, m.
@@ -90,13 +93,23 @@ const char hair_skin_frag[] = HEAD
     "    const vec3  wrap = vec3(0.30, 0.16, 0.12);\n"
     "    vec3  n       = normalize(normal);\n"
     "    vec3  to_eye  = normalize(eye - position);\n"
-    "    vec3  halfway = normalize(to_eye + light_to);\n"
-    "    float facing  = dot(n, light_to);\n"
-    "    vec3  diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
     "    float grazing = pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 5.0);\n"
-    "    float gloss   = (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
-    "    vec3  sky     = ambient * (0.65 + 0.35 * n.y) * (tone * albedo + 0.05 * grazing);\n"
-    "    color         = vec4(light * lit(n) * (tone * albedo * diffuse + gloss) + sky, 1.0);\n"
+    "    vec3  sum     = ambient * (0.65 + 0.35 * n.y) * (tone * albedo + 0.05 * grazing);\n"
+    "    float first   = lit(n);\n"
+    "    for (int i = 0; i < lights; ++i) {\n"
+    "        vec3  way     = light_to[i].xyz - light_to[i].w * position;\n"
+    "        float square  = max(dot(way, way), 1e-8), cone, reach = square * light_more[i].y;\n"
+    "        vec3  to      = way * inversesqrt(square);\n"
+    "        cone          = clamp((dot(light_axis[i].xyz, to) - light_axis[i].w) * light_more[i].x, 0.0, 1.0);\n"
+    "        reach         = clamp(1.0 - reach * reach, 0.0, 1.0);\n"
+    "        vec3  light   = light_color[i].rgb * cone * cone * reach * reach / max(square, light_color[i].w);\n"
+    "        vec3  halfway = normalize(to_eye + to);\n"
+    "        float facing  = dot(n, to);\n"
+    "        vec3  diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
+    "        float gloss   = (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
+    "        sum += light * (i == 0 ? first : 1.0) * (tone * albedo * diffuse + gloss);\n"
+    "    }\n"
+    "    color         = vec4(sum, 1.0);\n"
     "}\n";
 
 // Straight up to a half, then a shoulder that never quite reaches white; then the sRGB curve (IEC 61966-2-1)

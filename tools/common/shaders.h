@@ -8,8 +8,7 @@
 #define HAIR_AT_PROJECTION 2
 #define HAIR_AT_BEND 3
 #define HAIR_AT_EYE 4
-#define HAIR_AT_LIGHT_TO 5
-#define HAIR_AT_LIGHT 6
+#define HAIR_AT_LIGHTS 5 // how many
 #define HAIR_AT_AMBIENT 7
 #define HAIR_AT_SHADOW 8
 #define HAIR_AT_TEXEL 9
@@ -20,6 +19,11 @@
 #define HAIR_AT_SUPERSAMPLE 14
 #define HAIR_AT_EXPOSURE 15
 #define HAIR_AT_HEIGHT 16
+// Of 16 each: struct hair_lit of scene_lights.h
+#define HAIR_AT_LIGHT_TO 32
+#define HAIR_AT_LIGHT 48
+#define HAIR_AT_AXIS 64
+#define HAIR_AT_MORE 80
 
 extern const char hair_whole_vert[];      // all of the picture, no vertices needed
 extern const char hair_background_frag[]; // a calm gradient

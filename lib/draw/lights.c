@@ -1,0 +1,79 @@
+// lights.c - lights and surroundings, from the world to the head's origin and to what lights.glsl sums up.
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says.
+static void write_map(const struct hair_draw* draw, const struct hair_pose* head, const hair_light* light,
+                      hair_mat4* shadow, float* absorption)
+{
+    GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
+    draw->gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
+    float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
+    if (depth_mode == GL_ZERO_TO_ONE) {
+        halve[10] = 1;
+        halve[14] = 0;
+    }
+    float texture[16];
+    hair_mat4_multiply(halve, light->shadow_matrix, texture);
+    *shadow = hair_mat4_from_head(texture, head);
+    // Depth per metre along the light turns absorption per metre into absorption per unit of depth.
+    float per_metre = hair_length(hair_v3(texture[2], texture[6], texture[10]));
+    *absorption     = per_metre > 0 ? draw->look.absorption / per_metre : 0;
+}
+
+static void write_light(const hair_light* light, const struct hair_pose* head,
+                        hair_vec4 out[HAIR_LIGHT_VECTORS])
+{
+    hair_vec3 to          = hair_normalize(hair_load3(light->to), hair_v3(0, 1, 0));
+    int       spot        = light->kind == HAIR_LIGHT_SPOT;
+    float     edges       = cosf(light->inner) - cosf(light->outer);
+    out[HAIR_LIGHT_TO]    = (hair_vec4){to.x, to.y, to.z, 0};
+    out[HAIR_LIGHT_COLOR] = (hair_vec4){light->color[0], light->color[1], light->color[2], 1};
+    out[HAIR_LIGHT_AXIS] =
+        spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer)} : (hair_vec4){0, 0, 0, -1};
+    out[HAIR_LIGHT_MORE] = (hair_vec4){spot ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
+    if (light->kind == HAIR_LIGHT_DIRECTIONAL) return;
+    float at[3];
+    for (int i = 0; i < 3; ++i) at[i] = (float)((double)light->position[i] - head->position[i]);
+    out[HAIR_LIGHT_TO]      = (hair_vec4){at[0], at[1], at[2], 1};
+    out[HAIR_LIGHT_COLOR].w = light->size * light->size;
+    out[HAIR_LIGHT_MORE].y  = light->range > 0 ? 1 / (light->range * light->range) : 0;
+}
+
+// Ramamoorthi and Hanrahan 2001, equation 12: rows and columns for x, y, z, 1.
+static void write_sky(const float* sky, int channel, float ambient, hair_mat4* out)
+{
+    static const float c[]  = {0, 0.429043f, 0.511664f, 0.743125f, 0.886227f, 0.247708f};
+    float              l[9] = {0};
+    for (int i = 0; sky && i < 9; ++i) l[i] = sky[3 * i + channel];
+    out->column[0] = (hair_vec4){c[1] * l[8], c[1] * l[4], c[1] * l[7], c[2] * l[3]};
+    out->column[1] = (hair_vec4){c[1] * l[4], -c[1] * l[8], c[1] * l[5], c[2] * l[1]};
+    out->column[2] = (hair_vec4){c[1] * l[7], c[1] * l[5], c[3] * l[6], c[2] * l[2]};
+    out->column[3] = (hair_vec4){c[2] * l[3], c[2] * l[1], c[2] * l[2], c[4] * l[0] - c[5] * l[6]};
+    out->column[3].w += ambient;
+}
+
+uint32_t hair_view_maps(const hair_view* view, GLuint out[HAIR_SHADOW_MAPS])
+{
+    uint32_t maps = 0;
+    for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i)
+        if (view->lights[i].shadow_texture) out[maps++] = view->lights[i].shadow_texture;
+    return maps;
+}
+
+void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                            struct hair_draw_params* out)
+{
+    uint32_t maps = 0;
+    out->lights   = view->light_count;
+    for (uint32_t i = 0; i < view->light_count; ++i) {
+        hair_vec4* light = &out->light[i * HAIR_LIGHT_VECTORS];
+        write_light(&view->lights[i], head, light);
+        if (!view->lights[i].shadow_texture || maps == HAIR_SHADOW_MAPS) continue;
+        write_map(draw, head, &view->lights[i], &out->shadow[maps], &light[HAIR_LIGHT_MORE].z);
+        light[HAIR_LIGHT_MORE].w = (float)maps++;
+    }
+    for (int channel = 0; channel < 3; ++channel)
+        write_sky(view->sky, channel, view->ambient[channel], &out->sky[channel]);
+}

@@ -1,0 +1,218 @@
+// light_test.c - lights of a view: they add up, get weaker with distance, end where they should, and never make what is
+// not a number.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIZE 48
+#define VALUES (4 * SIZE * SIZE)
+
+struct fixture {
+    struct hair_test*      test;
+    hair_groom*            groom;
+    hair_instance*         hair;
+    struct hair_test_frame frame;
+    hair_view              view;
+    hair_light             light[16];
+};
+
+static struct fixture start(void** state, hair_shading shading)
+{
+    struct fixture            f      = {.test = *state, .view = hair_view_default()};
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc                 desc   = hair_desc_default();
+    hair_look                 look   = hair_look_default();
+    look.shading = shading, look.segments = 8, look.radius = 0.002f;
+    look.roughness[0] = look.roughness[1] = 0.05f; // The sharpest lobes.
+    desc.look                             = &look;
+    f.groom                               = hair_test_groom(&f.test->host.host, wanted);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    // Straight down -z at a square of 0.6 m.
+    f.view.projection[0] = f.view.projection[5] = 1 / 0.3f;
+    f.view.projection[10]                       = -1;
+    for (int i = 0; i < 16; ++i) f.light[i] = hair_light_default();
+    f.view.light_count = 0;
+    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0;
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static void draw(struct fixture* f, uint32_t lights, float pixels[VALUES])
+{
+    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
+    f->view.lights      = f->light;
+    f->view.light_count = lights;
+    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
+    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    hair_test_frame_read(&f->frame, pixels);
+}
+
+static double sum_of(const float pixels[VALUES])
+{
+    double sum = 0;
+    for (int i = 0; i < VALUES; ++i) sum += i % 4 < 3 ? (double)pixels[i] : 0;
+    return sum;
+}
+
+static void without_light_hair_is_black_and_there(void** state)
+{
+    struct fixture f = start(state, HAIR_SHADING_FIBRES);
+    static float   pixels[VALUES];
+    double         covered = 0;
+    draw(&f, 0, pixels);
+    for (int i = 3; i < VALUES; i += 4) covered += (double)pixels[i];
+    print_message("    %g pixels\n", covered);
+    assert_true(covered > 20);
+    assert_true(sum_of(pixels) == 0);
+    finish(&f);
+}
+
+static void lights_add_up(void** state)
+{
+    struct fixture f = start(state, HAIR_SHADING_FIBRES);
+    static float   alone[3][VALUES], together[VALUES];
+    f.light[0].to[0]       = -1;
+    f.light[1].kind        = HAIR_LIGHT_POINT;
+    f.light[1].position[1] = 0.4f, f.light[1].position[2] = 0.3f;
+    f.light[1].color[2]    = 0.5f;
+    f.light[2].kind        = HAIR_LIGHT_SPOT;
+    f.light[2].position[0] = 1;
+    f.light[2].to[0] = 1, f.light[2].to[1] = f.light[2].to[2] = 0;
+    draw(&f, 3, together);
+    for (int i = 2; i >= 0; --i) {
+        f.light[0] = f.light[i];
+        if (i == 0) f.light[0] = hair_light_default(), f.light[0].to[0] = -1;
+        draw(&f, 1, alone[i]);
+        assert_true(sum_of(alone[i]) > 1);
+    }
+    for (int i = 0; i < VALUES; ++i)
+        if (i % 4 < 3) {
+            double sum = (double)alone[0][i] + (double)alone[1][i] + (double)alone[2][i];
+            hair_test_near("light", (size_t)i, (double)together[i], sum, 1e-4 * (1 + sum));
+        }
+    finish(&f);
+}
+
+static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
+{
+    struct fixture f = start(state, HAIR_SHADING_FIBRES);
+    static float   sun[VALUES], lamp[VALUES];
+    f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
+    draw(&f, 1, sun);
+    f.light[0].kind        = HAIR_LIGHT_POINT;
+    f.light[0].position[2] = 1000;
+    for (int i = 0; i < 3; ++i) f.light[0].color[i] = 3e6f / 4;
+    draw(&f, 1, lamp);
+    hair_test_near("light of a lamp 1 km off", 0, sum_of(lamp) / sum_of(sun), 0.25, 0.001);
+    f.light[0].range = 1100;
+    draw(&f, 1, lamp);
+    double faded = 1 - pow(1000.0 / 1100, 4);
+    hair_test_near("near the end of its range", 0, sum_of(lamp) / sum_of(sun), 0.25 * faded * faded, 0.001);
+    f.light[0].range = 999;
+    draw(&f, 1, lamp);
+    hair_test_near("beyond its range", 0, sum_of(lamp), 0, 0);
+    finish(&f);
+}
+
+static void a_spot_shines_into_its_cone_and_no_farther(void** state)
+{
+    struct fixture f = start(state, HAIR_SHADING_LINES);
+    static float   point[VALUES], spot[VALUES];
+    uint32_t       inside = 0, outside = 0;
+    f.light[0].kind        = HAIR_LIGHT_POINT;
+    f.light[0].position[2] = 2;
+    draw(&f, 1, point);
+    f.light[0].kind  = HAIR_LIGHT_SPOT;
+    f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
+    f.light[0].inner = 0.05f, f.light[0].outer = 0.06f; // 10 and 12 cm of 30.
+    draw(&f, 1, spot);
+    for (int i = 0; i < SIZE * SIZE; ++i) {
+        double r = 0.6 / SIZE * hypot(i % SIZE + 0.5 - SIZE / 2.0, i / SIZE + 0.5 - SIZE / 2.0);
+        if (point[4 * i] <= 0) continue;
+        if (r < 0.07) { // Strands are nearer than what they cover, so that some room must be left.
+            hair_test_near("inside", (size_t)i, (double)spot[4 * i], (double)point[4 * i],
+                           1e-4 * (double)point[4 * i]);
+            ++inside;
+        } else if (r > 0.16) {
+            hair_test_near("outside", (size_t)i, (double)spot[4 * i], 0, 0);
+            ++outside;
+        }
+    }
+    assert_true(inside > 5 && outside > 5);
+    finish(&f);
+}
+
+// An even sky is the same as harmonics of order 0; what is brighter above lights what faces up more.
+static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
+{
+    struct fixture f       = start(state, HAIR_SHADING_FIBRES);
+    float          sky[27] = {0};
+    static float   even[VALUES], pixels[VALUES];
+    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 2;
+    draw(&f, 0, even);
+    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0, sky[i] = 2 / 0.886227f; // pi times 0.282095
+    f.view.sky = sky;
+    draw(&f, 0, pixels);
+    hair_test_near("an even sky", 0, sum_of(pixels) / sum_of(even), 1, 1e-5);
+    sky[8] = sky[0] / 2; // z: towards the eye, which sees what faces it
+    draw(&f, 0, pixels);
+    // Of pi/4 of the 2/3 pi times 0.488603 of order 1: what is seen of a cylinder.
+    double more = 0.5 * 3.14159265 / 4 * 1.023328 / 0.886227;
+    print_message("    %.4f times as bright\n", sum_of(pixels) / sum_of(even));
+    assert_true(sum_of(pixels) / sum_of(even) > 1 && sum_of(pixels) / sum_of(even) < 1 + more + 1e-4);
+    finish(&f);
+}
+
+// As bright as can be, on vertices of strands and nowhere, in directions that are next to none.
+static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** state)
+{
+    for (int shading = 0; shading < 2; ++shading) {
+        struct fixture f = start(state, (hair_shading)shading);
+        static float   pixels[VALUES], vertices[3 * 4096];
+        uint32_t       count;
+        float          sky[27];
+        hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
+        for (int i = 0; i < 16; ++i) {
+            f.light[i].kind = (hair_light_kind)(i % 3);
+            memcpy(f.light[i].position, vertices + 3 * (37 * i % 4096), 3 * sizeof(float));
+            for (int k = 0; k < 3; ++k)
+                f.light[i].color[k] = 1e6f, f.light[i].to[k] = k == i % 2 ? 2e-12f : 0;
+            f.light[i].size = 0.001f;
+        }
+        f.light[13].position[0] = 1e9f, f.light[10].to[2] = 1e6f, f.light[5].range = 1e-6f;
+        for (int i = 0; i < 27; ++i) sky[i] = i % 2 ? 1e6f : -1e6f;
+        f.view.sky = sky;
+        draw(&f, 16, pixels);
+        for (int i = 0; i < VALUES; ++i)
+            if (!(pixels[i] >= 0 && pixels[i] <= 65504)) fail_msg("value %d is %g", i, (double)pixels[i]);
+        assert_true(sum_of(pixels) > 1e5);
+        finish(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(without_light_hair_is_black_and_there),
+        HAIR_TEST(lights_add_up),
+        HAIR_TEST(a_lamp_gets_weaker_with_the_square_of_its_distance),
+        HAIR_TEST(a_spot_shines_into_its_cone_and_no_farther),
+        HAIR_TEST(a_sky_of_harmonics_is_what_it_stands_for),
+        HAIR_TEST(no_light_makes_what_is_not_a_number_or_beyond_half_floats),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
