@@ -19,6 +19,7 @@
 #include <xxhash.h>
 
 #define TOOL "hair-capture"
+#define MOST_SHADER ((size_t)1 << 20) // bytes
 #define LONGEST_STEP 0.1f // s: hair_desc.max_dt by default. A frame that lasts longer is stepped in parts.
 
 static volatile sig_atomic_t interrupted;
@@ -30,7 +31,8 @@ struct capture {
     hair_egl*                   egl;
     hair_context*               context;
     hair_instance*              hair;
-    struct hair_world*          world; // NULL: nothing of Bullet's is in the scene
+    hair_shader*                shader; // NULL: the library's
+    struct hair_world*          world;  // NULL: nothing of Bullet's is in the scene
     hair_solid*                 solids;
     uint32_t                    solid_room;
     struct hair_render*         render;
@@ -151,6 +153,28 @@ static hair_result set_solids(struct capture* capture, float time, const float t
     uint32_t count = hair_rig_solids(&capture->options.scene, time, transform, capture->solids);
     if (other_count) memcpy(capture->solids + count, others, other_count * sizeof *others);
     return hair_set_solids(capture->hair, capture->solids, count + other_count, sizeof *capture->solids);
+}
+
+static int make_shader(struct capture* capture)
+{
+    hair_shader_desc  desc = hair_shader_desc_default();
+    struct hair_bytes bytes;
+    if (!capture->options.shader) return HAIR_EXIT_OK;
+    if (!hair_file_read(TOOL, capture->options.shader, MOST_SHADER, &bytes)) return HAIR_EXIT_INPUT;
+    char* text = malloc(bytes.size + 1);
+    if (text) {
+        memcpy(text, bytes.data, bytes.size);
+        text[bytes.size] = 0;
+        desc.label       = capture->options.shader;
+        desc.glsl        = text;
+        desc.at          = HAIR_SHADE_PIXELS;
+    }
+    free(bytes.data);
+    hair_result result =
+        text ? hair_shader_create(capture->context, &desc, &capture->shader) : HAIR_ERROR_MEMORY;
+    free(text);
+    capture->options.scene.settings.view.shader = capture->shader;
+    return result == HAIR_ERROR_OPENGL ? HAIR_EXIT_INPUT : hair_exit_for(result);
 }
 
 static int make_hair(struct capture* capture)
@@ -283,6 +307,7 @@ static int make(struct capture* capture)
     if (!code)
         code = hair_world_create(TOOL, capture->options.name, &capture->options.scene, &capture->host,
                                  &capture->world);
+    if (!code) code = make_shader(capture);
     if (!code) code = make_hair(capture);
     if (!code) code = make_hashes(capture);
     return code;
@@ -338,6 +363,7 @@ static void destroy(struct capture* capture)
     hair_destroy(capture->hair);
     hair_world_destroy(capture->world);
     if (capture->render) hair_render_destroy(capture->render);
+    hair_shader_destroy(capture->shader);
     hair_context_destroy(capture->context);
     hair_egl_destroy(capture->egl);
     hair_groom_destroy(capture->groom);

@@ -59,6 +59,11 @@ PICTURE("Dyed tips: a ramp of eight colours",
         "blue=1,1,1,1,1.5,2.2,2.5,2.5")
 PICTURE("Lines with a highlight that glitters (sparkle=1)", "--scene demo --set shading=lines --set sparkle=1")
 
+ROW("Shading of the host's own, and ours in it")
+PICTURE("Ours, changed towards the tips (--shader frost.glsl)", "--scene demo --shader tools/scenes/frost.glsl")
+PICTURE("Locks by number, darker from root to tip (--shader strands.glsl)",
+        "--scene demo --shader tools/scenes/strands.glsl")
+
 ROW("Thin strands: one sample a pixel, four, and one that shows shares")
 PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1")
 PICTURE("Opaque, four samples (the default)", "tools/scenes/far.json")

@@ -66,6 +66,7 @@ static const struct member members[] = {
     UINT(hair_contact, nodes_y),
     UINT(hair_contact, nodes_z),
     UINT(hair_contact, first),
+    VEC4(hair_contact, ball),
     VEC4(hair_substep, rotation),
     VEC4(hair_substep, displacement),
     VEC4(hair_step_params, gravity),

@@ -179,6 +179,8 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
     expect(4, "$T $D/none.json -o $D/a.png", "none.json");
     expect(4, "$T --groom $D/none.hair -o $D/a.png", "none.hair");
     expect(4, "$T --groom $D/s.json -o $D/a.png", "hair-capture:");
+    expect(4, "$T --shader $D/none.glsl -o $D/a.png", "none.glsl");
+    expect(4, "$T --shader $D/s.json -o $D/a.png", "s.json:1: ");
     expect(1, "test -e $D/a.png", "");
     expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null: the file ends at byte 0");
 }

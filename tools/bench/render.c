@@ -21,19 +21,29 @@
 #define MOST_RADIUS 0.01f        // m: hair_look's
 #define LEAST_RATIO 5            // of a reported error and that of the reference
 
-static const char* const columns[] = {
-    "case",           "method",        "primitive", "lod",     "segments", "samples",
-    "msaa",           "supersample",   "size",      "strands", "radius",   "ms",
-    "ms_min",         "ms_max",        "runs",      "flip",    "psnr",     "pixels",
-    "coverage_error", "halves_differ", "front",     NULL};
+static const char* const columns[] = {"case",          "width",   "method", "primitive",   "lod",
+                                      "segments",      "samples", "msaa",   "supersample", "size",
+                                      "strands",       "radius",  "ms",     "ms_min",      "ms_max",
+                                      "runs",          "flip",    "psnr",   "pixels",      "coverage_error",
+                                      "halves_differ", "front",   NULL};
 
-// A case: a scene from some distance.
+// A case: a scene from some distance; or one whose strands are so wide everywhere, in pixels, and so many in a picture of 256
+// to each side, that they cover about as much.
 static const struct subject {
     const char* name;
     const char* scene;
     float       away;
     bool        quick;
-} subjects[] = {{"long", "still", 1, true}, {"long far", "still", 4, false}, {"curly", "curly", 1, false}};
+    float       width;   // 0: as the scene has it
+    uint32_t    strands; // likewise
+} subjects[] = {{"long", "still", 1, true, 0, 0},
+                {"long far", "still", 4, false, 0, 0},
+                {"curly", "curly", 1, false, 0, 0},
+                {"0.08 px", "still", 1, true, 0.08f, 30000},
+                {"0.125 px", "still", 1, false, 0.125f, 24000},
+                {"0.25 px", "still", 1, false, 0.25f, 12000},
+                {"0.5 px", "still", 1, true, 0.5f, 6000},
+                {"1 px", "still", 1, false, 1, 3000}};
 
 static const struct path {
     const char* name;
@@ -45,7 +55,10 @@ static const struct path {
 static const struct primitive {
     const char*    name;
     hair_primitive primitive;
-} primitives[] = {{"ribbons", HAIR_RIBBONS}, {"lines", HAIR_LINES}};
+    hair_coverage  coverage;
+} primitives[] = {{"ribbons", HAIR_RIBBONS, HAIR_COVERAGE_SAMPLES},
+                  {"lines", HAIR_LINES, HAIR_COVERAGE_SAMPLES},
+                  {"shares", HAIR_RIBBONS, HAIR_COVERAGE_SHARES}};
 
 // Fewer strands, and wider for it; 0: by how large they appear.
 static const struct lod {
@@ -83,9 +96,10 @@ struct scene {
     size_t                first_row;
 };
 
-static uint32_t strands_of(const struct bench* bench)
+static uint32_t strands_of(const struct bench* bench, const struct subject* subject, uint32_t size)
 {
     if (bench->options.strands) return bench->options.strands;
+    if (subject->strands) return (uint32_t)((uint64_t)subject->strands * size / SIZE_OF_SOFTWARE);
     return bench->software ? STRANDS_OF_SOFTWARE : 0;
 }
 
@@ -95,6 +109,10 @@ static struct bench_shot shot_of(const struct scene* scene)
     struct bench_shot shot = bench_studio_shot(&scene->studio);
     shot.look.radius       = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
     shot.away              = scene->subject->away;
+    if (scene->subject->width > 0) {
+        shot.look.radius = 0.5f * scene->subject->width / bench_studio_scale(&scene->studio, shot.away);
+        shot.look.taper  = hair_curve_line(1, 1);
+    }
     return shot;
 }
 
@@ -164,10 +182,11 @@ static bool find_truth(struct scene* scene)
 static bool need(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
-    uint32_t                 size = scene->bench->software ? SIZE_OF_SOFTWARE : SIZE;
-    struct bench_studio_desc desc = {.scene = scene->subject->scene,
-                                     .size  = scene->bench->options.size ? scene->bench->options.size : size,
-                                     .followers = strands_of(scene->bench)};
+    uint32_t size = scene->bench->software ? SIZE_OF_SOFTWARE : SIZE;
+    if (scene->bench->options.size) size = scene->bench->options.size;
+    struct bench_studio_desc desc = {.scene     = scene->subject->scene,
+                                     .size      = size,
+                                     .followers = strands_of(scene->bench, scene->subject, size)};
     GLint                    most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     scene->most_samples = (uint32_t)most;
@@ -192,6 +211,7 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
     json_t*  row  = bench_rows_add(&scene->bench->rows);
     uint32_t side = setting->samples->supersample;
     bench_set_text(row, "case", scene->subject->name);
+    if (scene->subject->width > 0) bench_set_number(row, "width", (double)scene->subject->width);
     bench_set_text(row, "method", setting->path->name);
     bench_set_text(row, "primitive", setting->primitive->name);
     bench_set_text(row, "lod", setting->lod->name);
@@ -222,6 +242,7 @@ static bool look(struct scene* scene, const struct setting* setting)
     struct hair_image_error error;
     shot.view.path      = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
+    shot.view.coverage  = setting->primitive->coverage;
     shot.look.segments  = setting->segments->count;
     shot.has_lod        = setting->lod->share < 1;
     shot.lod.dynamic    = setting->lod->share > 0 ? 0 : 1;
@@ -239,9 +260,16 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
-// All of it by one path; that the others draw the same is seen by fewer.
-static bool is_wanted(const struct bench* bench, const struct setting* setting)
+// All of it by one path; that the others draw the same is seen by fewer. Shares are drawn by one path alone, and are asked
+// for instead of more samples. Of widths it is how they are drawn that counts.
+static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
+    bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
+    if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
+        return false;
+    if (subject->width > 0)
+        return setting->lod == lods && setting->segments->count == 32 &&
+               (shares || setting->path->path == HAIR_PATH_TESSELLATION);
     return (!bench->options.quick && setting->path == paths) ||
            (setting->lod->quick && setting->segments->quick && setting->samples->quick);
 }
@@ -249,7 +277,9 @@ static bool is_wanted(const struct bench* bench, const struct setting* setting)
 static void measure(struct scene* scene, const struct setting* setting)
 {
     struct bench* bench = scene->bench;
-    if (!is_wanted(bench, setting) || !bench_begin(bench, scene->subject->name, setting->path->name)) return;
+    if (!is_wanted(bench, scene->subject, setting) ||
+        !bench_begin(bench, scene->subject->name, setting->path->name))
+        return;
     if (need(scene) && setting->samples->msaa > scene->most_samples) return; // OpenGL has fewer.
     if (!scene->alive || !look(scene, setting))
         bench_refuse(bench, scene->subject->name, setting->path->name);

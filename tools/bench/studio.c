@@ -221,15 +221,28 @@ static float scale_of(const struct hair_matrices* matrices, float distance, uint
     return 0.5f * (float)pixels * p[5] / (p[15] > 0 ? 1 : distance);
 }
 
+static float distance_of(const struct bench_studio* studio, float away)
+{
+    const struct hair_scene* scene  = &studio->scene;
+    float                    square = 0;
+    for (int i = 0; i < 3; ++i) square += powf(away * (scene->eye[i] - scene->target[i]), 2);
+    return sqrtf(square);
+}
+
+float bench_studio_scale(const struct bench_studio* studio, float away)
+{
+    struct hair_matrices camera;
+    hair_camera_matrices(&studio->scene, studio->transform, studio->reach, &camera);
+    return scale_of(&camera, distance_of(studio, away), studio->size);
+}
+
 // A shadow need be no finer than the picture.
 static float importance_of_shadow(const struct bench_studio* studio, const struct hair_matrices* camera,
                                   const struct hair_matrices* light)
 {
-    const struct hair_scene* scene  = &studio->scene;
-    float                    square = 0;
-    for (int i = 0; i < 3; ++i) square += powf(studio->shot.away * (scene->eye[i] - scene->target[i]), 2);
-    uint32_t pixels = studio->size * studio->shot.supersample;
-    return fminf(1, scale_of(camera, sqrtf(square), pixels) / scale_of(light, 1, HAIR_SHADOW_SIZE));
+    uint32_t pixels   = studio->size * studio->shot.supersample;
+    float    distance = distance_of(studio, studio->shot.away);
+    return fminf(1, scale_of(camera, distance, pixels) / scale_of(light, 1, HAIR_SHADOW_SIZE));
 }
 
 static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct hair_matrices* matrices,

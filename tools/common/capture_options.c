@@ -23,6 +23,7 @@ enum name {
     SET,
     DEVICE,
     STATS,
+    SHADER,
     HASH,
     QUIET,
     VERBOSE,
@@ -62,6 +63,7 @@ static const struct row rows[] = {
     {"guides", SETTING, "N", "strands to simulate"},
     {"followers", SETTING, "N", "strands to grow between guides"},
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
+    {"shader", SHADER, "FILE.glsl", "shade pixels of strands by this: hair_shader_desc in hair.h says how"},
     {"stats", STATS, "FILE.json", "write what was drawn and how long it took"},
     {"hash", HASH, NULL, "print a hash of the strands and one of the pixels of the frames drawn"},
     {"quiet", QUIET, NULL, "no progress"},
@@ -238,6 +240,7 @@ static bool take(const char* tool, const struct row* row, const char* value, str
         out->device = (int)device;
         break;
     case STATS: out->stats = value; break;
+    case SHADER: out->shader = value; break;
     case HASH: out->hash = true; break;
     case QUIET: out->quiet = true; break;
     case VERBOSE: out->verbose = true; break;

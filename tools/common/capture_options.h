@@ -9,6 +9,7 @@ struct hair_capture_options {
     const char*       name;       // of the scene, for people
     const char*       out;        // NULL: none
     const char*       stats;      // NULL: none
+    const char*       shader;     // file of the strands' own shading; NULL: none
     uint32_t          first, end; // frames to draw: from first up to, not including, end
     uint32_t          samples, supersample;
     int               device; // -1: any
