@@ -343,11 +343,12 @@ HAIR_SIZE(hair_step_params, 224 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 1
 // What the solvers of rods know of the wind.
 struct hair_wind_params {
     hair_vec4 velocity;  // xyz: of the air, m/s
+    hair_vec4 box;       // xyz: corner of the fluid's, from the head's origin, m; w: 1 / its side, 1/m; 0: there is none
     float     per_speed; // Reynolds number of a strand by the air's speed across it, s/m
     float     viscous;   // drag by the air's viscosity, by a strand's mass, 1/s
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_wind_params, 32)
+HAIR_SIZE(hair_wind_params, 48)
 
 // What a guide vertex puts into the crowd's grid, in its units.
 struct hair_share {

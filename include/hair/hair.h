@@ -515,8 +515,19 @@ HAIR_API hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buff
 
 /// What moves the air.
 typedef enum hair_wind_model {
-    HAIR_WIND_AMBIENT = 0 ///< Air goes as it would without head and solids.
+    HAIR_WIND_AMBIENT = 0, ///< Air goes as it would without head and solids.
+    /// And round these, as a fluid on a grid around the hair: with a wake, and lee behind the head. Of what the field knows.
+    /// It moves on in 1/60 s, or a substep if that is longer; hair_reset and hair_teleport begin anew with the wind, and
+    /// so does hair_load unless resolution and box are as they were saved.
+    HAIR_WIND_FLUID
 } hair_wind_model;
+
+/// How the fluid is kept from being pressed together. The defaults leave less than a thousandth of what was to be done.
+typedef enum hair_projection {
+    HAIR_PROJECTION_MULTIGRID = 0, ///< Cycles over ever coarser grids: the fastest by far; the default.
+    HAIR_PROJECTION_RELAXATION,    ///< Sweeps of Gauss and Seidel that go beyond.
+    HAIR_PROJECTION_JACOBI         ///< Tariq 2010: sweeps of Jacobi.
+} hair_projection;
 
 /// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them by the
 /// correlation of Clift, Grace and Weber 1978, along them as heat passes from them. Guides stand for locks, whose hairs
@@ -527,6 +538,10 @@ typedef struct hair_wind {
     float           velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
     float           density;     ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
     float           viscosity;   ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.
+    uint32_t resolution; ///< Of the fluid: cells along a side, up to a multiple of 16. [16, 128]. Default 32.
+    float    box;        ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
+    hair_projection projection; ///< Of the fluid. Default HAIR_PROJECTION_MULTIGRID.
+    uint32_t        cycles; ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
 } hair_wind;
 HAIR_DESC(hair_wind)
 
@@ -611,8 +626,8 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 /// Move the head without moving the hair against it: shape and motion go along, nothing swings.
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
-/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, solids, ties, the time
-/// since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
+/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, solids, ties, air, the
+/// time since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
 /// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
 

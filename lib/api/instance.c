@@ -61,6 +61,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair_vec3 middle = hair_lerp(hair->reach[0], hair->reach[1], 0.5f);
     hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->reach[1])};
     hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
+    hair->sim.blow.field = &hair->field;
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
     if (!result) tell_stiffened(hair);
@@ -170,7 +171,12 @@ hair_result hair_step(hair_instance* hair, float dt)
     hair_result result = hair_check_current(context);
     if (result) return result;
     hair_gl_enter(&context->gl);
-    result = hair_sim_step(&hair->sim, time);
+    if (hair_blow_is_on(&hair->sim)) {
+        // As it will be at the end of the step: it goes along with the head.
+        const struct hair_solid_list* solids = &hair->sim.solids.now;
+        result = hair_field_update(&hair->field, solids->solid, solids->count, &hair->sim.head);
+    }
+    if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) hair->smooth.done = 0;
     hair_gl_leave(&context->gl);
     return result;

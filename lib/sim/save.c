@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 8 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 9 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -29,10 +29,11 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
-#define MOST_BEAT 1000 // substeps of the crowd's block: more than there are of the shortest
-#define MOST_CALM 1e9  // s
-#define MOST_BUFFERS 9 // that walk() lists
-#define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
+#define MOST_BEAT 2000  // substeps of a block of the crowd or the fluid: more than there are of the shortest
+#define MOST_CELLS 1e16 // from the world's origin to the fluid's box
+#define MOST_CALM 1e9   // s
+#define MOST_BUFFERS 10 // that walk() lists
+#define SOLID_WORDS 14  // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 #define KNOT_BYTES 36
 
@@ -323,6 +324,33 @@ static void walk_sleep(struct cursor* c, struct hair_sim* sim)
         walk_buffer(c, "anchors of guides", sleep->anchor, sim->guide_vertices * sizeof(hair_vec4));
 }
 
+// The air of a fluid that has a past. An instance without one, or with another, reads over it and begins with the wind.
+static void walk_blow(struct cursor* c, struct hair_blow* blow)
+{
+    struct hair_fluid* fluid = &blow->fluid;
+    int                there = fluid->gl && !fluid->fresh;
+    uint32_t           cells = fluid->desc.cells;
+    float              side = fluid->desc.side, *wind[] = {&fluid->wind.x, &fluid->wind.y, &fluid->wind.z};
+    walk_flag(c, "whether air is a fluid", &there);
+    fluid->fresh |= c->read && !there;
+    if (!there || c->result) return;
+    walk_uint(c, "number of substeps since the fluid's last", &blow->beat, MOST_BEAT);
+    walk_uint(c, "number of the fluid's cells", &cells, 128);
+    walk_float(c, "side of the fluid's box", &side, 100);
+    for (int k = 0; k < 3; ++k)
+        walk_double(c, "place of the fluid", &fluid->origin[k], -MOST_CELLS, MOST_CELLS);
+    for (int k = 0; k < 3; ++k) walk_float(c, "wind", wind[k], MOST_STATE);
+    int    own  = fluid->gl && cells == fluid->desc.cells && side == fluid->desc.side;
+    size_t size = 12 * (size_t)(cells + 1) * (cells + 1) * (cells + 1);
+    if (own && !c->result) walk_buffer(c, "air", fluid->velocity[fluid->now].buffer, size);
+    for (size_t i = 0; i < size && !own && !c->result; i += 4) {
+        float number = 0;
+        walk_float(c, "air", &number, MOST_STATE);
+    }
+    if (c->read) fluid->fresh = !own;
+    if (!own) blow->beat = 0;
+}
+
 // All that is saved, in order: of which haircut it is, and what the coming motion depends on.
 static void walk(struct cursor* c, struct hair_sim* sim)
 {
@@ -350,6 +378,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
     walk_skin(c, sim, skinned);
     walk_sleep(c, sim);
+    walk_blow(c, &sim->blow);
 }
 
 static uint64_t hash(const unsigned char* bytes, size_t size)
@@ -431,7 +460,8 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
 {
     const hair_host* host   = &sim->gl->host;
     hair_result      result = check_frame(host, bytes, size);
-    if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded.
+    if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded,
+    if (!result) result = hair_blow_need(sim);      // and its air.
     int skinned = !result && size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
     if (skinned && !sim->skin.seats)
         result = hair_fail(
@@ -440,7 +470,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (!result && skinned) result = hair_skin_make(sim);
     if (result) return result;
     struct hair_sim loaded = *sim;
-    struct cursor   c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
+    struct cursor   c  = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
     loaded.sleep.fence = NULL;
     c.own              = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
@@ -467,6 +497,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     hair_ties_take(sim, c.ties.knot, c.ties.count);
     sim->next_substep = 0;
     if (!sim->crowd.push) sim->crowd.beat = 0;
+    if (sim->blow.fluid.gl) hair_fluid_show(&sim->blow.fluid);
     hair_sim_show(sim);
     return HAIR_OK;
 }

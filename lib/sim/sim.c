@@ -119,6 +119,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_ties_free(sim);
     hair_contacts_free(sim);
     hair_air_free(&sim->air, sim->gl);
+    hair_blow_free(sim);
     hair_sim_free_rods(sim);
     hair_skin_free(sim);
     hair_sleep_free(sim);
@@ -244,6 +245,8 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     hair_result result = hair_ties_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
     if (!result && sim->rods) result = hair_air_need(&sim->air, sim->gl, &sim->wind);
+    if (!result) result = hair_blow_need(sim);
+    if (!result && !hair_blow_is_on(sim)) sim->air.box = (hair_vec4){0, 0, 0, 0};
     if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
     return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
 }
@@ -253,8 +256,8 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
 {
     struct hair_step_params params = {0};
     hair_gl_pass            pass   = solver_pass(sim);
-    int                     crowd  = hair_crowd_is_on(sim);
-    sim->next_substep              = sim->substep;
+    int                     crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
+    sim->next_substep = sim->substep;
     write_physics(sim, &params);
     write_solids(sim, &params);
     if (hair_skin_is_on(sim)) {
@@ -271,6 +274,8 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         uint32_t block = crowd ? hair_crowd_left(sim) : most;
         uint32_t count = total - done < most ? total - done : most;
         if (block < count) count = block;
+        if (blown) block = hair_blow_left(sim, dt);
+        if (block < count) count = block;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         sim->last_substep     = sim->substep;
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
@@ -280,9 +285,12 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
             is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
         if (crowd) hair_crowd_bind(sim);
         if (sim->ties.count) hair_ties_bind(sim);
+        if (blown) hair_fluid_bind(&sim->blow.fluid);
+        if (blown) sim->air.box = hair_blow_box(sim);
         if (sim->air.params) hair_air_bind(&sim->air, sim->gl, &sim->wind, &sim->physics);
         hair_gl_run(sim->gl, pass, groups);
         if (crowd) hair_crowd_count(sim, count);
+        if (blown) hair_blow_count(sim, count);
         done += count;
         params.share_start = params.substep[count - 1].displacement.w;
         params.rescale     = 1;
@@ -345,6 +353,7 @@ static void settle(struct hair_sim* sim)
     sim->left                                         = 0;
     sim->last_substep = sim->next_substep = sim->substep;
     sim->crowd.beat                       = 0;
+    hair_blow_forget(sim);
     hair_solids_settle(&sim->solids);
 }
 

@@ -7,6 +7,7 @@
 #include "lib/field/forms.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/groom.h"
+#include "lib/sim/blow.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
@@ -54,6 +55,7 @@ struct hair_sim {
     struct hair_air      air;
     struct hair_skin     skin;
     struct hair_sleep    sleep;
+    struct hair_blow     blow;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with

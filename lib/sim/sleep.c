@@ -110,7 +110,8 @@ int hair_sleep_is_stirred(const struct hair_sim* sim)
     if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return 1;
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return 1;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
-    if (sim->wind.model != HAIR_WIND_AMBIENT) return 1; // Air moves of its own then.
+    if (sim->wind.model != HAIR_WIND_AMBIENT && hair_wind_is_on(&sim->wind))
+        return 1; // Air moves of its own.
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
     return !(far <= HEAD_SHARE * sim->physics.sleep) || has_solid_near(sim);
 }

@@ -29,6 +29,7 @@ void hair_air_bind(struct hair_air* air, struct hair_gl* gl, const hair_wind* wi
     double radius                  = (double)physics->fiber_radius,
            mass                    = (double)physics->fiber_density * PI * radius * radius;
     struct hair_wind_params params = {
+        .box       = air->box,
         .velocity  = {wind->velocity[0], wind->velocity[1], wind->velocity[2], 0},
         .per_speed = (float)(2 * radius * (double)wind->density / (double)wind->viscosity),
         .viscous   = (float)((double)physics->drag * (double)wind->viscosity / mass),

@@ -7,7 +7,8 @@
 #include "lib/gl/gl.h"
 
 struct hair_air {
-    GLuint params; // buffer, as in shared.h
+    GLuint    params; // buffer, as in shared.h
+    hair_vec4 box;    // of the fluid, likewise
 };
 
 int hair_wind_is_on(const hair_wind* wind);

@@ -123,6 +123,7 @@ void hair_fluid_destroy(struct hair_fluid* fluid)
     hair_gl_free_buffer(fluid->gl, &fluid->level_params);
     hair_gl_free_buffer(fluid->gl, &fluid->motion);
     hair_gl_free_texture(fluid->gl, &fluid->air);
+    hair_free(&fluid->gl->host, fluid->motion_of);
     *fluid = (struct hair_fluid){0};
 }
 
@@ -204,25 +205,32 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
     return (struct hair_fluid_motion){{at.x, at.y, at.z, 0}, {spin.x, spin.y, spin.z, 0}};
 }
 
-// Of solids that all stand still a single 0 is enough.
-static hair_result write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
 {
-    const hair_host* host   = &fluid->gl->host;
-    uint32_t         count  = now->solids ? now->solids->now.count : 0;
-    int              moving = 0;
-    if (count > MOST_MOVING) count = MOST_MOVING;
-    struct hair_fluid_motion* motion = hair_alloc(host, count ? count : 1, sizeof *motion);
+    const hair_host* host = &fluid->gl->host;
+    if (solids > MOST_MOVING) solids = MOST_MOVING;
+    if (solids <= fluid->room) return HAIR_OK;
+    struct hair_fluid_motion* motion = hair_alloc(host, solids, sizeof *motion);
     if (!motion) return hair_fail_memory(host, "the velocities of solids");
-    for (uint32_t i = 0; i < count && now->solids_dt > 0; ++i) {
-        motion[i] = motion_of(now, i);
-        moving |= motion[i].velocity.x != 0 || motion[i].velocity.y != 0 || motion[i].velocity.z != 0 ||
-                  motion[i].spin.x != 0 || motion[i].spin.y != 0 || motion[i].spin.z != 0;
-    }
-    if (!moving) count = 1;
-    hair_gl_write_uniform(fluid->gl, fluid->motion, count * sizeof *motion, motion);
-    fluid->moving = moving;
-    hair_free(host, motion);
+    hair_free(host, fluid->motion_of);
+    fluid->motion_of = motion;
+    fluid->room      = solids;
     return HAIR_OK;
+}
+
+// Of solids that all stand still a single 0 is enough.
+static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    static const struct hair_fluid_motion still;
+    uint32_t                              count = now->solids_dt > 0 ? now->solids->now.count : 0;
+    fluid->moving                               = 0;
+    if (count > fluid->room) count = fluid->room;
+    for (uint32_t i = 0; i < count; ++i) {
+        fluid->motion_of[i] = motion_of(now, i);
+        fluid->moving |= memcmp(&fluid->motion_of[i], &still, sizeof still) != 0;
+    }
+    const struct hair_fluid_motion* from = fluid->moving ? fluid->motion_of : &still;
+    hair_gl_write_uniform(fluid->gl, fluid->motion, (fluid->moving ? count : 1) * sizeof *from, from);
 }
 
 // The box's middle goes with the head, by whole cells.
@@ -252,12 +260,11 @@ static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_pa
            (!params->solids || fluid->writes == field->writes);
 }
 
-hair_result hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
-    float       shift[3], cell = hair_fluid_cell(fluid);
-    int         moved  = fluid->moving; // Then its walls do until they are written again.
-    hair_result result = write_motion(fluid, now);
-    if (result) return result;
+    float shift[3], cell = hair_fluid_cell(fluid);
+    int   moved = fluid->moving; // Then its walls do until they are written again.
+    write_motion(fluid, now);
     place_box(fluid, now, shift);
     hair_vec3                wind   = limited(now->wind);
     hair_vec3                gain   = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
@@ -281,7 +288,6 @@ hair_result hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_n
         fluid->made_for = params;
         fluid->writes   = params.solids ? now->field->writes : 0;
     }
-    return HAIR_OK;
 }
 
 void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
@@ -301,25 +307,37 @@ void hair_fluid_carry(struct hair_fluid* fluid)
     hair_fluid_run(fluid, HAIR_GL_FLUID_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
 }
 
-void hair_fluid_project(struct hair_fluid* fluid)
+// What is next becomes what is.
+static void show_next(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     uint32_t        n  = fluid->desc.cells;
-    hair_fluid_run(fluid, HAIR_GL_FLUID_PROJECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     fluid->now = (fluid->now + 2) % 3;
 }
 
-hair_result hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+void hair_fluid_project(struct hair_fluid* fluid)
 {
-    hair_result result = hair_fluid_place(fluid, now);
-    if (result) return result;
+    hair_fluid_run(fluid, HAIR_GL_FLUID_PROJECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    show_next(fluid);
+}
+
+void hair_fluid_show(struct hair_fluid* fluid)
+{
+    struct hair_fluid_params params = {.cells = fluid->desc.cells}; // It may not have made a step.
+    hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
+    fluid->now = (fluid->now + 1) % 3;
+    show_next(fluid);
+}
+
+void hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    hair_fluid_place(fluid, now);
     hair_fluid_carry(fluid);
     hair_fluid_solve(fluid);
     hair_fluid_project(fluid);
-    return HAIR_OK;
 }
 
 void hair_fluid_bind(const struct hair_fluid* fluid)

@@ -53,9 +53,11 @@ struct hair_fluid {
     double                     origin[3]; // of the box, in cells from the world's origin: whole
     hair_vec3                  wind;      // of the last step
     hair_vec3                  lower;     // of the box, from the head's origin. m
-    int                        moving;    // some solid was in the last step
-    struct hair_fluid_params   made_for;  // what the faces are open for,
-    uint32_t                   writes;    // and the field
+    struct hair_fluid_motion*  motion_of; // of solids, `room` of them at most
+    uint32_t                   room;
+    int                        moving;   // some solid was in the last step
+    struct hair_fluid_params   made_for; // what the faces are open for,
+    uint32_t                   writes;   // and the field
 };
 
 // Where all is in a step.
@@ -65,9 +67,8 @@ struct hair_fluid_now {
     hair_vec3                      wind;   // m/s
     double                         dt;     // s
     const struct hair_solid_field* field;
-    const struct hair_solids*      solids;      // which move from `before` to `now`
-    double                         solids_dt;   // in this time, s
-    struct hair_pose               solids_head; // and where the field has the head
+    const struct hair_solids*      solids;    // which move from `before` to `now`
+    double                         solids_dt; // in this time, s
 };
 
 // On failure nothing is left.
@@ -75,8 +76,11 @@ hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc);
 void        hair_fluid_destroy(struct hair_fluid* fluid);
 
-hair_result hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+// Room for the velocities of so many solids, before a step that has them.
+hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids);
+void        hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now);
 void        hair_fluid_forget(struct hair_fluid* fluid);     // the past: the next step is the first
+void        hair_fluid_show(struct hair_fluid* fluid);       // the air as it is, where that was put there
 void        hair_fluid_bind(const struct hair_fluid* fluid); // the air, at HAIR_UNIT_AIR
 
 static inline float hair_fluid_cell(const struct hair_fluid* fluid)
@@ -89,10 +93,10 @@ static inline size_t hair_fluid_slots(const struct hair_fluid* fluid) // of the 
 }
 
 // The parts of a step, in order. `place` writes what they are to know of it.
-hair_result hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now);
-void        hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now);
-void        hair_fluid_carry(struct hair_fluid* fluid);
-void        hair_fluid_project(struct hair_fluid* fluid);
+void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void hair_fluid_carry(struct hair_fluid* fluid);
+void hair_fluid_project(struct hair_fluid* fluid);
 
 // solve.c: pressures that fit, from what flows into cells.
 void hair_fluid_solve(struct hair_fluid* fluid);

@@ -18,7 +18,7 @@ static void begin(struct hair_test* test, uint32_t cells, int ball, struct hair_
 
 static void advance(struct hair_test_fluid* f, int steps)
 {
-    for (int i = 0; i < steps; ++i) hair_test_ok(f->test, hair_fluid_step(&f->fluid, &f->now));
+    for (int i = 0; i < steps; ++i) hair_fluid_step(&f->fluid, &f->now);
 }
 
 static double fastest(const struct hair_test_fluid* f)

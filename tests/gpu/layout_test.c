@@ -187,6 +187,12 @@ static const struct member members[] = {
     VEC4(hair_field_params, rotation),
     VEC4(hair_field_params, lower),
     VEC4(hair_field_params, inverse),
+    VEC4(hair_wind_params, velocity),
+    VEC4(hair_wind_params, box),
+    FLOAT(hair_wind_params, per_speed),
+    FLOAT(hair_wind_params, viscous),
+    UINT(hair_wind_params, unused0),
+    UINT(hair_wind_params, unused1),
     VEC4(hair_fluid_params, lower),
     VEC4(hair_fluid_params, shift),
     VEC4(hair_fluid_params, wind),
@@ -325,6 +331,7 @@ static const struct {
     STRUCT(hair_share),        STRUCT(hair_strand_look), STRUCT(hair_strand),       STRUCT(hair_draw_command),
     STRUCT(hair_contact),      STRUCT(hair_seat),        STRUCT(hair_ride),         STRUCT(hair_scalp_params),
     STRUCT(hair_fluid_params), STRUCT(hair_fluid_level), STRUCT(hair_fluid_motion), STRUCT(hair_stir_params),
+    STRUCT(hair_wind_params),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)

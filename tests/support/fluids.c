@@ -47,6 +47,7 @@ void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc*
     hair_test_ok(test, hair_solids_set(&test->host.host, &out->solids, &solid, (uint32_t)ball, sizeof solid));
     hair_test_ok(test, hair_field_update(&out->field, out->solids.now.solid, out->solids.now.count, &origin));
     hair_test_ok(test, hair_fluid_create(&out->fluid, &test->context->gl, desc));
+    hair_test_ok(test, hair_fluid_make_room(&out->fluid, 1));
     out->now   = (struct hair_fluid_now){.head      = origin,
                                          .wind      = {5, 0, 0},
                                          .dt        = 1.0 / 60,

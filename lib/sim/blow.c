@@ -1,0 +1,108 @@
+// blow.c - the fluid of a simulation: made for its wind, and stepped at the start of every block of substeps.
+#include "lib/sim/blow.h"
+
+#include "lib/sim/sim.h"
+
+#define BLOCK (1.0 / 60) // s, or a substep if that is longer
+#define AROUND 1.5f      // of the field's longest side: that of the box, unless the wind says
+
+int hair_blow_is_on(const struct hair_sim* sim)
+{
+    return sim->rods && sim->wind.model == HAIR_WIND_FLUID && hair_wind_is_on(&sim->wind);
+}
+
+static hair_vec3 field_size(const struct hair_field_box* box)
+{
+    float side = HAIR_BRICK * box->voxel;
+    return hair_v3(side * (float)box->bricks[0], side * (float)box->bricks[1], side * (float)box->bricks[2]);
+}
+
+// Cycles and sweeps that suffice for a thousandth of what was to be driven out.
+static uint32_t enough(hair_projection projection, uint32_t cells)
+{
+    if (projection == HAIR_PROJECTION_MULTIGRID) return 4;
+    return projection == HAIR_PROJECTION_RELAXATION ? 5 * cells / 2 : cells * cells / 2;
+}
+
+static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
+{
+    const hair_wind*       wind = &sim->wind;
+    hair_vec3              size = field_size(&sim->blow.field->box);
+    struct hair_fluid_desc desc = {.cells  = (wind->resolution + 15) / 16 * 16,
+                                   .side   = wind->box,
+                                   .method = (hair_fluid_method)wind->projection,
+                                   .cycles = wind->cycles};
+    if (desc.side == 0) desc.side = AROUND * fmaxf(size.x, fmaxf(size.y, size.z));
+    if (desc.cycles == 0) desc.cycles = enough(wind->projection, desc.cells);
+    return desc;
+}
+
+hair_result hair_blow_need(struct hair_sim* sim)
+{
+    struct hair_fluid* fluid = &sim->blow.fluid;
+    if (!hair_blow_is_on(sim)) {
+        hair_blow_free(sim);
+        return HAIR_OK;
+    }
+    struct hair_fluid_desc desc = desc_of(sim), was = fluid->desc;
+    int same = fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method;
+    fluid->desc.cycles = desc.cycles;
+    hair_result result = HAIR_OK;
+    if (!same) {
+        hair_blow_free(sim);
+        result = hair_fluid_create(fluid, sim->gl, &desc);
+    }
+    return result ? result : hair_fluid_make_room(fluid, sim->solids.now.count);
+}
+
+void hair_blow_free(struct hair_sim* sim)
+{
+    hair_fluid_destroy(&sim->blow.fluid);
+    sim->blow.beat = 0;
+}
+
+void hair_blow_forget(struct hair_sim* sim)
+{
+    if (sim->blow.fluid.gl) hair_fluid_forget(&sim->blow.fluid);
+    sim->blow.beat = 0;
+}
+
+static uint32_t block_length(const struct hair_sim* sim)
+{
+    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
+    return substeps < 1 ? 1 : substeps;
+}
+
+uint32_t hair_blow_left(struct hair_sim* sim, double dt)
+{
+    struct hair_blow*            blow   = &sim->blow;
+    const struct hair_field_box* box    = &blow->field->box;
+    uint32_t                     length = block_length(sim);
+    if (blow->beat >= length) blow->beat = 0; // Substeps have become longer.
+    if (blow->beat != 0) return length - blow->beat;
+    struct hair_fluid_now now = {.head      = sim->last_after,
+                                 .middle    = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
+                                 .wind      = hair_load3(sim->wind.velocity),
+                                 .dt        = length * sim->substep,
+                                 .field     = blow->field,
+                                 .solids    = &sim->solids,
+                                 .solids_dt = dt};
+    hair_fluid_step(&blow->fluid, &now);
+    hair_sim_bind(sim);
+    hair_sim_bind_rods(sim);
+    if (sim->contacts.any) hair_contacts_bind(sim);
+    return length;
+}
+
+void hair_blow_count(struct hair_sim* sim, uint32_t substeps)
+{
+    sim->blow.beat = (sim->blow.beat + substeps) % block_length(sim);
+}
+
+hair_vec4 hair_blow_box(const struct hair_sim* sim)
+{
+    const struct hair_fluid* fluid = &sim->blow.fluid;
+    double                   cell  = (double)hair_fluid_cell(fluid), lower[3];
+    for (int k = 0; k < 3; ++k) lower[k] = fluid->origin[k] * cell - sim->last_after.position[k];
+    return (hair_vec4){(float)lower[0], (float)lower[1], (float)lower[2], 1 / fluid->desc.side};
+}
