@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {&bench_accuracy, &bench_collision, &bench_field,
-                                                   &bench_lod,      &bench_physics,   &bench_render,
-                                                   &bench_scale,    &bench_stability, &bench_table};
+static const struct bench_suite* const suites[] = {
+    &bench_accuracy, &bench_collision, &bench_field,     &bench_lod,   &bench_physics,
+    &bench_render,   &bench_scale,     &bench_stability, &bench_table, &bench_wind};
 
 #define MOST_SCENE 999999999
 
@@ -42,7 +42,8 @@ static const struct row {
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
      "                   none, switch, push, compute or prepass; of render, only this path:\n"
-     "                   tessellation, instanced or expanded"},
+     "                   tessellation, instanced or expanded; of wind, only this projection:\n"
+     "                   multigrid, relaxation or jacobi"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
     {"strands", STRANDS, "N",
      "copies of the strand that are timed; 1000; of render and table, strands\n"
@@ -59,9 +60,9 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
-static const char* const methods[]  = {"direct",    "accurate", "follow",  "redblack", "none",
-                                       "switch",    "push",     "compute", "prepass",  "tessellation",
-                                       "instanced", "expanded", NULL};
+static const char* const methods[] = {
+    "direct",  "accurate",     "follow",    "redblack", "none",      "switch",     "push",   "compute",
+    "prepass", "tessellation", "instanced", "expanded", "multigrid", "relaxation", "jacobi", NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)
