@@ -17,6 +17,7 @@ struct bench_bust {
     uint32_t          solid_count;
     uint32_t          followers, guides, smooth; // smooth: vertices of a smoothed guide
     uint32_t          frame;
+    bool              turn;      // of what is changed so that it is looked at again
     unsigned          target[2]; // a framebuffer and its colour
 };
 
