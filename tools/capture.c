@@ -326,7 +326,7 @@ static int write_stats(struct capture* capture)
     capture->stats.health   = hair_health_default();
     hair_result result      = hair_get_health(capture->hair, &capture->stats.health);
     if (result) return hair_exit_for(result);
-    bool ok = hair_stats_write(TOOL, options->stats, &capture->stats, capture->context);
+    bool ok = hair_stats_write(TOOL, options->stats, &capture->stats, capture->context, capture->hair);
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 

@@ -843,4 +843,43 @@ typedef struct hair_timing {
 /// there are; writes at most `capacity`.
 HAIR_API uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity);
 
+/// Why work was done or not.
+typedef enum hair_why {
+    HAIR_WHY_DONE = 0,    ///< It was.
+    HAIR_WHY_ASLEEP,      ///< Hair is at rest, as hair_physics.sleep has it.
+    HAIR_WHY_UNCHANGED,   ///< What it makes is there and still holds.
+    HAIR_WHY_OUT_OF_VIEW, ///< No view showed any of the hair.
+    HAIR_WHY_NONE_NEAR,   ///< No solid is near the hair.
+    HAIR_WHY_NOT_WANTED,  ///< Settings ask for none of it: no wind, no cohesion, a rigid head, another path.
+    HAIR_WHY_NOT_DUE,     ///< Its time has not come: no substep fell due, hair is in motion.
+    HAIR_WHY_NOT_CALLED   ///< No call asked for it.
+} hair_why;
+
+HAIR_API const char* hair_why_string(hair_why why); ///< Static text, NULL beyond the last. [any thread]
+
+/// One kind of work of an instance in a frame, which lasts from one hair_step to the next.
+typedef struct hair_report_row {
+    const char* work; ///< Static text: "solve", "smooth", "color", …
+    const char* pass; ///< The last pass that ran for it, as in hair_timing. NULL: none did.
+    hair_why    why;
+    uint32_t    runs; ///< Of passes.
+    float ms; ///< GPU time, from the first of passes that follow each other to the last. 0 without timings.
+    uint64_t bytes; ///< OpenGL memory that it has.
+} hair_report_row;
+
+typedef struct hair_report_info {
+    hair_made made;
+    uint32_t  frame; ///< Counted from 1. 0: none is finished, and there are no rows.
+    uint32_t  age;   ///< Frames that have begun since.
+    float     ms;    ///< Of all rows.
+    uint64_t  bytes; ///< Of all rows; what instances share is not among them.
+} hair_report_info;
+HAIR_DESC(hair_report_info)
+
+/// What became of all work in the newest frame that the GPU is done with; without hair_context_desc.timings, in the
+/// newest there is. `waits` 1: in the newest, waiting for it. `count` becomes how many rows there are, of which at most
+/// `capacity`, `stride` = sizeof(hair_report_row) apart, are written.
+HAIR_API hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* info,
+                                 hair_report_row* rows, size_t stride, uint32_t capacity, uint32_t* count);
+
 #endif

@@ -5,6 +5,7 @@
 #include "lib/api/fields.h"
 #include "lib/draw/draw.h"
 #include "lib/field/field.h"
+#include "lib/gl/ledger.h"
 
 struct hair_context {
     hair_host         host;
@@ -15,6 +16,14 @@ struct hair_context {
 struct hair_shader {
     hair_context*         context;
     struct hair_gl_shader gl;
+};
+
+// What was asked for in a frame, beside what ran.
+struct hair_asked {
+    int      asleep;
+    uint32_t views[2],
+        unseen[2];        // in colour and in depth only: of hair, and of them those that show none of it
+    int listed, expanded; // by a path that takes that
 };
 
 struct hair_instance {
@@ -29,6 +38,8 @@ struct hair_instance {
     struct hair_smooth      smooth;
     struct hair_draw        draw;
     struct hair_solid_field field;
+    struct hair_gl_ledger   ledger;
+    struct hair_asked       asked[HAIR_GL_FRAMES]; // in the frames of the ledger
 };
 
 // Bounds of where strands of a groom can be, in its space. Returns how long they may become.
@@ -40,6 +51,11 @@ hair_result hair_check_current(const hair_context* context);
 // Rigid, and not too far.
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out);
+
+// report.c: enter the context for work that is written down; and the frame under way, after which the next begins.
+void               hair_enter(hair_instance* hair);
+struct hair_asked* hair_asked_now(hair_instance* hair);
+void               hair_begin_frame(hair_instance* hair);
 
 // The field as the last step left head and solids. [GL], with the context entered.
 hair_result hair_update_field(hair_instance* hair);

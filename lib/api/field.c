@@ -35,7 +35,7 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     hair_result     result  = HAIR_GIVE(&context->host, hair_field_info, &own, out);
     if (!result) result = hair_check_current(context);
     if (result) return result;
-    hair_gl_enter(&context->gl);
+    hair_enter(hair);
     result = hair_update_field(hair);
     hair_gl_leave(&context->gl);
     if (result) return result;

@@ -96,6 +96,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
+    hair_gl_ledger_free(&hair->context->gl, &hair->ledger);
     hair_draw_destroy(&hair->draw);
     hair_field_destroy(&hair->field);
     hair_smooth_destroy(&hair->smooth);
@@ -167,10 +168,17 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->has_slowed = 1;
         time             = hair->max_dt;
     }
-    if (hair_sleep_through(&hair->sim, time)) return HAIR_OK;
+    if (hair_sleep_through(&hair->sim, time)) {
+        hair_begin_frame(hair);
+        hair_asked_now(hair)->asleep = 1;
+        return HAIR_OK;
+    }
     hair_result result = hair_check_current(context);
     if (result) return result;
-    hair_gl_enter(&context->gl);
+    struct hair_gl_ledger was   = hair->ledger;
+    struct hair_asked     asked = hair->asked[(was.number + 1) % HAIR_GL_FRAMES];
+    hair_enter(hair);
+    hair_begin_frame(hair);
     if (hair_blow_is_on(&hair->sim)) {
         // As it will be at the end of the step: it goes along with the head.
         const struct hair_solid_list* solids = &hair->sim.solids.now;
@@ -179,6 +187,12 @@ hair_result hair_step(hair_instance* hair, float dt)
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) hair->smooth.done = 0;
     hair_gl_leave(&context->gl);
+    if (result) { // There was no such frame.
+        *hair_asked_now(hair) = asked;
+        for (int i = 0; i < HAIR_GL_FRAMES; ++i)
+            memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);
+        hair->ledger = was;
+    }
     return result;
 }
 
@@ -187,7 +201,7 @@ hair_result hair_reset(hair_instance* hair)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_result result = hair_check_current(hair->context);
     if (result) return result;
-    hair_gl_enter(&hair->context->gl);
+    hair_enter(hair);
     hair_sim_reset(&hair->sim);
     hair->smooth.done       = 0;
     hair->draw.motion.shown = 0;
@@ -202,7 +216,7 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     hair_result      result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
-    hair_gl_enter(&hair->context->gl);
+    hair_enter(hair);
     hair_draw_take_along(&hair->draw, &hair->sim.at_step, &pose);
     hair_sim_teleport(&hair->sim, &pose);
     hair->smooth.done = 0;

@@ -53,7 +53,7 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
                          hair->label, count, vertices);
     float* packed = take(hair, positions, count, stride, &result);
     if (!packed) return result;
-    hair_gl_enter(&hair->context->gl);
+    hair_enter(hair);
     result = hair_draw_make_seats(&hair->draw, &hair->sim);
     if (!result) hair_skin_give(&hair->sim, packed, &space);
     hair_gl_leave(&hair->context->gl);
@@ -104,7 +104,7 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     hair_result      result = check(hair, stride, to_world, &space);
     if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
     if (result) return result;
-    hair_gl_enter(&hair->context->gl);
+    hair_enter(hair);
     result = hair_draw_make_seats(&hair->draw, &hair->sim);
     if (!result)
         hair_skin_give_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),

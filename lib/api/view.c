@@ -125,6 +125,7 @@ static hair_result meet_solids(hair_instance* hair)
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
+    if (!hair->sim.solids.now.count) hair_draw_free_hits(draw);
     return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin);
 }
 
@@ -145,6 +146,19 @@ static int is_out_of_view(const hair_instance* hair, const hair_view* view)
     return hair_draw_is_out_of_view(&hair->draw, &sim->at_step, view);
 }
 
+// What is asked for is written down.
+static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
+{
+    struct hair_asked* asked = hair_asked_now(hair);
+    if (view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
+    int depth = view->pass == HAIR_PASS_DEPTH, unseen = is_out_of_view(hair, view);
+    ++asked->views[depth];
+    asked->unseen[depth] += (uint32_t)unseen;
+    asked->listed |= !unseen && view->path != HAIR_PATH_TESSELLATION;
+    asked->expanded |= !unseen && view->path == HAIR_PATH_EXPANDED && !view->lod;
+    return !unseen && hair->draw.look.density > 0;
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
@@ -155,8 +169,8 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = check_shadows(hair, &own);
     if (!result) result = check_framebuffer(hair);
-    if (result || is_out_of_view(hair, &own)) return result;
-    hair_gl_enter(&context->gl);
+    if (result || !is_to_be_drawn(hair, &own)) return result;
+    hair_enter(hair);
     if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);
     } else {

@@ -54,21 +54,24 @@ struct hair_gl_shader {
     GLuint   program[HAIR_GL_VARIANTS][HAIR_GL_DRAWN];
 };
 
+struct hair_gl_ledger;
+
 struct hair_gl {
-    hair_host             host;
-    hair_gl_state         promise;
-    char*                 glsl_dir; // NULL: the text built in
-    int                   timings;
-    int                   software; // the driver is a software rasteriser
-    int                   subgroup; // work groups of 32 threads are one
-    uint32_t              made;     // how often all programs have been compiled
-    GLuint                program[HAIR_GL_PASS_COUNT];
-    struct hair_gl_shader ours; // variants of the same
-    struct hair_gl_timer  timer[HAIR_GL_PASS_COUNT];
-    GLuint                vertex_array; // empty: every vertex comes from its number
-    GLuint                shadow_sampler;
-    uint32_t              max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
-    int lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
+    hair_host              host;
+    hair_gl_state          promise;
+    char*                  glsl_dir; // NULL: the text built in
+    int                    timings;
+    int                    software; // the driver is a software rasteriser
+    int                    subgroup; // work groups of 32 threads are one
+    uint32_t               made;     // how often all programs have been compiled
+    GLuint                 program[HAIR_GL_PASS_COUNT];
+    struct hair_gl_shader  ours; // variants of the same
+    struct hair_gl_timer   timer[HAIR_GL_PASS_COUNT];
+    struct hair_gl_ledger* ledger;       // of the instance that is at work; NULL: nobody asks
+    GLuint                 vertex_array; // empty: every vertex comes from its number
+    GLuint                 shadow_sampler;
+    uint32_t max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
+    int      lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"

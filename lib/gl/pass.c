@@ -1,5 +1,5 @@
 // pass.c - running a pass: its program, a debug group with its name, its timer, its barrier.
-#include "lib/gl/gl.h"
+#include "lib/gl/ledger.h"
 
 #define MAX_GROUPS 65535 // In one dimension: what OpenGL promises.
 
@@ -13,12 +13,14 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
         hair_gl_pass_ms(gl, pass); // Before the slot is used again.
         gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0], GL_TIMESTAMP);
     }
+    hair_gl_ledger_begin(gl, pass);
     gl->UseProgram(gl->program[pass]);
 }
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_timer* timer = &gl->timer[pass];
+    hair_gl_ledger_end(gl, pass);
     if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
     ++timer->begun;
     gl->PopDebugGroup();

@@ -102,6 +102,7 @@ static void unbind(struct hair_gl* gl)
 
 void hair_gl_leave(struct hair_gl* gl)
 {
+    gl->ledger = NULL;
     if (gl->promise == HAIR_GL_CLOBBER) {
         unbind(gl);
         return;

@@ -308,6 +308,13 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
     return (uint32_t)(time / sim->substep + EARLY);
 }
 
+// What is of no use any more.
+static void tidy_up(struct hair_sim* sim)
+{
+    if (!sim->solids.now.count && sim->contacts.solid) hair_contacts_free(sim);
+    if (!hair_crowd_is_on(sim) && sim->crowd.texture) hair_crowd_free(sim);
+}
+
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
@@ -335,6 +342,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
     hair_sleep_watch(sim, stirred, dt);
+    tidy_up(sim);
     return HAIR_OK;
 }
 

@@ -67,6 +67,23 @@ static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
     return rows;
 }
 
+// What became of all work in the last frame.
+static json_t* report_of(hair_instance* hair)
+{
+    hair_report_info info = hair_report_info_default();
+    hair_report_row  rows[64];
+    uint32_t         count = 0;
+    json_t*          works = json_array();
+    if (hair_report(hair, 1, &info, rows, sizeof *rows, 64, &count)) count = 0;
+    for (uint32_t i = 0; i < count && i < 64; ++i)
+        json_array_append_new(works, json_pack("{s:s, s:s, s:s?, s:i, s:f, s:I}", "work", rows[i].work, "why",
+                                               hair_why_string(rows[i].why), "pass", rows[i].pass, "passes",
+                                               rows[i].runs, "ms", (double)rows[i].ms, "bytes",
+                                               (json_int_t)rows[i].bytes));
+    return json_pack("{s:i, s:f, s:I, s:o}", "frame", info.frame, "ms", (double)info.ms, "bytes",
+                     (json_int_t)info.bytes, "works", works);
+}
+
 static json_t* health_of(const hair_health* health)
 {
     return json_pack("{s:i, s:i, s:i, s:i, s:f, s:f}", "euler", health->euler, "follow", health->follow,
@@ -87,16 +104,16 @@ static json_t* groom_of(const hair_groom_info* groom)
 }
 
 bool hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
-                      hair_context* context)
+                      hair_context* context, hair_instance* hair)
 {
     char     version[32];
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
     json_t* root =
-        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o, s:o}", "suite", "capture", "version", version,
-                  "renderer", stats->renderer, "size", stats->width, stats->height, "frames", stats->first,
-                  stats->end, "groom", groom_of(&stats->groom), "health", health_of(&stats->health), "rows",
-                  rows_of(stats, context));
+        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o, s:o, s:o}", "suite", "capture", "version",
+                  version, "renderer", stats->renderer, "size", stats->width, stats->height, "frames",
+                  stats->first, stats->end, "groom", groom_of(&stats->groom), "health",
+                  health_of(&stats->health), "report", report_of(hair), "rows", rows_of(stats, context));
     struct hair_output output;
     bool               ok = root && hair_output_open(tool, path, &output);
     if (ok) {

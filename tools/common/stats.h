@@ -24,7 +24,7 @@ struct hair_stats {
 double hair_now(void); // ms, from some time on
 void   hair_clock_add(struct hair_clock* clock, double ms);
 bool   hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
-                        hair_context* context);
+                        hair_context* context, hair_instance* hair);
 void   hair_stats_free(struct hair_stats* stats);
 
 #endif

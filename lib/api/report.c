@@ -1,0 +1,192 @@
+// report.c - what became of an instance's work in a frame: done or not and why, how long it took, what memory it has.
+#include "lib/api/api.h"
+
+#include <string.h>
+
+const char* hair_why_string(hair_why why)
+{
+    static const char* const names[] = {
+        [HAIR_WHY_DONE] = "done",           [HAIR_WHY_ASLEEP] = "asleep",
+        [HAIR_WHY_UNCHANGED] = "unchanged", [HAIR_WHY_OUT_OF_VIEW] = "out of view",
+        [HAIR_WHY_NONE_NEAR] = "none near", [HAIR_WHY_NOT_WANTED] = "not wanted",
+        [HAIR_WHY_NOT_DUE] = "not due",     [HAIR_WHY_NOT_CALLED] = "not called",
+    };
+    return (unsigned)why < sizeof names / sizeof *names ? names[why] : NULL;
+}
+
+void hair_enter(hair_instance* hair)
+{
+    hair_gl_enter(&hair->context->gl);
+    hair->context->gl.ledger = &hair->ledger;
+}
+
+struct hair_asked* hair_asked_now(hair_instance* hair)
+{
+    return &hair->asked[hair->ledger.number % HAIR_GL_FRAMES];
+}
+
+void hair_begin_frame(hair_instance* hair)
+{
+    hair_gl_ledger_next(&hair->ledger);
+    *hair_asked_now(hair) = (struct hair_asked){0};
+}
+
+// Reasons ---------------------------------------------------------------------------------------------------
+
+// Of what is made for views.
+static hair_why why_not_shown(const struct hair_asked* asked)
+{
+    if (asked->views[0] + asked->views[1] == 0) return HAIR_WHY_NOT_CALLED;
+    if (asked->views[0] + asked->views[1] == asked->unseen[0] + asked->unseen[1]) return HAIR_WHY_OUT_OF_VIEW;
+    return HAIR_WHY_UNCHANGED;
+}
+
+static hair_why why_not_met(const hair_instance* hair, const struct hair_asked* asked, int pushes)
+{
+    const hair_look* look = &hair->draw.look;
+    int off = look->collision == HAIR_COLLISION_NONE || look->density <= 0 || !hair->draw.followers;
+    if (off || (pushes && look->collision != HAIR_COLLISION_PUSH)) return HAIR_WHY_NOT_WANTED;
+    if (!hair->sim.solids.now.count) return HAIR_WHY_NONE_NEAR;
+    hair_why why = why_not_shown(asked);
+    return why == HAIR_WHY_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_WHY_NONE_NEAR : why;
+}
+
+static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int depth)
+{
+    if (asked->views[depth] == 0) return HAIR_WHY_NOT_CALLED;
+    if (hair->draw.look.density <= 0) return HAIR_WHY_NOT_WANTED;
+    return HAIR_WHY_OUT_OF_VIEW;
+}
+
+static hair_why why_not_simulated(const struct hair_asked* asked, int wanted)
+{
+    if (!wanted) return HAIR_WHY_NOT_WANTED;
+    return asked->asleep ? HAIR_WHY_ASLEEP : HAIR_WHY_NOT_DUE;
+}
+
+static hair_why why_not(const hair_instance* hair, const struct hair_asked* asked, hair_gl_work work)
+{
+    const struct hair_sim* sim   = &hair->sim;
+    hair_why               shown = why_not_shown(asked);
+    int                    skin  = hair_skin_is_on(sim);
+    switch (work) {
+    case HAIR_GL_WORK_SCALP: return skin ? HAIR_WHY_NOT_CALLED : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_RIDE: return why_not_simulated(asked, skin);
+    case HAIR_GL_WORK_WIND: return why_not_simulated(asked, sim->wind.model != HAIR_WIND_AMBIENT);
+    case HAIR_GL_WORK_CROWD: return why_not_simulated(asked, hair_crowd_is_on(sim));
+    case HAIR_GL_WORK_STIR: return why_not_simulated(asked, sim->physics.sleep > 0);
+    case HAIR_GL_WORK_SOLVE: return why_not_simulated(asked, 1);
+    case HAIR_GL_WORK_SMOOTH: return shown;
+    case HAIR_GL_WORK_SEAT: return skin ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_FIELD:
+    case HAIR_GL_WORK_HIT: return why_not_met(hair, asked, 0);
+    case HAIR_GL_WORK_REPAIR: return why_not_met(hair, asked, 1);
+    case HAIR_GL_WORK_EXPAND:
+        return asked->expanded || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_COUNT_STRANDS:
+    case HAIR_GL_WORK_LIST: return asked->listed || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
+    case HAIR_GL_WORK_COLOR: return why_not_drawn(hair, asked, 0);
+    default: return HAIR_WHY_NOT_CALLED;
+    }
+}
+
+// Memory ----------------------------------------------------------------------------------------------------
+
+// Buffers of an instance by what they are for; those that are not there are 0.
+static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
+{
+    const struct hair_sim*       sim                        = &hair->sim;
+    const struct hair_draw*      draw                       = &hair->draw;
+    const struct hair_field_box* box                        = &hair->field.box;
+    const struct hair_gl*        gl                         = &hair->context->gl;
+    const GLuint                 buffers[HAIR_GL_WORKS][10] = {
+                        [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
+                        [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
+                        [HAIR_GL_WORK_WIND] = {sim->air.params},
+                        [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
+                                                sim->crowd.push},
+                        [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
+                        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
+                                                sim->history, sim->material, sim->reduction, sim->ties.buffer},
+                        [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
+                        [HAIR_GL_WORK_FIELD]  = {hair->field.params, hair->field.work, sim->contacts.solid,
+                                                 sim->contacts.cell},
+                        [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
+                        [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
+                        [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
+                        [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
+                                                draw->listed.index},
+                        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params},
+    };
+    uint64_t bytes = 0;
+    for (int i = 0; i < 10; ++i) {
+        GLint64 size = 0;
+        if (buffers[work][i]) gl->GetNamedBufferParameteri64v(buffers[work][i], GL_BUFFER_SIZE, &size);
+        bytes += (uint64_t)size;
+    }
+    if (work == HAIR_GL_WORK_FIELD && hair->field.distance) // Halves, and numbers.
+        bytes += (uint64_t)hair_field_bricks(box) * HAIR_BRICK * HAIR_BRICK * HAIR_BRICK * (2 + 4);
+    if (work == HAIR_GL_WORK_HIT && draw->hits.image)
+        bytes +=
+            4 * (uint64_t)HAIR_HIT_COLUMNS * ((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
+    if (work == HAIR_GL_WORK_COLOR && draw->fibres.texture)
+        bytes += 16u * HAIR_FIBRE_COLUMNS * HAIR_FIBRE_ROWS * HAIR_FIBRE_LAYERS;
+    return bytes;
+}
+
+// The report ------------------------------------------------------------------------------------------------
+
+static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, float ms[HAIR_GL_WORKS])
+{
+    uint32_t newest = hair->ledger.number;
+    for (uint32_t number = newest; number > 0 && number + HAIR_GL_FRAMES > newest; --number) {
+        const struct hair_gl_frame* frame = hair_gl_ledger_frame(&hair->ledger, number);
+        if (hair_gl_ledger_read(&hair->context->gl, frame, waits, ms)) return frame;
+    }
+    return NULL;
+}
+
+static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_frame* frame, hair_gl_work work,
+                              float ms)
+{
+    const struct hair_asked* asked = &hair->asked[frame->number % HAIR_GL_FRAMES];
+    hair_report_row          row   = {
+                   .work = hair_gl_work_label(work), .runs = frame->runs[work], .ms = ms, .bytes = bytes_of(hair, work)};
+    if (row.runs) row.pass = hair_gl_pass_label(frame->pass[work]);
+    row.why = row.runs ? HAIR_WHY_DONE : why_not(hair, asked, work);
+    return row;
+}
+
+hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* info, hair_report_row* rows,
+                        size_t stride, uint32_t capacity, uint32_t* count)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    const hair_host* host = &hair->context->host;
+    hair_report_info own  = hair_report_info_default();
+    float            ms[HAIR_GL_WORKS];
+    hair_result      result = HAIR_GIVE(host, hair_report_info, &own, info);
+    if (result) return result;
+    if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
+    if (!rows && capacity)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: rows is NULL but capacity is %u", hair->label,
+                         capacity);
+    if (capacity && (stride < sizeof *rows || stride > 4096))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not in [%zu, 4096]", hair->label,
+                         stride, sizeof *rows);
+    result = hair_check_current(hair->context);
+    if (result) return result;
+    const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
+    *count                            = 0;
+    if (!frame) return HAIR_OK;
+    own.frame = frame->number;
+    own.age   = hair->ledger.number - frame->number;
+    for (int work = 0; work < HAIR_GL_WORKS; ++work) {
+        hair_report_row row = row_of(hair, frame, (hair_gl_work)work, ms[work]);
+        own.ms += row.ms;
+        own.bytes += row.bytes;
+        if (*count < capacity) memcpy((unsigned char*)rows + *count * stride, &row, sizeof row);
+        ++*count;
+    }
+    return HAIR_GIVE(host, hair_report_info, &own, info);
+}

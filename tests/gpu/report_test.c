@@ -1,0 +1,228 @@
+// report_test.c - the report says what was done and what was not, why, and what memory it has; what is off has none.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+#include "tests/support/trace.h"
+
+enum { MOST = 64 };
+
+struct fixture {
+    struct hair_test*      test;
+    hair_context*          context;
+    hair_instance*         hair;
+    struct hair_test_frame frame;
+    hair_view              view;
+    hair_report_info       info;
+    hair_report_row        row[MOST];
+    uint32_t               rows;
+};
+
+static struct fixture start(void** state, const hair_physics* physics)
+{
+    struct fixture            f      = {.test = *state, .view = hair_view_default()};
+    hair_context_desc         desc   = hair_context_desc_default();
+    hair_desc                 of     = hair_desc_default();
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    desc.host                        = &f.test->host.host;
+    desc.get_proc                    = hair_test_trace_proc;
+    desc.timings                     = 1;
+    of.physics                       = physics;
+    f.view.projection[0] = f.view.projection[5] = f.view.projection[10] = 2;
+    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
+    hair_groom* groom = hair_test_groom(desc.host, wanted);
+    hair_test_ok(f.test, hair_create(f.context, groom, &of, &f.hair));
+    hair_groom_destroy(groom);
+    hair_test_frame_make(&f.frame, 32, 32, GL_RGBA8, 0);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_context_destroy(f->context);
+}
+
+static void report(struct fixture* f)
+{
+    f->info = hair_report_info_default();
+    hair_test_ok(f->test, hair_report(f->hair, 1, &f->info, f->row, sizeof *f->row, MOST, &f->rows));
+    assert_in_range(f->rows, 10, MOST);
+    assert_int_equal(f->info.age, 0);
+}
+
+static void run_frame(struct fixture* f)
+{
+    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    report(f);
+}
+
+static const hair_report_row* row_of(const struct fixture* f, const char* work)
+{
+    for (uint32_t i = 0; i < f->rows; ++i)
+        if (strcmp(f->row[i].work, work) == 0) return &f->row[i];
+    fail_msg("there is no row %s", work);
+    return NULL;
+}
+
+// `memory`: 1: it has some, 0: none, -1: either.
+static void check(const struct fixture* f, const char* work, hair_why why, int memory)
+{
+    const hair_report_row* row = row_of(f, work);
+    if (row->why != why) fail_msg("%s: %s, not %s", work, hair_why_string(row->why), hair_why_string(why));
+    assert_int_equal(row->runs > 0, why == HAIR_WHY_DONE);
+    assert_int_equal(row->pass != NULL, why == HAIR_WHY_DONE);
+    if (memory >= 0 && (row->bytes > 0) != memory)
+        fail_msg("%s has %llu bytes", work, (unsigned long long)row->bytes);
+}
+
+// No wind, solids, crowd, skinned scalp, list or written vertices: neither a pass nor memory of any.
+static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
+{
+    static const char* const none[] = {"scalp", "ride", "wind", "crowd", "seat", "expand", "count", "list"};
+    struct fixture           f      = start(state, NULL);
+    hair_test_trace_clear();
+    run_frame(&f);
+    for (size_t i = 0; i < sizeof none / sizeof *none; ++i) check(&f, none[i], HAIR_WHY_NOT_WANTED, 0);
+    check(&f, "field", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "hit", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "repair", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "stir", HAIR_WHY_NOT_DUE, 0);
+    check(&f, "depth", HAIR_WHY_NOT_CALLED, 0);
+    check(&f, "solve", HAIR_WHY_DONE, 1);
+    check(&f, "smooth", HAIR_WHY_DONE, 1);
+    check(&f, "color", HAIR_WHY_DONE, 1);
+    assert_int_equal(hair_test_trace_count("glDispatch"), 2); // solve, smooth
+    hair_test_ok(f.test, hair_draw(f.hair, &f.view));
+    report(&f);
+    assert_int_equal(row_of(&f, "color")->runs, 2);
+    assert_int_equal(row_of(&f, "smooth")->runs, 1);
+    finish(&f);
+}
+
+// And what has come is let go again when it is gone.
+static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
+{
+    struct fixture f       = start(state, NULL);
+    hair_solid     solid   = hair_solid_default();
+    hair_physics   physics = hair_physics_default();
+    run_frame(&f);
+    uint64_t before = f.info.bytes;
+    solid.size[0] = 0.12f, physics.cohesion = 3;
+    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    run_frame(&f);
+    check(&f, "field", HAIR_WHY_DONE, 1);
+    check(&f, "hit", HAIR_WHY_DONE, 1);
+    check(&f, "repair", HAIR_WHY_DONE, 1);
+    check(&f, "crowd", HAIR_WHY_DONE, 1);
+    print_message("    %llu bytes, with a solid and a crowd %llu\n", (unsigned long long)before,
+                  (unsigned long long)f.info.bytes);
+    physics.cohesion = 0;
+    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof solid));
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    run_frame(&f);
+    check(&f, "field", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "hit", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "repair", HAIR_WHY_NONE_NEAR, 0);
+    check(&f, "crowd", HAIR_WHY_NOT_WANTED, 0);
+    assert_true(f.info.bytes == before);
+    finish(&f);
+}
+
+static void an_idle_head_and_one_out_of_view_say_so(void** state)
+{
+    hair_physics physics = hair_physics_default();
+    physics.sleep        = 0.01f;
+    struct fixture f     = start(state, &physics);
+    f.view.path          = HAIR_PATH_EXPANDED;
+    for (int i = 0; i < 600 && !f.hair->sim.sleep.asleep; ++i) run_frame(&f);
+    run_frame(&f);
+    run_frame(&f);
+    check(&f, "solve", HAIR_WHY_ASLEEP, 1);
+    check(&f, "stir", HAIR_WHY_ASLEEP, 1);
+    check(&f, "smooth", HAIR_WHY_UNCHANGED, 1);
+    check(&f, "expand", HAIR_WHY_UNCHANGED, 1);
+    check(&f, "list", HAIR_WHY_UNCHANGED, 1);
+    check(&f, "color", HAIR_WHY_DONE, 1);
+    f.view.view[12] = 20;
+    run_frame(&f);
+    check(&f, "color", HAIR_WHY_OUT_OF_VIEW, 1);
+    check(&f, "smooth", HAIR_WHY_OUT_OF_VIEW, 1);
+    assert_true(f.info.ms == 0);
+    finish(&f);
+}
+
+// Asked in every frame, of two instances in turn: nothing is waited for, frames come in order, and none is the other's.
+static void reports_come_without_waiting_and_are_of_one_instance(void** state)
+{
+    struct fixture f = start(state, NULL), other = {0};
+    uint32_t       last = 0;
+    f.info              = hair_report_info_default();
+    other.test = f.test, other.context = f.context;
+    hair_desc   of    = hair_desc_default();
+    hair_groom* groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    hair_test_ok(f.test, hair_create(f.context, groom, &of, &other.hair));
+    hair_groom_destroy(groom);
+    hair_test_trace_clear();
+    for (int i = 0; i < 20; ++i) {
+        hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+        hair_test_ok(f.test, hair_step(other.hair, 1.0f / 60));
+        hair_test_ok(f.test, hair_draw(f.hair, &f.view));
+        hair_test_ok(f.test, hair_report(f.hair, 0, &f.info, f.row, sizeof *f.row, MOST, &f.rows));
+        if (!f.rows) continue;
+        assert_in_range(f.info.frame, last, i + 1);
+        assert_int_equal(f.info.frame + f.info.age, i + 1);
+        assert_true(f.info.ms >= 0 && isfinite(f.info.ms));
+        assert_int_equal(row_of(&f, "solve")->runs, 1);
+        last = f.info.frame;
+    }
+    assert_int_equal(hair_test_trace_waits(), 0);
+    assert_true(last > 0);
+    report(&other);
+    check(&other, "color", HAIR_WHY_NOT_CALLED, 1);
+    check(&other, "smooth", HAIR_WHY_NOT_CALLED, 1);
+    hair_destroy(other.hair);
+    finish(&f);
+}
+
+static void wrong_arguments_are_refused(void** state)
+{
+    struct fixture   f    = start(state, NULL);
+    hair_report_info info = hair_report_info_default();
+    uint32_t         count;
+    size_t           stride = sizeof *f.row;
+    assert_int_equal(hair_report(NULL, 0, &info, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT);
+    hair_test_refused(f.test, hair_report(f.hair, 0, NULL, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT,
+                      "hair_report_info is NULL");
+    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, stride, MOST, NULL), HAIR_ERROR_ARGUMENT,
+                      "count is NULL");
+    hair_test_refused(f.test, hair_report(f.hair, 0, &info, NULL, stride, 1, &count), HAIR_ERROR_ARGUMENT,
+                      "rows is NULL but capacity is 1");
+    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, 1, MOST, &count), HAIR_ERROR_ARGUMENT,
+                      "stride is 1, not in");
+    hair_test_ok(f.test, hair_report(f.hair, 0, &info, NULL, 0, 0, &count));
+    assert_int_equal(info.frame, 0);
+    assert_int_equal(count, 0);
+    assert_null(hair_why_string((hair_why)(HAIR_WHY_NOT_CALLED + 1)));
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(what_a_scene_has_not_is_neither_run_nor_kept),
+        HAIR_TEST(what_a_scene_has_no_more_gives_its_memory_back),
+        HAIR_TEST(an_idle_head_and_one_out_of_view_say_so),
+        HAIR_TEST(reports_come_without_waiting_and_are_of_one_instance),
+        HAIR_TEST(wrong_arguments_are_refused),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
