@@ -78,3 +78,7 @@ PICTURE("The lower one, zoomed in",
         "tools/scenes/near.json --set lod=on --set lod.dynamic=0 --set lod.strands=0.15 --set lod.segments=0.5")
 PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
         "tools/scenes/near.json --set lod=on")
+
+ROW("Lights")
+PICTURE("One from far away, a blue point behind, a red spot from the side, and surroundings", "tools/scenes/lights.json")
+PICTURE("The same on blond hair", "tools/scenes/lights.json --set color=blond")

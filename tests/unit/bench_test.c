@@ -191,6 +191,7 @@ static void the_other_suites_run(void** state)
     (void)state;
     expect(0, "$T physics --quick --case pendulum --method accurate --csv -", "pendulum,accurate,2,");
     expect(0, "$T field --quick --case 'none of them' --csv -", "none of them,voxelise,,128,20,");
+    expect(0, "$T shadow --quick --strands 300 --size 64 --method mean --csv -", "long,mean");
     expect(0, "$T stability --quick --case ordinary --method redblack --csv -", "ordinary,redblack,32,true");
     expect(0, "$T scale --quick --case followers --size 64 --csv - | sed -n 2p",
            "followers,direct,166,32,1024,24,64,");

@@ -8,8 +8,8 @@
 #include <string.h>
 
 static const struct bench_suite* const suites[] = {
-    &bench_accuracy, &bench_collision, &bench_field,     &bench_lod,   &bench_physics,
-    &bench_render,   &bench_scale,     &bench_stability, &bench_table, &bench_wind};
+    &bench_accuracy, &bench_collision, &bench_field,     &bench_lod,   &bench_physics, &bench_render,
+    &bench_scale,    &bench_shadow,    &bench_stability, &bench_table, &bench_wind};
 
 #define MOST_SCENE 999999999
 
@@ -60,9 +60,10 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
-static const char* const methods[] = {
-    "direct",  "accurate",     "follow",    "redblack", "none",      "switch",     "push",   "compute",
-    "prepass", "tessellation", "instanced", "expanded", "multigrid", "relaxation", "jacobi", NULL};
+static const char* const methods[]  = {"direct",    "accurate", "follow",    "redblack",   "none",
+                                       "switch",    "push",     "compute",   "prepass",    "tessellation",
+                                       "instanced", "expanded", "multigrid", "relaxation", "jacobi",
+                                       "map",       "mean",     "volume",    "layers",     NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)

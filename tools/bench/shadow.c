@@ -1,0 +1,236 @@
+// shadow.c - the suite `shadow`: how near ways to find the light that hair leaves to itself come to counting strands ray by
+// ray. Pictures differ in that light alone; ways that the library does not have are worked out by the processor.
+#include "tools/bench/picture.h"
+#include "tools/bench/strand_light.h"
+#include "tools/bench/studio.h"
+#include "tools/common/camera.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE 256
+#define STRANDS 4500
+#define SEGMENTS 24
+#define RAYS 1024
+#define RAYS_OF_QUICK 64
+#define UNIT 20 // of textures: the first that is the host's
+
+static const char* const columns[] = {"case",  "method",  "cell",          "layers", "growth",
+                                      "rays",  "strands", "size",          "flip",   "psnr",
+                                      "light", "pixels",  "halves_differ", NULL};
+
+static const char table_glsl[] =
+    "layout(binding = 20) uniform samplerBuffer table;\n"
+    "float own_through(hair_fragment f)\n"
+    "{\n"
+    "    int   each = int(draw.segments) + 1;\n"
+    "    float at   = f.t * float(draw.segments), k = min(floor(at), float(draw.segments - 1u));\n"
+    "    int   i    = int(f.strand) * each + int(k);\n"
+    "    return mix(texelFetch(table, i).x, texelFetch(table, i + 1).x, at - k);\n"
+    "}\n";
+static const char map_glsl[] = "float own_through(hair_fragment f) { return hair_light_through(f, 0u); }\n";
+static const char body_glsl[] =
+    "vec4 hair_shade(hair_fragment f)\n"
+    "{\n"
+    "    vec3  to, light = hair_light(f, 0u, to);\n"
+    "    float along = dot(to, f.tangent);\n"
+    "    vec3  lit   = light * sqrt(max(1.0 - along * along, 0.0)) * own_through(f);\n"
+    "    return vec4(f.color * (lit + hair_sky(f)), 1.0);\n"
+    "}\n";
+
+struct scene {
+    struct bench*        bench;
+    struct bench_studio  studio;
+    struct bench_strands strands;
+    struct bench_shot    shot;
+    hair_shader *        by_table, *by_map;
+    unsigned             buffer, texture;
+    float*               light; // per vertex
+    uint32_t             vertices, rays;
+    struct bench_picture truth;
+    double               mean, halves_differ;
+    bool                 alive, refused;
+};
+
+static bool make_shader(struct scene* scene, const char* own, hair_shader** out)
+{
+    char             text[2048];
+    hair_shader_desc desc = hair_shader_desc_default();
+    snprintf(text, sizeof text, "%s%s", own, body_glsl);
+    desc.label = "shadow";
+    desc.glsl  = text;
+    return !hair_shader_create(scene->bench->context, &desc, out);
+}
+
+static double mean_of(const float* values, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) sum += (double)values[i];
+    return sum / (double)count;
+}
+
+static bool take(struct scene* scene, hair_shader* shader, struct bench_picture* out)
+{
+    scene->shot.view.shader = shader;
+    glNamedBufferSubData(scene->buffer, 0, (GLsizeiptr)(scene->vertices * sizeof(float)), scene->light);
+    glBindTextureUnit(UNIT, scene->texture);
+    bool ok = bench_picture_make(scene->studio.size, out) && bench_studio_set(&scene->studio, &scene->shot) &&
+              bench_studio_draw(&scene->studio, NULL) && bench_studio_add(&scene->studio, out->rgba);
+    if (ok) bench_picture_finish(out, 1, (double)scene->studio.scene.exposure);
+    return ok;
+}
+
+// Each half of the rays makes a picture too.
+static bool find_truth(struct scene* scene)
+{
+    struct bench_picture    halves[2] = {{0}};
+    struct hair_image_error error;
+    float*                  sum = calloc(scene->vertices, sizeof *sum);
+    bool                    ok  = sum;
+    for (uint32_t i = 0; i < 2 && ok; ++i) {
+        ok = bench_light_by_rays(&scene->strands, scene->rays / 2, i, scene->light) &&
+             take(scene, scene->by_table, &halves[i]);
+        for (size_t v = 0; ok && v < scene->vertices; ++v) sum[v] += 0.5f * scene->light[v];
+    }
+    if (ok) memcpy(scene->light, sum, scene->vertices * sizeof *sum);
+    ok = ok && take(scene, scene->by_table, &scene->truth) && bench_picture_cover(&scene->truth) &&
+         bench_picture_compare(&scene->truth, &halves[0], &halves[1], &error);
+    if (ok) scene->halves_differ = error.flip;
+    if (ok) scene->mean = mean_of(sum, scene->vertices);
+    for (int i = 0; i < 2; ++i) bench_picture_free(&halves[i]);
+    free(sum);
+    return ok;
+}
+
+// Hair alone, of one radius and colour.
+static void set_shot(struct scene* scene)
+{
+    hair_look* look = &scene->shot.look;
+    scene->shot     = bench_studio_shot(&scene->studio);
+    hair_look_color(look, HAIR_COLOR_BLOND);
+    look->taper             = hair_curve_line(1, 1);
+    look->segments          = SEGMENTS;
+    look->radius            = look->radius * sqrtf(scene->studio.fewer);
+    scene->shot.samples     = 4;
+    scene->shot.supersample = 2;
+    scene->studio.bare      = true;
+}
+
+static bool read_strands(struct scene* scene)
+{
+    float    to[3];
+    uint32_t count     = scene->studio.info.follower_count * (SEGMENTS + 1);
+    float*   positions = malloc(3 * sizeof *positions * count);
+    hair_light_direction(&scene->studio.scene, to);
+    bool ok = positions && bench_studio_set(&scene->studio, &scene->shot) &&
+              !hair_read(scene->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &scene->vertices) &&
+              bench_strands_make(positions, scene->studio.info.follower_count, SEGMENTS + 1,
+                                 scene->shot.look.radius, to, &scene->strands);
+    free(positions);
+    scene->light = malloc((scene->vertices + 1) * sizeof(float));
+    return ok && scene->light;
+}
+
+static bool need(struct scene* scene)
+{
+    if (scene->alive || scene->refused) return scene->alive;
+    uint32_t                 strands = scene->bench->options.strands, size = scene->bench->options.size;
+    struct bench_studio_desc desc = {
+        .scene = "still", .size = size ? size : SIZE, .followers = strands ? strands : STRANDS};
+    scene->rays    = scene->bench->options.quick ? RAYS_OF_QUICK : RAYS;
+    scene->refused = !bench_studio_make(scene->bench, &desc, &scene->studio);
+    if (scene->refused) return false;
+    set_shot(scene);
+    scene->alive = read_strands(scene) && make_shader(scene, table_glsl, &scene->by_table) &&
+                   make_shader(scene, map_glsl, &scene->by_map);
+    if (scene->alive) {
+        glCreateBuffers(1, &scene->buffer);
+        glNamedBufferStorage(scene->buffer, (GLsizeiptr)(scene->vertices * sizeof(float)), NULL,
+                             GL_DYNAMIC_STORAGE_BIT);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &scene->texture);
+        glTextureBuffer(scene->texture, GL_R32F, scene->buffer);
+    }
+    scene->alive   = scene->alive && find_truth(scene);
+    scene->refused = !scene->alive;
+    return scene->alive;
+}
+
+static bool by_none(struct scene* scene, const float* with)
+{
+    (void)with;
+    for (size_t v = 0; v < scene->vertices; ++v) scene->light[v] = (float)scene->mean;
+    return true;
+}
+static bool by_layers(struct scene* scene, const float* with)
+{
+    return bench_light_by_layers(&scene->strands, with[0], (uint32_t)with[1], with[2], 2, scene->light);
+}
+static bool by_volume(struct scene* scene, const float* with)
+{
+    return bench_light_by_volume(&scene->strands, with[0], with[1], with[2], with[3], scene->light);
+}
+
+static const struct method {
+    const char* name;
+    bool (*find)(struct scene* scene, const float* with); // NULL: the library's own
+    float    with[4];
+    uint32_t count; // of layers
+} methods[] = {{"map", NULL, {0}, 0},
+               {"mean", by_none, {0}, 0},
+               {"volume", by_volume, {0.008f, 1, 0.5f, 1}, 0},
+               {"volume", by_volume, {0.004f, 1, 0.5f, 1}, 0},
+               {"volume", by_volume, {0.004f, 1.08f, 0.5f, 1}, 0},
+               {"volume", by_volume, {0.003f, 1, 0.5f, 1}, 0},
+               {"volume", by_volume, {0.002f, 1, 0.5f, 1}, 0},
+               {"layers", by_layers, {0.001f, 4, 0.005f}, 4},
+               {"layers", by_layers, {0.001f, 8, 0.002f}, 8},
+               {"layers", by_layers, {0.002f, 8, 0.002f}, 8}};
+
+static bool look(struct scene* scene, const struct method* method)
+{
+    struct bench_picture    picture = {0};
+    struct hair_image_error error;
+    bool                    ok = (!method->find || method->find(scene, method->with)) &&
+              take(scene, method->find ? scene->by_table : scene->by_map, &picture) &&
+              bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);
+    if (ok) {
+        json_t* row = bench_rows_add(&scene->bench->rows);
+        bench_set_text(row, "case", "long");
+        bench_set_text(row, "method", method->name);
+        if (method->with[0] > 0) bench_set_number(row, "cell", (double)method->with[0]);
+        if (method->count) bench_set_count(row, "layers", method->count);
+        if (method->find == by_volume) bench_set_number(row, "growth", (double)method->with[1]);
+        bench_set_count(row, "rays", scene->rays);
+        bench_set_count(row, "strands", scene->studio.info.follower_count);
+        bench_set_count(row, "size", scene->studio.size);
+        bench_set_number(row, "flip", error.flip);
+        bench_set_number(row, "psnr", error.psnr);
+        if (method->find)
+            bench_set_number(row, "light", mean_of(scene->light, scene->vertices) / scene->mean);
+        bench_set_count(row, "pixels", error.pixels);
+        bench_set_number(row, "halves_differ", scene->halves_differ);
+    }
+    bench_picture_free(&picture);
+    return ok;
+}
+
+static void run_suite(struct bench* bench)
+{
+    struct scene scene = {.bench = bench};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; ++i)
+        if (bench_begin(bench, "long", methods[i].name) && (!need(&scene) || !look(&scene, &methods[i])))
+            bench_refuse(bench, "long", methods[i].name);
+    bench_picture_free(&scene.truth);
+    bench_strands_free(&scene.strands);
+    free(scene.light);
+    if (scene.texture) glDeleteTextures(1, &scene.texture);
+    if (scene.buffer) glDeleteBuffers(1, &scene.buffer);
+    hair_shader_destroy(scene.by_table);
+    hair_shader_destroy(scene.by_map);
+    if (scene.studio.bench) bench_studio_free(&scene.studio);
+}
+
+const struct bench_suite bench_shadow = {
+    "shadow", "the light that hair leaves to itself, against counting strands", columns, run_suite};
