@@ -118,11 +118,16 @@ static hair_result set_all(struct fixture* f)
     hair_physics physics = hair_physics_default();
     hair_look    look    = hair_look_default();
     hair_desc    desc    = hair_desc_default();
+    hair_wind    wind    = hair_wind_default();
     hair_solid   solid   = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
+    wind.model           = HAIR_WIND_FLUID;
+    wind.resolution      = 16;
+    wind.velocity[0]     = 1;
     look.segments        = 100; // of two parts
     physics.damping      = 5;   // of which rods are made anew
     hair_result result   = hair_set_physics(f->hair, &physics);
     if (!result) result = hair_set_look(f->hair, &look);
+    if (!result) result = hair_set_wind(f->hair, &wind);
     if (!result) result = hair_set_transform(f->hair, desc.transform);
     return result ? result : hair_set_solids(f->hair, &solid, 1, sizeof solid);
 }
