@@ -10,7 +10,7 @@ struct bench_scene bench_scene_default(void)
     *p                       = hair_physics_default();
     scene.wind               = hair_wind_default();
     p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = p->sleep = 0;
-    p->angular                                                    = 0;
+    p->angular                                                               = 0;
     return scene;
 }
 
