@@ -148,6 +148,8 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_RIGHT 4
 #define HAIR_UNIT_WALL 6
 #define HAIR_UNIT_BEFORE 2 // of what draws velocities, in place of frames: as HAIR_UNIT_EXPANDED, of the frame before
+#define HAIR_UNIT_UV 5       // vec2 per follower: of its root on the scalp
+#define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
@@ -624,7 +626,8 @@ struct hair_draw_params {
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
     hair_uint lights;    // how many there are
-    hair_uint unused0, unused1;
+    hair_uint textured;  // 1: there is a texture of colours
+    hair_uint unused0;
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m

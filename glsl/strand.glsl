@@ -18,6 +18,11 @@ struct strand_vertex {
     vec3  before; // where it was, as position
 };
 
+#ifdef HAIR_TINTED
+layout(binding = HAIR_UNIT_UV) uniform samplerBuffer uv_texture;
+layout(binding = HAIR_UNIT_COLOR) uniform sampler2D color_texture;
+#endif
+
 hair_fragment fragment_of(hair_follower follower, uint number, hair_point point, float t)
 {
     hair_fragment f;
@@ -32,6 +37,10 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     f.uv       = vec2(0.0);
     f.across   = 0.0;
     f.color    = tint_of(f.seed, f.lock, t, f.random);
+#ifdef HAIR_TINTED
+    f.uv = texelFetch(uv_texture, int(number)).xy;
+    if (draw.textured != 0u) f.color *= textureLod(color_texture, f.uv, 0.0).rgb;
+#endif
     return f;
 }
 

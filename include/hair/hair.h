@@ -229,8 +229,8 @@ HAIR_API hair_result hair_form_describe(const hair_form* form, hair_form_info* o
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
-    ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-4, 6 and 7,
-    ///< 2D textures, samplers of units 12-15, 3D textures, samplers of units 8-11, image units 0-1.
+    ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
+    ///< 2D textures, samplers of units 12-16, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
 typedef struct hair_context_desc {
@@ -779,6 +779,9 @@ typedef struct hair_view {
     uint32_t frame;                 ///< Default 0.
     float    before_view[16];       ///< View of the frame before. Default identity.
     float    before_projection[16]; ///< And its projection, without jitter. Default identity.
+    /// Of OpenGL: 2D, linear colours that those of strands are multiplied by, where hair_groom_desc.scalp_uvs have their
+    /// roots, as the texture itself filters them. 0, or a groom without uvs: none.
+    uint32_t color_texture;
 } hair_view;
 HAIR_DESC(hair_view)
 

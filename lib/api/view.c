@@ -103,6 +103,18 @@ static hair_result check_shadows(const hair_instance* hair, const hair_view* vie
     return HAIR_OK;
 }
 
+static hair_result check_color(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl     = &hair->context->gl;
+    GLint                 target = 0;
+    if (!view->color_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
+    if (gl->IsTexture(view->color_texture))
+        gl->GetTextureParameteriv(view->color_texture, GL_TEXTURE_TARGET, &target);
+    if (target == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
+                     hair->label, view->color_texture);
+}
+
 // Only a slice needs the field, and forms, which shaders read from where the field has put them.
 static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 {
@@ -168,6 +180,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_result   result = take_view(hair, view, &own, &loan);
     if (!result) result = hair_check_current(context);
     if (!result) result = check_shadows(hair, &own);
+    if (!result) result = check_color(hair, &own);
     if (!result) result = check_framebuffer(hair);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);

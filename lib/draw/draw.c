@@ -12,6 +12,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->patches         = groom->info.patch_count;
     draw->map_sets        = groom->map_sets;
     draw->skull           = groom->skull;
+    draw->seats           = hair_seats_hold(groom->seats);
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
     hair_draw_find_extent(draw, groom);
@@ -37,6 +38,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_listed(draw);
     hair_draw_free_expanded(draw);
     hair_draw_free_sorted(draw);
+    hair_draw_free_uvs(draw);
     hair_gl_free_texture(draw->gl, &draw->follower_texture);
     hair_gl_free_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
@@ -123,6 +125,17 @@ struct drawn {
     GLuint       program;
 };
 
+static int is_textured(const struct hair_draw* draw, const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLOR && view->color_texture && hair_draw_has_uvs(draw);
+}
+
+// Whether uvs are asked for, and there are some.
+static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const struct hair_gl_shader* shader)
+{
+    return is_textured(draw, view) || (shader && hair_draw_has_uvs(draw));
+}
+
 static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
                                 struct drawn* out)
 {
@@ -131,8 +144,9 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
                            : view->pass == HAIR_PASS_MOTION ? HAIR_GL_MOTION
                            : is_shared(view)                ? HAIR_GL_SHARES
                                                             : 0;
-    out->path            = path_of(view);
-    out->pass            = hair_draw_choose(draw, pass_of(draw, view, out->path));
+    if (wants_uvs(draw, view, shader)) bits |= HAIR_GL_TINTED;
+    out->path = path_of(view);
+    out->pass = hair_draw_choose(draw, pass_of(draw, view, out->path));
     if (bits || shader)
         return hair_gl_need_variant(gl, shader ? shader : &gl->ours, bits, out->pass, &out->program);
     hair_result result = hair_gl_need(gl, out->pass);
@@ -177,6 +191,7 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
         result = hair_draw_need_fibres(draw);
     if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw);
     if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth);
+    if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
     if (!result && motion) hair_draw_begin_motion(draw, head, view->frame);
@@ -194,9 +209,15 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
+    params.textured = (uint32_t)is_textured(draw, view);
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
+    if (wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
+    if (params.textured) {
+        draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
+        draw->gl->BindSampler(HAIR_UNIT_COLOR, 0); // The host's texture has its own.
+    }
     if (guides)
         draw_guides(draw);
     else

@@ -42,7 +42,9 @@ struct hair_draw {
     struct hair_fibres   fibres;
     struct hair_motion   motion;
     struct hair_sorted   sorted;
-    hair_vec4            reach; // where hair can be, in the head's frame: a ball, w: its radius, m
+    struct hair_seats*   seats;          // where roots are on the scalp; NULL: there is none
+    GLuint               uv, uv_texture; // 0 until they are needed
+    hair_vec4            reach;          // where hair can be, in the head's frame: a ball, w: its radius, m
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -71,6 +73,11 @@ hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
 hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
+
+// places.c: where roots are by the scalp's uvs, of a groom that has them.
+int         hair_draw_has_uvs(const struct hair_draw* draw);
+hair_result hair_draw_need_uvs(struct hair_draw* draw);
+void        hair_draw_free_uvs(struct hair_draw* draw);
 
 // fibres.c: the table that colour needs, with the look as it is.
 hair_result hair_draw_need_fibres(struct hair_draw* draw);

@@ -16,6 +16,7 @@ void hair_seats_release(struct hair_seats* seats)
     hair_host host = seats->host;
     hair_free(&host, seats->positions);
     hair_free(&host, seats->seat);
+    hair_free(&host, seats->uv);
     hair_free(&host, seats);
 }
 
@@ -53,6 +54,18 @@ static void seat_followers(const struct hair_draft* draft, struct hair_seat* sea
         }
 }
 
+static void place_followers(const struct hair_draft* draft, float* uv)
+{
+    for (uint32_t sprout = 0; sprout < draft->sprout_count; ++sprout) {
+        const struct hair_spot* spot   = &draft->spots[sprout];
+        const uint32_t*         corner = draft->desc->scalp_triangles + 3 * (size_t)spot->triangle;
+        float*                  own    = uv + 2 * (size_t)draft->place[sprout];
+        for (size_t k = 0; k < 3; ++k)
+            for (size_t i = 0; i < 2; ++i)
+                own[i] += spot->weight[k] * draft->desc->scalp_uvs[2 * (size_t)corner[k] + i];
+    }
+}
+
 static hair_result seat_guides(const struct hair_draft* draft, struct hair_seat* seat)
 {
     struct hair_surface surface;
@@ -82,5 +95,10 @@ hair_result hair_draft_seats(struct hair_draft* draft)
     if (!seats->positions || !seats->seat) return hair_fail_memory(draft->host, "the seats of roots");
     memcpy(seats->positions, draft->scalp, 3 * (size_t)seats->vertex_count * sizeof *seats->positions);
     seat_followers(draft, seats->seat + info->guide_count);
+    if (draft->desc->scalp_uvs) {
+        seats->uv = hair_alloc(draft->host, info->follower_count, 2 * sizeof *seats->uv);
+        if (!seats->uv) return hair_fail_memory(draft->host, "the places of roots");
+        place_followers(draft, seats->uv);
+    }
     return seat_guides(draft, seats->seat);
 }

@@ -15,6 +15,7 @@ struct hair_seats {
     uint32_t          count;     // guides, then followers
     float*            positions; // xyz per vertex of the scalp, as the strands
     struct hair_seat* seat;
+    float*            uv; // per follower, of its root; NULL: the scalp has none
 };
 
 // One holder more, one less; the last one frees it. Any thread. NULL is none.

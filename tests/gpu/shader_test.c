@@ -8,6 +8,7 @@
 
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
+#include "tests/support/living.h"
 
 #define SIDE 96
 
@@ -277,12 +278,99 @@ static void no_text_breaks_anything(void** state)
     finish(&f);
 }
 
+// On a square scalp of 0.4 m whose uvs are its x and z. Roots are where they say.
+static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
+{
+    static float             pixels[4 * SIDE * SIDE];
+    struct fixture           f      = {.test = *state};
+    struct hair_test_scalp   scalp  = hair_test_scalp_make(4, 0.4f);
+    struct hair_test_strands guides = hair_test_strands_make(9, 4);
+    for (int i = 0; i < 9; ++i) // Slanted, lest strands are seen end on.
+        hair_test_add_straight(&guides, 4, hair_v3(0.1f * (float)(i % 3 + 1), 0, 0.1f * (float)(i / 3 + 1)),
+                               hair_v3(0.3f, 1, 0), 0.1f);
+    hair_groom_desc groom = hair_test_groom_desc(&f.test->host, &guides);
+    float*          uvs   = malloc(2 * sizeof *uvs * scalp.vertex_count);
+    for (uint32_t i = 0; i < scalp.vertex_count; ++i)
+        for (size_t k = 0; k < 2; ++k) uvs[2 * i + k] = scalp.positions[3 * i + 2 * k] / 0.4f;
+    hair_test_set_scalp(&groom, &scalp);
+    groom.strands_are    = HAIR_STRANDS_GUIDES;
+    groom.follower_count = 200;
+    groom.scalp_uvs      = uvs;
+    hair_look look       = hair_look_default();
+    hair_desc desc       = hair_desc_default();
+    look.radius = 0.004f, look.tip_strays = look.strays = 0, look.color_spread = 0;
+    look.interpolation = HAIR_INTERPOLATION_MULTI;
+    desc.look          = &look;
+    hair_test_ok(f.test, hair_groom_create(&groom, &f.groom));
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    hair_shader* shader;
+    hair_test_ok(f.test,
+                 make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(f.uv + 1.0, 0.0, f.t + 1.0); }",
+                      HAIR_SHADE_PIXELS, &shader));
+    hair_view view = view_of(HAIR_PASS_COLOR, shader);
+    memset(view.view, 0, sizeof view.view); // From above: x to the right, z down.
+    view.view[0] = view.view[6] = view.view[15] = 1, view.view[9] = -1, view.view[14] = -0.5f;
+    view.projection[13] = 0;
+    draw(&f, &view, pixels);
+    uint32_t covered = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const float* p = pixels + 4 * i;
+        if (p[3] == 0 || p[3] > 1.2f) continue; // Near roots.
+        ++covered;
+        double x = ((i % SIDE + 0.5) / SIDE - 0.5), z = -((i / SIDE + 0.5) / SIDE - 0.5);
+        hair_test_near("u", (size_t)i, p[0] - 1, x / 0.4, 0.06);
+        hair_test_near("v", (size_t)i, p[1] - 1, z / 0.4, 0.06);
+    }
+    print_message("    %u pixels near roots\n", covered);
+    assert_true(covered > 50);
+
+    // Half of the scalp has blue hair, the other none that light comes from.
+    static const unsigned char halves[] = {0, 0, 255, 255, 0, 0, 0, 255};
+    GLuint                     texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_RGBA8, 2, 1);
+    glTextureSubImage2D(texture, 0, 0, 0, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, halves);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    view.color_texture = texture;
+    hair_shader_destroy(shader);
+    hair_test_ok(f.test, make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(f.color, f.uv.x + 1.0); }",
+                              HAIR_SHADE_PIXELS, &shader));
+    view.shader = shader;
+    draw(&f, &view, pixels);
+    uint32_t blue = 0, black = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const float* p = pixels + 4 * i;
+        if (p[3] == 0 || fabsf(p[3] - 1.5f) < 0.01f) continue;
+        assert_true(p[0] == 0 && p[1] == 0 && (p[2] > 0) == (p[3] < 1.5f));
+        ++*(p[2] > 0 ? &blue : &black);
+    }
+    print_message("    %u blue pixels, %u black\n", blue, black);
+    assert_true(blue > 30 && black > 30);
+    view.shader = NULL;
+    blue        = 0;
+    draw(&f, &view, pixels);
+    for (int i = 0; i < SIDE * SIDE; ++i) blue += pixels[4 * i + 2] > 2 * pixels[4 * i];
+    assert_true(blue > 30);
+    view.color_texture = 4711;
+    hair_test_refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_ARGUMENT,
+                      "hair_view.color_texture is 4711");
+    glDeleteTextures(1, &texture);
+    hair_shader_destroy(shader);
+    finish(&f);
+    free(uvs);
+    hair_test_scalp_free(&scalp);
+    hair_test_strands_free(&guides);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         HAIR_TEST(a_shader_that_calls_ours_changes_nothing),
         HAIR_TEST(shaders_of_pixels_know_strand_place_and_side),
         HAIR_TEST(shaders_have_the_lights_and_outputs_of_their_own),
+        HAIR_TEST(roots_have_the_uvs_and_the_texture_of_their_place),
         HAIR_TEST(what_is_no_colour_is_drawn_as_black),
         HAIR_TEST(errors_have_the_hosts_own_lines),
         HAIR_TEST(no_text_breaks_anything),

@@ -1,0 +1,27 @@
+// places.c - where on the scalp roots are, for textures and shaders that go by it.
+#include "lib/draw/draw.h"
+
+int hair_draw_has_uvs(const struct hair_draw* draw)
+{
+    return draw->seats && draw->seats->uv;
+}
+
+hair_result hair_draw_need_uvs(struct hair_draw* draw)
+{
+    struct hair_gl* gl     = draw->gl;
+    hair_result     result = HAIR_OK;
+    if (!draw->uv)
+        result = hair_gl_buffer(gl, "hair root uvs", draw->followers * 2 * sizeof(float), draw->seats->uv,
+                                &draw->uv);
+    if (!result && !draw->uv_texture)
+        result = hair_gl_buffer_texture(gl, "hair root uvs", GL_RG32F, draw->uv, &draw->uv_texture);
+    return result;
+}
+
+void hair_draw_free_uvs(struct hair_draw* draw)
+{
+    hair_gl_free_texture(draw->gl, &draw->uv_texture);
+    hair_gl_free_buffer(draw->gl, &draw->uv);
+    hair_seats_release(draw->seats);
+    draw->seats = NULL;
+}
