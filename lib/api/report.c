@@ -117,7 +117,8 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                         [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
                         [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
                                                 draw->listed.index},
-                        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params},
+                        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
+                                                draw->sorted.index, draw->uv},
     };
     uint64_t bytes = 0;
     for (int i = 0; i < 10; ++i) {
