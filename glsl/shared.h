@@ -151,6 +151,8 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_UV 5       // vec2 per follower: of its root on the scalp
 #define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
+#define HAIR_UNIT_GUST 8     // of the solvers of rods, in place of the field: gusts of standard deviation 1,
+#define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
 // Image units, for the pass that writes the field.
@@ -182,6 +184,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BRICK 8            // voxels along the side of what one work group writes of the field
 #define HAIR_SHOWN_SOLIDS 96    // drawn at once
 #define HAIR_SOLID_TEXELS 6
+#define HAIR_WIND_BALLS 4    // that shelter
+#define HAIR_WIND_SOURCES 4  // of an instance
+#define HAIR_GUST_NODES 32   // of the texture of gusts, along each axis,
+#define HAIR_GUST_LENGTHS 8  // and how many integral length scales its side is
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32       // along an axis, at most
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
@@ -344,13 +350,25 @@ HAIR_SIZE(hair_step_params, 224 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 1
 
 // What the solvers of rods know of the wind.
 struct hair_wind_params {
-    hair_vec4 velocity;  // xyz: of the air, m/s
+    hair_vec4 velocity;  // xyz: of the air far from all it flows around, m/s; w: standard deviation of gusts, m/s
     hair_vec4 box;       // xyz: corner of the fluid's, from the head's origin, m; w: 1 / its side, 1/m; 0: there is none
+    hair_vec4 gust_turn; // unit quaternion: world to the texture of gusts
+    hair_vec4 gust_from; // xyz: where in it the head's origin is, at the end of the dispatch; w: 1 / its side, 1/m
     float     per_speed; // Reynolds number of a strand by the air's speed across it, s/m
     float     viscous;   // drag by the air's viscosity, by a strand's mass, 1/s
+    float     shelter;
+    hair_uint balls;
+    hair_uint sources;
+    hair_uint volume; // 1: there is a texture of velocities
     hair_uint unused0, unused1;
+    hair_mat4 to_volume; // its coordinates, of positions from the head's origin at the end of the dispatch
+    hair_vec4 ball[HAIR_WIND_BALLS];     // xyz: from the head's origin, m; w: radius, m
+    hair_vec4 source[HAIR_WIND_SOURCES]; // xyz: from the head's origin at the end of the dispatch, m; w: radius, m
+    hair_vec4 jet[HAIR_WIND_SOURCES];    // xyz: unit direction, or 0; w: speed, m/s
+    // At the start of each substep, seen from the end of the dispatch: xyz: the head's origin, m; w: time, s, below 0.
+    hair_vec4 at[HAIR_STEP_SUBSTEPS];
 };
-HAIR_SIZE(hair_wind_params, 48)
+HAIR_SIZE(hair_wind_params, 160 + 16 * HAIR_WIND_BALLS + 32 * HAIR_WIND_SOURCES + 16 * HAIR_STEP_SUBSTEPS)
 
 // What a guide vertex puts into the crowd's grid, in its units.
 struct hair_share {

@@ -18,6 +18,7 @@
 #include "wind/air.glsl"
 
 vec3 along; // unit
+uint substep_number; // of the dispatch
 vec2 drags; // h times the rates across and along
 vec3 drifts; // what damping does by the air's velocity, and what drag does: h^2 times an acceleration
 
@@ -45,7 +46,7 @@ void feel_air(uint i, vec3 before, float share, vec3 hv)
     vec3  sum   = (i > 0u ? before : after) + (i + 1u < guide_count ? after : before);
     float size  = length(sum), beside = i > 0u ? rod[guide_first + i - 1u].segment.x : 0.0;
     along       = size > 1e-3 ? sum / size : vec3(0.0, 1.0, 0.0);
-    vec3  air   = h * air_at(root_then + GET(place)), past = air - hv;
+    vec3  air   = h * air_at(root_then + GET(place), substep_number), past = air - hv;
     float faces = dot(past, along), across = length(past - faces * along);
     float light = min(0.5 * (beside + own(rest_length)) * own(slack), 1.0); // Not of what hangs on a tip.
     vec2  most  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));

@@ -172,6 +172,9 @@ void main()
 
     for (uint s = 0u; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
+#ifdef HAIR_WIND
+        substep_number  = s;
+#endif
         turn_then       = turn_now;
         root_then       = root_now;
         share_then      = share_now;

@@ -513,10 +513,10 @@ HAIR_API hair_result hair_set_scalp(hair_instance* hair, const float* positions,
 HAIR_API hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset,
                                            size_t stride, const float to_world[16]);
 
-/// What moves the air.
+/// How air goes around head and solids.
 typedef enum hair_wind_model {
-    HAIR_WIND_AMBIENT = 0, ///< Air goes as it would without head and solids.
-    /// And round these, as a fluid on a grid around the hair: with a wake, and lee behind the head. Of what the field knows.
+    HAIR_WIND_AMBIENT = 0, ///< By formulas: see hair_wind.shelter. Cheap.
+    /// As a fluid on a grid around the hair: with a wake, and lee behind the head. Of what the field knows.
     /// It moves on in 1/60 s, or a substep if that is longer; hair_reset and hair_teleport begin anew with the wind, and
     /// so does hair_load unless resolution and box are as they were saved.
     HAIR_WIND_FLUID
@@ -528,6 +528,20 @@ typedef enum hair_projection {
     HAIR_PROJECTION_RELAXATION,    ///< Sweeps of Gauss and Seidel that go beyond.
     HAIR_PROJECTION_JACOBI         ///< Tariq 2010: sweeps of Jacobi.
 } hair_projection;
+
+/// What blows from a place, on top of the wind. Start from hair_wind_source_default.
+typedef struct hair_wind_source {
+    float position[3];  ///< World. m. [-1e9, 1e9]. Default 0.
+    float direction[3]; ///< Of a jet, any length. 0: it blows to all sides. [-1e6, 1e6]. Default 0.
+    float speed;        ///< At its mouth; of a source to all sides below 0: it draws in. m/s. [-1000, 1000]. Default 5.
+    float radius;       ///< Of the mouth. m. [0.001, 100]. Default 0.05.
+} hair_wind_source;
+
+static inline hair_wind_source hair_wind_source_default(void)
+{
+    hair_wind_source source = {{0, 0, 0}, {0, 0, 0}, 5, 0.05f};
+    return source;
+}
 
 /// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them by the
 /// correlation of Clift, Grace and Weber 1978, along them as heat passes from them. Guides stand for locks, whose hairs
@@ -542,10 +556,24 @@ typedef struct hair_wind {
     float    box;        ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
     hair_projection projection; ///< Of the fluid. Default HAIR_PROJECTION_MULTIGRID.
     uint32_t        cycles; ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
+    /// Gusts are turbulence, of the same statistics every way, that the wind carries along: von Karman's spectrum.
+    float    gusts; ///< Standard deviation of each component, as a share of the wind's speed. [0, 2]. Default 0.
+    float    gust_length; ///< Integral length scale: gusts are some times as long. m. [0.1, 1000]. Default 1.
+    uint32_t seed;        ///< Of gusts. Default 1.
+    /// How much the head, as far as its place is told from roots, and the largest solids of up to 0.5 m around it divert
+    /// wind and gusts, as balls: before them by potential flow, behind by a wake.
+    float                   shelter;      ///< [0, 1]. Default 1.
+    const hair_wind_source* sources;      ///< Copied. NULL: none.
+    uint32_t                source_count; ///< [0, 4]. Default 0.
+    /// The application's own wind, on top of all this: xyz in m/s along the world's axes. Read while steps run, and 0 where
+    /// it is not finite, outside, and when it has been deleted.
+    uint32_t texture;               ///< Of OpenGL: 3D, of floats. 0: none. Default 0.
+    float    texture_transform[16]; ///< World to its coordinates. Affine. Default identity.
 } hair_wind;
 HAIR_DESC(hair_wind)
 
-/// From the next step on the air moves so. NULL, or the defaults: there is no wind, and nothing is paid for it.
+/// From the next step on the air moves so. NULL, or the defaults: there is no wind, and nothing is paid for it. Gusts go
+/// on from where they are, whatever else of it changes; hair_reset begins them anew. redblack has no wind.
 HAIR_API hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind);
 
 typedef enum hair_shape {
@@ -626,8 +654,8 @@ HAIR_API hair_result hair_reset(hair_instance* hair);
 /// Move the head without moving the hair against it: shape and motion go along, nothing swings.
 HAIR_API hair_result hair_teleport(hair_instance* hair, const float transform[16]);
 
-/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, solids, ties, air, the
-/// time since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
+/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, solids, ties, air, how
+/// far gusts have gone, the time since the last substep; of forms only a mark. `size` becomes the bytes it takes, also when `capacity` is too
 /// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
 

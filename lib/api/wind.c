@@ -1,11 +1,59 @@
 // wind.c - the public call that sets the wind.
 #include "lib/api/api.h"
 
+#include <string.h>
+
+static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
+                                double least, double most)
+{
+    if ((double)value >= least && (double)value <= most) return HAIR_OK; // Written so that NaN fails too.
+    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
+                     "%s: hair_wind.sources[%u].%s is %g, not in [%g, %g]", hair->label, i, name,
+                     (double)value, least, most);
+}
+
+static hair_result check_source(const hair_instance* hair, uint32_t i, const hair_wind_source* source)
+{
+    hair_result result = check_number(hair, i, "speed", source->speed, -1000, 1000);
+    if (!result) result = check_number(hair, i, "radius", source->radius, 0.001, 100);
+    for (int k = 0; k < 3 && !result; ++k) {
+        result = check_number(hair, i, "position", source->position[k], -1e9, 1e9);
+        if (!result) result = check_number(hair, i, "direction", source->direction[k], -1e6, 1e6);
+    }
+    return result;
+}
+
+// Binding what is no texture would raise the host's error flag.
+static hair_result check_texture(const hair_instance* hair, GLuint texture)
+{
+    const struct hair_gl* gl     = &hair->context->gl;
+    GLint                 target = 0;
+    hair_result           result = hair_check_current(hair->context);
+    if (result) return result;
+    if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    if (target == GL_TEXTURE_3D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.texture is %u, not a 3D texture",
+                     hair->label, texture);
+}
+
 hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_wind   own;
-    hair_result result = HAIR_TAKE_OR_DEFAULT(&hair->context->host, hair_wind, wind, &own);
-    if (!result) hair->sim.wind = own;
-    return result;
+    const hair_host* host = &hair->context->host;
+    hair_wind        own;
+    hair_wind_source sources[HAIR_WIND_SOURCES];
+    hair_result      result = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
+    if (!result && own.source_count && !own.sources)
+        result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
+                           hair->label, own.source_count);
+    for (uint32_t i = 0; !result && i < own.source_count; ++i) {
+        sources[i] = own.sources[i];
+        result     = check_source(hair, i, &sources[i]);
+    }
+    if (!result && own.texture) result = check_texture(hair, own.texture);
+    if (result) return result;
+    memcpy(hair->sim.air.source, sources, own.source_count * sizeof *sources);
+    own.sources    = hair->sim.air.source;
+    hair->sim.wind = own;
+    return HAIR_OK;
 }

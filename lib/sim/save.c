@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 9 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 10 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -368,6 +368,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_pose(c, "head at the end of the last substep", &sim->last_after, MOST_PAST);
     walk_pose(c, "head at the last step", &sim->at_step, MOST_PAST);
     walk_pose(c, "head", &sim->head, MOST_PLACE);
+    for (int k = 0; k < 3; ++k) walk_double(c, "way of gusts", &sim->air.moved[k], -MOST_PAST, MOST_PAST);
     walk_solids(c, "number of solids", &sim->solids, &sim->solids.now, &c->now);
     walk_solids(c, "number of solids at the last step", &sim->solids, &sim->solids.before, &c->before);
     walk_ties(c, &sim->ties);

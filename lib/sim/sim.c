@@ -27,6 +27,7 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
     uint32_t met = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
     uint32_t drawn = sim->ties.count ? 40 : 0; // By ties, more often.
+    if (hair_wind_is_on(&sim->wind)) drawn += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (sim->contacts.any) met = 44 * (cells->rounds + 20) + 3 * cells->longest, look = 0;
     if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + look;
     return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + look;
@@ -85,6 +86,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
+    sim->air.ball      = groom->skull;
     sim->skin.seats    = hair_seats_hold(groom->seats);
     size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
     hair_result result = HAIR_OK;
@@ -251,6 +253,19 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
 }
 
+// `count` substeps of the parameters.
+static void write_air(struct hair_sim* sim, const struct hair_step_params* params, uint32_t count)
+{
+    const struct hair_air_now now = {.wind     = &sim->wind,
+                                     .physics  = &sim->physics,
+                                     .solids   = &sim->solids,
+                                     .step     = params,
+                                     .head     = sim->last_after,
+                                     .substeps = count,
+                                     .substep  = sim->substep};
+    hair_air_blow(&sim->air, sim->gl, &now);
+}
+
 // `total` substeps, after which sim->left is what is left of the step. `again`: it has begun already.
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
@@ -287,7 +302,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (sim->ties.count) hair_ties_bind(sim);
         if (blown) hair_fluid_bind(&sim->blow.fluid);
         if (blown) sim->air.box = hair_blow_box(sim);
-        if (sim->air.params) hair_air_bind(&sim->air, sim->gl, &sim->wind, &sim->physics);
+        if (sim->air.params) write_air(sim, &params, count);
         hair_gl_run(sim->gl, pass, groups);
         if (crowd) hair_crowd_count(sim, count);
         if (blown) hair_blow_count(sim, count);
@@ -381,6 +396,7 @@ void hair_sim_reset(struct hair_sim* sim)
     settle(sim);
     hair_sleep_stir(sim);
     sim->struck = 0;
+    for (int k = 0; k < 3; ++k) sim->air.moved[k] = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
     if (hair_skin_is_on(sim)) {

@@ -1,11 +1,46 @@
 // air.c - what the solvers read of the wind.
 #include "lib/wind/air.h"
 
+#include "lib/wind/gusts.h"
+
+#include <string.h>
+
 #define PI 3.14159265358979
+#define LARGEST 0.5f // m: radius of a solid that air is taken to go around as around a ball
+
+// How the texture of gusts lies in the world. No axis of the one is near an axis, or a diagonal, of the other: so what the
+// wind brings along any axis of the world is far in the texture from what it brought before.
+static const hair_quat lie = {0.2896f, 0.4133f, 0.1497f, 0.8501f};
+
+static int blows(const hair_wind* wind)
+{
+    return wind->velocity[0] != 0 || wind->velocity[1] != 0 || wind->velocity[2] != 0;
+}
 
 int hair_wind_is_on(const hair_wind* wind)
 {
-    return wind->velocity[0] != 0 || wind->velocity[1] != 0 || wind->velocity[2] != 0;
+    int on = blows(wind) || wind->texture;
+    for (uint32_t i = 0; i < wind->source_count; ++i) on = on || wind->sources[i].speed != 0;
+    return on;
+}
+
+static hair_result need_gusts(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
+{
+    static const uint32_t size[3] = {HAIR_GUST_NODES, HAIR_GUST_NODES, HAIR_GUST_NODES};
+    int                   wanted  = wind->gusts > 0 && blows(wind);
+    if (air->gusts && (!wanted || air->gust_seed != wind->seed)) hair_gl_free_texture(gl, &air->gusts);
+    if (!wanted || air->gusts) return HAIR_OK;
+    float* texels = hair_gusts_make(&gl->host, wind->seed);
+    if (!texels) return hair_fail_memory(&gl->host, "gusts");
+    hair_result result = hair_gl_texture_3d(gl, "hair gusts", GL_RGBA16F, size, GL_LINEAR, &air->gusts);
+    if (!result) {
+        static const GLenum wraps[3] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
+        for (int i = 0; i < 3; ++i) gl->TextureParameteri(air->gusts, wraps[i], GL_REPEAT);
+        hair_gl_fill_texture_3d(gl, air->gusts, size, texels);
+        air->gust_seed = wind->seed;
+    }
+    hair_free(&gl->host, texels);
+    return result;
 }
 
 hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
@@ -14,26 +49,158 @@ hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_w
         hair_air_free(air, gl);
         return HAIR_OK;
     }
-    if (air->params) return HAIR_OK;
-    return hair_gl_uniform(gl, "hair wind", sizeof(struct hair_wind_params), &air->params);
+    hair_result result = need_gusts(air, gl, wind);
+    if (!result && !air->params)
+        result = hair_gl_uniform(gl, "hair wind", sizeof(struct hair_wind_params), &air->params);
+    return result;
 }
 
 void hair_air_free(struct hair_air* air, struct hair_gl* gl)
 {
     hair_gl_free_buffer(gl, &air->params);
+    hair_gl_free_texture(gl, &air->gusts);
 }
 
-void hair_air_bind(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind,
-                   const hair_physics* physics)
+// Balls -----------------------------------------------------------------------------------------------------
+
+// Into at most HAIR_WIND_BALLS, the largest first, of which none has its centre in a larger one.
+static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius)
 {
-    double radius                  = (double)physics->fiber_radius,
-           mass                    = (double)physics->fiber_density * PI * radius * radius;
+    uint32_t place = 0;
+    for (; place < params->balls && params->ball[place].w >= radius; ++place) {
+        const hair_vec4* larger = &params->ball[place];
+        if (hair_distance(at, hair_v3(larger->x, larger->y, larger->z)) < larger->w) return;
+    }
+    if (place == HAIR_WIND_BALLS) return;
+    if (params->balls < HAIR_WIND_BALLS) ++params->balls;
+    for (uint32_t i = params->balls - 1; i > place; --i) params->ball[i] = params->ball[i - 1];
+    params->ball[place] = (hair_vec4){at.x, at.y, at.z, radius};
+}
+
+// Of about as much face to the wind: the two larger of its half sides.
+static void add_solid(struct hair_wind_params* params, const hair_solid* solid, const struct hair_pose* head)
+{
+    hair_vec3        middle, half;
+    const float*     q    = solid->rotation;
+    hair_quat        turn = {q[0], q[1], q[2], q[3]};
+    struct hair_pose at   = {
+          {(double)solid->position[0], (double)solid->position[1], (double)solid->position[2]}, turn};
+    if (solid->shape == HAIR_SHAPE_PLANE || (solid->shape == HAIR_SHAPE_FORM && !solid->form)) return;
+    hair_solid_extent(solid, &middle, &half);
+    float least  = fminf(half.x, fminf(half.y, half.z));
+    float radius = sqrtf(half.x * half.y * half.z / fmaxf(least, 1e-6f)) + solid->rounding;
+    if (!(radius > 0.01f && radius <= LARGEST)) return;
+    hair_vec3 from = hair_add(hair_pose_offset(&at, head), hair_rotate(turn, middle));
+    if (hair_dot(from, from) < 25) add_ball(params, from, radius); // Within 5 m.
+}
+
+static void write_balls(const struct hair_air* air, const struct hair_air_now* now,
+                        struct hair_wind_params* params)
+{
+    const hair_vec4* own = &air->ball;
+    if (!(now->wind->shelter > 0)) return;
+    if (own->w > 0)
+        add_ball(params, hair_rotate(now->head.rotation, hair_v3(own->x, own->y, own->z)), own->w);
+    for (uint32_t i = 0; i < now->solids->now.count; ++i)
+        add_solid(params, &now->solids->now.solid[i], &now->head);
+}
+
+// The rest --------------------------------------------------------------------------------------------------
+
+static void write_sources(const struct hair_air_now* now, struct hair_wind_params* params)
+{
+    for (uint32_t i = 0; i < now->wind->source_count; ++i) {
+        const hair_wind_source* from   = &now->wind->sources[i];
+        hair_vec3               way    = hair_load3(from->direction);
+        float                   length = hair_length(way);
+        way                            = length > 0 ? hair_scale(way, 1 / length) : hair_v3(0, 0, 0);
+        params->source[i] =
+            (hair_vec4){(float)((double)from->position[0] - now->head.position[0]),
+                        (float)((double)from->position[1] - now->head.position[1]),
+                        (float)((double)from->position[2] - now->head.position[2]), from->radius};
+        params->jet[i] = (hair_vec4){way.x, way.y, way.z, from->speed};
+    }
+    params->sources = now->wind->source_count;
+}
+
+// Gusts at the end of the dispatch, in doubles: the wind may have carried them far.
+static void write_gusts(struct hair_air* air, const struct hair_air_now* now, struct hair_wind_params* params)
+{
+    double side = HAIR_GUST_LENGTHS * (double)now->wind->gust_length, at[3], place[3];
+    double r[9], x = (double)lie.x, y = (double)lie.y, z = (double)lie.z, w = (double)lie.w;
+    double n = x * x + y * y + z * z + w * w, speed = 0;
+    r[0] = 1 - 2 * (y * y + z * z) / n, r[1] = 2 * (x * y - w * z) / n, r[2] = 2 * (x * z + w * y) / n;
+    r[3] = 2 * (x * y + w * z) / n, r[4] = 1 - 2 * (x * x + z * z) / n, r[5] = 2 * (y * z - w * x) / n;
+    r[6] = 2 * (x * z - w * y) / n, r[7] = 2 * (y * z + w * x) / n, r[8] = 1 - 2 * (x * x + y * y) / n;
+    for (int k = 0; k < 3; ++k) {
+        double u = (double)now->wind->velocity[k];
+        air->moved[k] += u * now->substep * now->substeps;
+        at[k] = now->head.position[k] - air->moved[k];
+        speed += u * u;
+    }
+    for (int k = 0; k < 3; ++k) {
+        place[k] = (r[3 * k] * at[0] + r[3 * k + 1] * at[1] + r[3 * k + 2] * at[2]) / side;
+        place[k] -= floor(place[k]);
+    }
+    hair_quat q        = hair_quat_normalize(lie);
+    params->gust_turn  = (hair_vec4){q.x, q.y, q.z, q.w};
+    params->gust_from  = (hair_vec4){(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)};
+    params->velocity.w = air->gusts ? (float)(sqrt(speed) * (double)now->wind->gusts) : 0;
+}
+
+// From the head's origin at the end of the dispatch: the transform after a shift by it.
+static void write_volume(const struct hair_gl* gl, const struct hair_air_now* now,
+                         struct hair_wind_params* params)
+{
+    const float* m      = now->wind->texture_transform;
+    GLint        target = 0;
+    if (now->wind->texture && gl->IsTexture(now->wind->texture))
+        gl->GetTextureParameteriv(now->wind->texture, GL_TEXTURE_TARGET, &target);
+    params->volume = target == GL_TEXTURE_3D;
+    double shift[3];
+    for (int k = 0; k < 3; ++k) {
+        shift[k] = (double)m[12 + k];
+        for (int j = 0; j < 3; ++j) shift[k] += (double)m[4 * j + k] * now->head.position[j];
+    }
+    for (int j = 0; j < 3; ++j)
+        params->to_volume.column[j] = (hair_vec4){m[4 * j], m[4 * j + 1], m[4 * j + 2], 0};
+    params->to_volume.column[3] = (hair_vec4){(float)shift[0], (float)shift[1], (float)shift[2], 1};
+}
+
+static void write_starts(const struct hair_air_now* now, struct hair_wind_params* params)
+{
+    hair_vec3 origin = {0, 0, 0};
+    for (uint32_t i = now->substeps; i-- > 0;) {
+        hair_vec4 moved = now->step->substep[i].displacement;
+        origin          = hair_sub(origin, hair_v3(moved.x, moved.y, moved.z));
+        params->at[i] =
+            (hair_vec4){origin.x, origin.y, origin.z, (float)(-now->substep * (now->substeps - i))};
+    }
+}
+
+void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_air_now* now)
+{
+    const hair_wind*    wind    = now->wind;
+    const hair_physics* physics = now->physics;
+    double              radius  = (double)physics->fiber_radius;
+    double              mass    = (double)physics->fiber_density * PI * radius * radius;
+
     struct hair_wind_params params = {
-        .box       = air->box,
         .velocity  = {wind->velocity[0], wind->velocity[1], wind->velocity[2], 0},
+        .box       = air->box,
         .per_speed = (float)(2 * radius * (double)wind->density / (double)wind->viscosity),
         .viscous   = (float)((double)physics->drag * (double)wind->viscosity / mass),
+        .shelter   = wind->shelter,
     };
+    write_gusts(air, now, &params);
+    if (blows(wind) && air->box.w == 0) write_balls(air, now, &params);
+    write_sources(now, &params);
+    write_volume(gl, now, &params);
+    write_starts(now, &params);
     hair_gl_write_uniform(gl, air->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &air->params);
+    gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
+    gl->BindSampler(HAIR_UNIT_GUST, 0);
+    gl->BindTextureUnit(HAIR_UNIT_VOLUME, params.volume ? wind->texture : 0);
+    gl->BindSampler(HAIR_UNIT_VOLUME, 0);
 }
