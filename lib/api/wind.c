@@ -41,8 +41,8 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
     hair_wind        own;
-    hair_wind_source sources[HAIR_WIND_SOURCES];
-    hair_result      result = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
+    hair_wind_source sources[HAIR_WIND_SOURCES] = {0};
+    hair_result      result                     = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
     if (!result && own.source_count && !own.sources)
         result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
                            hair->label, own.source_count);
@@ -52,8 +52,10 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     }
     if (!result && own.texture) result = check_texture(hair, own.texture);
     if (result) return result;
+    if (memcmp(hair->sim.air.source, sources, own.source_count * sizeof *sources) != 0)
+        hair_sleep_stir(&hair->sim);
     memcpy(hair->sim.air.source, sources, own.source_count * sizeof *sources);
-    own.sources    = hair->sim.air.source;
+    own.sources    = own.source_count ? hair->sim.air.source : NULL;
     hair->sim.wind = own;
     return HAIR_OK;
 }

@@ -110,8 +110,10 @@ int hair_sleep_is_stirred(const struct hair_sim* sim)
     if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return 1;
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return 1;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
-    if (sim->wind.model != HAIR_WIND_AMBIENT && hair_wind_is_on(&sim->wind))
-        return 1; // Air moves of its own.
+    if (hair_wind_is_unsteady(&sim->wind)) return 1;
+    // Air goes around them, however far they are.
+    if (sim->solids.changed && sim->air.params && sim->solids.now.count + sim->solids.before.count > 0)
+        return 1;
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
     return !(far <= HEAD_SHARE * sim->physics.sleep) || has_solid_near(sim);
 }

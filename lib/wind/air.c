@@ -24,6 +24,11 @@ int hair_wind_is_on(const hair_wind* wind)
     return on;
 }
 
+int hair_wind_is_unsteady(const hair_wind* wind)
+{
+    return wind->texture || (wind->gusts > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
+}
+
 static hair_result need_gusts(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
 {
     static const uint32_t size[3] = {HAIR_GUST_NODES, HAIR_GUST_NODES, HAIR_GUST_NODES};

@@ -27,6 +27,7 @@ struct hair_air_now {
 };
 
 int hair_wind_is_on(const hair_wind* wind);
+int hair_wind_is_unsteady(const hair_wind* wind); // 1: air changes though nothing is set anew
 
 // What such a wind takes; nothing if there is none.
 hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);
