@@ -20,6 +20,13 @@ ROW("Solids from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
         "tools/scenes/bullet.json --show hair,head,solids")
 
+ROW("Wind with gusts, half a second apart, and what a lock feels of it (drag, a multiple of a single hair's)")
+PICTURE("Wind of 4 m/s from the left", "--scene wind --frames 60:61")
+PICTURE("A gust later", "--scene wind --frames 90:91")
+PICTURE("drag=0.03", "--scene wind --set drag=0.03")
+PICTURE("drag=0.4", "--scene wind --set drag=0.4")
+PICTURE("A storm of 25 m/s", "--scene wind --set wind.x=23 --set wind.z=-9")
+
 ROW("Three ways to make followers of the same guides")
 PICTURE("Single strand: offsets from one guide (interpolation=single)", "--scene demo --set interpolation=single")
 PICTURE("Multi strand: between three guides (interpolation=multi)", "--scene demo --set interpolation=multi")

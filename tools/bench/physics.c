@@ -3,11 +3,10 @@
 
 #include <math.h>
 
-static const char* const columns[] = {"case",     "method",         "vertices",
-                                      "gamma",    "angle",          "mode",
-                                      "rate",     "substeps",       "expected",
-                                      "measured", "relative_error", "limit",
-                                      "pass",     "reference",      BENCH_MATERIAL_COLUMNS,
+static const char* const columns[] = {"case",     "method",   "vertices",  "gamma",
+                                      "angle",    "mode",     "reynolds",  "rate",
+                                      "substeps", "expected", "measured",  "relative_error",
+                                      "limit",    "pass",     "reference", BENCH_MATERIAL_COLUMNS,
                                       NULL};
 
 const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
@@ -42,6 +41,7 @@ static void run_suite(struct bench* bench)
     bench_energy(bench);
     bench_frame_rates(bench);
     bench_vertex_counts(bench);
+    bench_drag(bench);
 }
 
 const struct bench_suite bench_physics = {"physics", "hair against what is known of rods and chains", columns,

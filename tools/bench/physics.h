@@ -15,7 +15,7 @@ extern const hair_solver bench_rod_solvers[BENCH_RODS];
 json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
                           double limit, const char* reference);
 
-// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c: the cases.
+// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c: the cases.
 void bench_cantilever(struct bench* bench);
 void bench_catenary(struct bench* bench);
 void bench_bend_twist(struct bench* bench);
@@ -26,5 +26,6 @@ void bench_order(struct bench* bench);
 void bench_energy(struct bench* bench);
 void bench_frame_rates(struct bench* bench);
 void bench_vertex_counts(struct bench* bench);
+void bench_drag(struct bench* bench);
 
 #endif

@@ -15,8 +15,12 @@ const struct hair_builtin hair_builtin_scenes[] = {
              " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.56, 0.0], 'fov': 27}}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
-            " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, 'guides': 1000, 'iterations': 8, "
+            " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, "
+            "'guides': 1000, 'iterations': 8, "
             "'pull_root': 8, 'pull_tip': 6}}"},
+    {"wind", "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 180, 'picture': 60,"
+             " 'camera': {'eye': [0.5, 1.62, 1.25], 'target': [0.1, 1.5, 0.0], 'fov': 27},"
+             " 'settings': {'wind.x': 4, 'wind.z': -1.5, 'wind.gusts': 0.45, 'wind.gust_length': 0.7}}"},
     {NULL, NULL},
 };
 
