@@ -26,7 +26,8 @@ int hair_wind_is_on(const hair_wind* wind)
 
 int hair_wind_is_unsteady(const hair_wind* wind)
 {
-    return wind->texture || (wind->gusts > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
+    int moves = wind->texture || (wind->gusts > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
+    return moves && hair_wind_is_on(wind);
 }
 
 static hair_result need_gusts(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
