@@ -84,10 +84,10 @@ for header in "$prefix"/usr/include/hair/*.h; do
     done
 done
 
-# The README shows this very program.
+# The first program of the README is this very one.
 readme=$here/../../README.md
 if [ -e "$readme" ]; then
-    awk '/^```c$/ {on = 1; next} /^```$/ {on = 0} on' "$readme" | diff -u "$here/hello.c" - >"$out/readme.diff" || {
+    awk '/^```c$/ {on = 1; next} /^```$/ {if (on) exit} on' "$readme" | diff -u "$here/hello.c" - >"$out/readme.diff" || {
         cat "$out/readme.diff"
         fail "README.md does not show tests/consumer/hello.c"
     }

@@ -204,7 +204,7 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     hair_test_ok(f->test, hair_gl_storage(gl, "tangents", count * sizeof *got, NULL, &buffer));
     hair_draw_write_params(draw, NULL, NULL, &params);
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, &f->hair->smooth, 0);
+    hair_draw_bind(draw, &f->hair->smooth);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
     glUseProgram(program);
     glDispatchCompute((count + 63) / 64, 1, 1);
