@@ -41,7 +41,7 @@ BUL   := $(call objects,lib/bullet/*.cpp)
 REF   := $(call objects,lib/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
-TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/*_test.c tests/gpu/*_test.c tests/golden/*_test.c))
+TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/unit/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
 
 NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
@@ -185,9 +185,11 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
+# As many at once as there are cores: most of a test's time is one thread's, which compiles shaders.
 run-tests: $(TESTS)
-	@failed=; for t in $(TESTS); do case $$t in *$(filter)*) echo "== $$t"; HAIR_TEST=required $$t || failed="$$failed $$t";; esac; done; \
-	  [ -z "$$failed" ] || { echo "failed:$$failed"; exit 1; }
+	@rm -f $(B)/failed; printf '%s\n' $(foreach t,$(TESTS),$(if $(findstring /$(filter),/$t)$(findstring $(filter),$t),$t)) | \
+	  xargs -r -n 1 -P $(JOBS) sh -c 'said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; printf "== %s\n%s\n" "$$0" "$$said"'; \
+	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
 # As the library compiles them, but for the smaller of the four sizes of a work group; of the solvers' programs, which are
 # made for what there is of eight things, those with at most two or nearly all of them.
