@@ -205,8 +205,12 @@ void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_a
     write_starts(now, &params);
     hair_gl_write_uniform(gl, air->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &air->params);
-    gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
-    gl->BindSampler(HAIR_UNIT_GUST, 0);
-    gl->BindTextureUnit(HAIR_UNIT_VOLUME, params.volume ? wind->texture : 0);
-    gl->BindSampler(HAIR_UNIT_VOLUME, 0);
+    if (air->gusts) { // None would take what a host has of other kinds off the unit.
+        gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
+        gl->BindSampler(HAIR_UNIT_GUST, 0);
+    }
+    if (params.volume) {
+        gl->BindTextureUnit(HAIR_UNIT_VOLUME, wind->texture);
+        gl->BindSampler(HAIR_UNIT_VOLUME, 0);
+    }
 }
