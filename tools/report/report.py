@@ -84,7 +84,7 @@ def plot(panels, style):
     panels = [p for p in panels if any(p[1].values())]
     if not panels:
         return None
-    names = sorted({name for _, series in panels for name in series}, key=style.get("order", str))
+    names = sorted({name for _, series in panels for name in series})
     columns = 1 if max(map(len, names)) > 24 else 2
     key = 0.2 * -(-len(names) // columns) + 0.2
     # One under the other, so that they can be read on a telephone; what marks mean below.
