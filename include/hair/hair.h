@@ -299,7 +299,9 @@ typedef struct hair_physics {
     float rate; ///< [0.0625, 1]. Default 1.
     /// Hair that is this near to where it comes to rest sleeps: hair_step then calls no OpenGL and costs next to nothing.
     /// It wakes when the head moves by a quarter of this, and when physics, wind, ties, a skinned scalp or solids within
-    /// reach change; in wind that moves of its own it stays awake. At 0 it never sleeps.
+    /// reach change; in wind that moves of its own it stays awake. At 0 it never sleeps. It falls asleep at the same step in
+    /// every run unless the GPU is behind by four steps and 0.1 s, as no GPU is whose pictures are shown: that is not waited
+    /// for, and hair then falls asleep later.
     float sleep; ///< m. [0, 0.01]. Default 1e-4.
 } hair_physics;
 HAIR_DESC(hair_physics)
@@ -533,8 +535,9 @@ typedef enum hair_projection {
 typedef struct hair_wind_source {
     float position[3];  ///< World. m. [-1e9, 1e9]. Default 0.
     float direction[3]; ///< Of a jet, any length. 0: it blows to all sides. [-1e6, 1e6]. Default 0.
-    float speed;        ///< At its mouth; of a source to all sides below 0: it draws in. m/s. [-1000, 1000]. Default 5.
-    float radius;       ///< Of the mouth. m. [0.001, 100]. Default 0.05.
+    float
+        speed; ///< At its mouth; of a source to all sides below 0: it draws in. m/s. [-1000, 1000]. Default 5.
+    float radius; ///< Of the mouth. m. [0.001, 100]. Default 0.05.
 } hair_wind_source;
 
 static inline hair_wind_source hair_wind_source_default(void)
@@ -553,13 +556,13 @@ typedef struct hair_wind {
     float           density;     ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
     float           viscosity;   ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.
     uint32_t resolution; ///< Of the fluid: cells along a side, up to a multiple of 16. [16, 128]. Default 32.
-    float    box;        ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
+    float    box; ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
     hair_projection projection; ///< Of the fluid. Default HAIR_PROJECTION_MULTIGRID.
-    uint32_t        cycles; ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
+    uint32_t        cycles;     ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
     /// Gusts are turbulence, of the same statistics every way, that the wind carries along: von Karman's spectrum.
-    float    gusts; ///< Standard deviation of each component, as a share of the wind's speed. [0, 2]. Default 0.
-    float    gust_length; ///< Integral length scale: gusts are some times as long. m. [0.1, 1000]. Default 1.
-    uint32_t seed;        ///< Of gusts. Default 1.
+    float gusts; ///< Standard deviation of each component, as a share of the wind's speed. [0, 2]. Default 0.
+    float gust_length; ///< Integral length scale: gusts are some times as long. m. [0.1, 1000]. Default 1.
+    uint32_t seed;     ///< Of gusts. Default 1.
     /// How much the head, as far as its place is told from roots, and the largest solids of up to 0.5 m around it divert
     /// wind and gusts, as balls: before them by potential flow, behind by a wake.
     float                   shelter;      ///< [0, 1]. Default 1.
@@ -644,7 +647,8 @@ HAIR_API hair_result hair_set_ties(hair_instance* hair, const hair_tie* ties, ui
 HAIR_API hair_result hair_get_reach(const hair_instance* hair, float lower[3], float upper[3]);
 
 /// Advance by `dt` seconds, in substeps of the desc's fixed length: the motion does not depend on the frame
-/// rate, and what is drawn is interpolated to now. The same inputs on the same driver give the same bits.
+/// rate, and what is drawn is interpolated to now. The same inputs on the same driver give the same bits, but for what
+/// hair_physics.sleep says. No step waits for the GPU.
 /// dt >= 0; 0 does nothing; beyond max_dt time slows, and the log says so once.
 HAIR_API hair_result hair_step(hair_instance* hair, float dt);
 

@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 10 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 11 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -318,6 +318,9 @@ static void walk_sleep(struct cursor* c, struct hair_sim* sim)
     walk_flag(c, "whether a look is under way", &sleep->waits);
     walk_uint(c, "number of steps since a look", &sleep->steps, UINT32_MAX);
     walk_double(c, "time since a look", &sleep->time, 0, MOST_CALM);
+    walk_double(c, "time when a round of looks began", &sleep->since, -MOST_CALM, MOST_CALM);
+    walk_double(c, "time that a round of looks took", &sleep->span, 0, 2 * MOST_CALM);
+    walk_double(c, "time that the round before took", &sleep->span_before, 0, 2 * MOST_CALM);
     walk_pose(c, "head at rest", &sleep->head, MOST_PAST);
     if (c->read && sleep->looks && !c->result) c->result = hair_sleep_make(sim);
     if (sleep->looks && !c->result)

@@ -12,6 +12,8 @@
 #define LEAST_STEPS 4   // from a look until its answer is used: a GPU is three frames behind at most,
 #define LEAST_TIME 0.1  // s: of which each may have several steps
 #define NEARLY_ALL 0.95 // q: 19 times d is left
+#define LIKE                                                                                                 \
+    0.75 // of a round is the least that one after it takes if they can be compared: answers may be late
 #define SPEED_SPAN 0.03 // s: in which what moves as fast as was seen gets no farther than it may
 #define SHARE                                                                                                \
     0.5f // of what may be left. The head may go a quarter; the rest is for what is seen between looks
@@ -20,7 +22,7 @@
 #define AROUND                                                                                               \
     0.1f // m: farther from hair no solid matters to it: FIT and MOST_GIVE of contacts.c, and its margin
 #define MOST_GROUPS 256
-#define LONGEST_WAIT 1000000000u // ns
+#define LONGEST_WAIT 1000000000u // ns: of who saves, never of a step
 
 // s: until guides are looked at for the first time, then from a look to the next. Not in step with each other, so that
 // whatever swings is not met at the same place time after time.
@@ -179,18 +181,25 @@ static void look(struct hair_sim* sim)
     if (!sleep->waits) {
         sleep->now    = (struct hair_stirring){0, 0};
         sleep->before = -1;
+        sleep->since  = sleep->calm;
         drop_answer(sim);
+    }
+    if (params.anchors) {
+        sleep->span_before = sleep->span;
+        sleep->span        = sleep->calm - sleep->since;
+        sleep->since       = sleep->calm;
     }
 }
 
-// The answer, waited for if it is not there. What cannot be had is that all is in motion.
-static void read_answer(struct hair_sim* sim)
+// Take the answer, if it is there after no longer than `wait`, ns. What cannot be had is that all is in motion.
+static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;
     if (sleep->known) return;
     GLenum status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
-    if (status == GL_TIMEOUT_EXPIRED)
-        status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, LONGEST_WAIT);
+    if (status == GL_TIMEOUT_EXPIRED && wait > 0)
+        status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
+    if (status == GL_TIMEOUT_EXPIRED && wait == 0) return;
     const float* seen = sleep->mapped + 2 * sleep->turn;
     int          came = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
     sleep->answer     = came ? (struct hair_stirring){seen[0], seen[1]} : (struct hair_stirring){1e9f, 1e9f};
@@ -202,7 +211,7 @@ static int has_come_to_rest(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
     float                    may   = SHARE * sim->physics.sleep;
-    if (sleep->before < 0) return 0;
+    if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return 0;
     double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
     return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
 }
@@ -241,8 +250,8 @@ void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
     ++sleep->steps;
     sleep->time += dt;
     if (sleep->waits && sleep->steps >= LEAST_STEPS && sleep->time >= LEAST_TIME) {
-        read_answer(sim);
-        use_answer(sim);
+        read_answer(sim, 0);
+        if (sleep->known) use_answer(sim);
     }
     if (!looks || sleep->waits || sleep->asleep) return;
     sleep->turn = 1 - sleep->turn;
@@ -264,7 +273,7 @@ void hair_sleep_settle(struct hair_sim* sim)
         calm_down(sim);
         hair_sleep_stir(sim);
     }
-    if (sim->sleep.waits) read_answer(sim);
+    if (sim->sleep.waits) read_answer(sim, LONGEST_WAIT);
 }
 
 void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was)

@@ -1,8 +1,10 @@
 // sleep.h - hair that has come to rest sleeps: nothing of it is simulated until something stirs it.
 //
 // Once nothing has stirred hair for a while, guides are looked at now and then: how far they are from where they were, and
-// how fast. The answer is used some steps after it was asked for, and never sooner, so that nobody waits for it and yet
-// it does not matter when the GPU gave it: hair sleeps at the same step in every run.
+// how fast. The answer is used some steps after it was asked for, and never sooner, so that it does not matter when the GPU
+// gave it: hair sleeps at the same step in every run. A GPU that is farther behind than that, as it may be when nobody
+// shows what is stepped, is not waited for either: hair stays awake until the answer is there, and is not looked at
+// again before.
 #ifndef HAIR_SIM_SLEEP_H
 #define HAIR_SIM_SLEEP_H
 
@@ -17,11 +19,13 @@ struct hair_stirring {
 
 struct hair_sleep {
     int                  asleep;
-    double               calm;   // s: simulated since something last stirred hair
-    double               due;    // at which `calm` guides are looked at next
-    uint32_t             looks;  // since then
-    struct hair_stirring now;    // of this round of looks,
-    float                before; // how far in the one before, m; or below 0
+    double               calm;              // s: simulated since something last stirred hair
+    double               due;               // at which `calm` guides are looked at next
+    uint32_t             looks;             // since then
+    struct hair_stirring now;               // of this round of looks,
+    float                before;            // how far in the one before, m; or below 0
+    double               since;             // `calm` when the round under way began,
+    double               span, span_before; // s: how long the last took, and the one before it
     // A look that is under way.
     int                  waits, known; // and that it has been answered:
     struct hair_stirring answer;

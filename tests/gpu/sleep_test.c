@@ -296,6 +296,37 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
     hair_context_destroy(context);
 }
 
+// A round of looks that an answer makes longer is one that the next may not be compared with: what slows down has made most
+// of its way at its beginning.
+static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** state)
+{
+    struct hair_test* test    = *state;
+    hair_context*     context = make_context(test);
+    hair_instance*    hair[2];
+    uint32_t          asleep[2] = {0, 0}, frame = 0;
+    for (int i = 0; i < 2; ++i) {
+        hair[i] = make(test, context, HAIR_SOLVER_DIRECT, 2e-3f);
+        turn_head(test, hair[i], 0.3f, 0);
+    }
+    hair_test_trace_clear();
+    for (; frame < 4 * FPS; ++frame) {
+        uint32_t looks = hair[1]->sim.sleep.looks;
+        for (int i = 0; i < 2; ++i) {
+            hair_test_trace_hold(i && frame > FPS / 2 && frame < 3 * FPS / 2);
+            step(test, hair[i]);
+            if (!asleep[i] && hair[i]->sim.sleep.asleep) asleep[i] = frame;
+        }
+        if (frame > FPS && frame < 3 * FPS / 2) assert_int_equal(hair[1]->sim.sleep.looks, looks);
+    }
+    if (hair_test_trace_waits()) fail_msg("%u waits: %s", hair_test_trace_waits(), hair_test_trace_list());
+    float apart = farthest(test, hair[0], hair[1]);
+    print_message("    asleep after %u and %u frames, %.1e m apart\n", asleep[0], asleep[1], (double)apart);
+    assert_true(asleep[0] > 0 && asleep[1] > asleep[0]);
+    assert_true(apart <= 2e-3f);
+    for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
+    hair_context_destroy(context);
+}
+
 static void what_is_saved_falls_asleep_as_it_would_have(void** state)
 {
     static struct hair_test_seen straight, loaded;
@@ -353,6 +384,7 @@ int main(void)
         HAIR_TEST(hair_that_wakes_is_within_the_bound_of_hair_that_never_slept),
         HAIR_TEST(what_moves_hair_wakes_it_and_nothing_else_does),
         HAIR_TEST(hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done),
+        HAIR_TEST(a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later),
         HAIR_TEST(what_is_saved_falls_asleep_as_it_would_have),
         HAIR_TEST(hair_that_swings_and_hair_that_may_not_never_sleep),
     };

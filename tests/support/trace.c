@@ -16,6 +16,7 @@ enum function {
 };
 
 static uint32_t counts[CALLS], waits;
+static int      is_behind;
 static void*    reals[CALLS];
 
 static const char* const names[] = {
@@ -76,6 +77,7 @@ static const char* const names[] = {
 static GLenum APIENTRY ask_sync(GLsync sync, GLbitfield flags, GLuint64 timeout)
 {
     if (timeout > 0) ++waits;
+    if (timeout == 0 && is_behind) return GL_TIMEOUT_EXPIRED;
     return call_ClientWaitSync(sync, flags, timeout);
 }
 
@@ -129,6 +131,11 @@ void hair_test_trace_clear(void)
 {
     memset(counts, 0, sizeof counts);
     waits = 0;
+}
+
+void hair_test_trace_hold(int behind)
+{
+    is_behind = behind;
 }
 
 uint32_t hair_test_trace_count(const char* begin)

@@ -12,6 +12,9 @@ void hair_test_trace_clear(void);
 // Calls since then: of all functions whose names begin so, "" being all of them.
 uint32_t hair_test_trace_count(const char* begin);
 
+// Whether the GPU is behind from now on, by what it answers who asks without waiting: no fence has been passed yet.
+void hair_test_trace_hold(int behind);
+
 // Of those, calls that may wait for the GPU: that read what it writes, or wait for it to come to somewhere.
 uint32_t hair_test_trace_waits(void);
 
