@@ -233,6 +233,18 @@ typedef enum hair_gl_state {
     ///< 2D textures, samplers of units 12-16, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
+/// Where a host keeps programs as its driver has compiled them, so that they need not be compiled in every run: bytes under
+/// keys, in files or wherever it likes. Of what it gives back, anything that is damaged, cut off or of another driver is
+/// noticed, and the program compiled and kept again. Strangers should not be able to write there: drivers believe what is
+/// whole. Called while the context is used, on that thread.
+typedef struct hair_cache {
+    /// Copy what was put under the key, if that is no more than `capacity` bytes. Returns how many it is; 0: nothing is there.
+    size_t (*get)(uint64_t key, void* bytes, size_t capacity, void* user);
+    /// Keep a copy, in place of what was there; or do not.
+    void (*put)(uint64_t key, const void* bytes, size_t size, void* user);
+    void* user; ///< Given back in every call.
+} hair_cache;
+
 typedef struct hair_context_desc {
     hair_made        made;
     const hair_host* host;                           ///< NULL: the C library's allocator, no log.
@@ -241,14 +253,34 @@ typedef struct hair_context_desc {
     hair_gl_state gl_state;                          ///< Default HAIR_GL_RESTORE.
     uint32_t      timings;                           ///< 1: time passes, for hair_timings. [0, 1]. Default 0.
     const char*   glsl_dir; ///< For development: glsl/ read from here. NULL: built in.
+    const hair_cache*
+        cache; ///< Copied; get and put are required. NULL: every program is compiled. Default NULL.
 } hair_context_desc;
 HAIR_DESC(hair_context_desc)
+
+/// Compiles no program yet: each is compiled when something first needs it, and kept as long as the context.
 
 HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
 HAIR_API void        hair_context_destroy(hair_context* context);
 
-/// Compile the shaders of glsl_dir again. One that fails to compile keeps its last good program.
+/// Compile the shaders of glsl_dir that have been needed again. One that fails to compile keeps its last good program.
 HAIR_API hair_result hair_context_reload(hair_context* context);
+
+/// OpenGL memory of a context's buffers and textures: of its instances, and what these share. Programs are not counted, nor
+/// what a driver adds. Bytes.
+typedef struct hair_memory {
+    hair_made made;
+    uint64_t  bytes; ///< In use now.
+    uint64_t  most;  ///< In use at once, since the context was created.
+    uint64_t  limit; ///< 0: none.
+} hair_memory;
+HAIR_DESC(hair_memory)
+
+HAIR_API hair_result hair_get_memory(const hair_context* context, hair_memory* out); ///< No OpenGL.
+
+/// From now on, what would take more than `bytes` in all is HAIR_ERROR_MEMORY, with both numbers in the log, and the call that
+/// needed it does nothing: nothing is left out in silence. What is in use stays. 0, the default: no limit. No OpenGL.
+HAIR_API hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes);
 
 // Instance: [GL] --------------------------------------------------------------------------------------------
 
@@ -303,6 +335,9 @@ typedef struct hair_physics {
     /// every run unless the GPU is behind by four steps and 0.1 s, as no GPU is whose pictures are shown: that is not waited
     /// for, and hair then falls asleep later.
     float sleep; ///< m. [0, 0.01]. Default 1e-4.
+    /// The rate instead, where it is lower, of hair that has not been seen for 0.25 s: that no hair_draw showed any of, nor
+    /// hair_read asked for. In the step after it is seen again the rate is what it was; nothing jumps then.
+    float unseen_rate; ///< [0.0625, 1]. Default 1.
 } hair_physics;
 HAIR_DESC(hair_physics)
 

@@ -9,6 +9,8 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     if (result) return result;
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
+    if (own.cache && (!own.cache->get || !own.cache->put))
+        return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_cache.%s is NULL", own.cache->get ? "put" : "get");
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
     context->host     = host;
@@ -45,6 +47,24 @@ hair_result hair_context_reload(hair_context* context)
     result = hair_gl_compile(&context->gl);
     hair_gl_leave(&context->gl);
     return result;
+}
+
+hair_result hair_get_memory(const hair_context* context, hair_memory* out)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    const struct hair_gl_memory* memory = &context->gl.memory;
+    hair_memory                  own    = hair_memory_default();
+    own.bytes                           = memory->bytes;
+    own.most                            = memory->most;
+    own.limit                           = memory->limit;
+    return HAIR_GIVE(&context->host, hair_memory, &own, out);
+}
+
+hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    context->gl.memory.limit = bytes;
+    return HAIR_OK;
 }
 
 uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity)

@@ -168,13 +168,18 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->has_slowed = 1;
         time             = hair->max_dt;
     }
+    double unseen    = hair->sim.unseen;
+    hair->sim.unseen = fmin(unseen + time, 1);
     if (hair_sleep_through(&hair->sim, time)) {
         hair_begin_frame(hair);
         hair_asked_now(hair)->asleep = 1;
         return HAIR_OK;
     }
     hair_result result = hair_check_current(context);
-    if (result) return result;
+    if (result) {
+        hair->sim.unseen = unseen;
+        return result;
+    }
     struct hair_gl_ledger was   = hair->ledger;
     struct hair_asked     asked = hair->asked[(was.number + 1) % HAIR_GL_FRAMES];
     hair_enter(hair);
@@ -185,13 +190,17 @@ hair_result hair_step(hair_instance* hair, float dt)
         result = hair_field_update(&hair->field, solids->solid, solids->count, &hair->sim.head);
     }
     if (!result) result = hair_sim_step(&hair->sim, time);
-    if (!result) hair->smooth.done = 0;
+    if (!result) {
+        hair->smooth.done = 0;
+        hair_draw_tidy(&hair->draw, hair->ledger.number);
+    }
     hair_gl_leave(&context->gl);
     if (result) { // There was no such frame.
         *hair_asked_now(hair) = asked;
         for (int i = 0; i < HAIR_GL_FRAMES; ++i)
             memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);
-        hair->ledger = was;
+        hair->ledger     = was;
+        hair->sim.unseen = unseen;
     }
     return result;
 }
@@ -217,9 +226,12 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     hair_enter(hair);
-    hair_draw_take_along(&hair->draw, &hair->sim.at_step, &pose);
-    hair_sim_teleport(&hair->sim, &pose);
-    hair->smooth.done = 0;
+    struct hair_pose was = hair->sim.at_step;
+    result               = hair_sim_teleport(&hair->sim, &pose);
+    if (!result) {
+        hair_draw_take_along(&hair->draw, &was, &pose);
+        hair->smooth.done = 0;
+    }
     hair_gl_leave(&hair->context->gl);
-    return HAIR_OK;
+    return result;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define MOST_BUFFERS 12 // of one kind of work
+#define MOST_TEXTURES 2 // likewise, but for those of buffers
 
 const char* hair_why_string(hair_why why)
 {
@@ -98,49 +99,42 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
 // Buffers of an instance by what they are for; those that are not there are 0.
 static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
 {
-    const struct hair_sim*       sim                                  = &hair->sim;
-    const struct hair_draw*      draw                                 = &hair->draw;
-    const struct hair_fluid*     air                                  = &sim->blow.fluid;
-    const struct hair_field_box* box                                  = &hair->field.box;
-    const struct hair_gl*        gl                                   = &hair->context->gl;
-    const GLuint                 buffers[HAIR_GL_WORKS][MOST_BUFFERS] = {
-                        [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
-                        [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
-                        [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
-                                               air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
-                                               air->pressure[0].buffer, air->pressure[1].buffer, air->params,
-                                               air->level_params, air->motion},
-                        [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
-                                                sim->crowd.push},
-                        [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
-                        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
-                                                sim->history, sim->material, sim->reduction, sim->ties.buffer},
-                        [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
-                        [HAIR_GL_WORK_FIELD]  = {hair->field.params, hair->field.work, sim->contacts.solid,
-                                                 sim->contacts.cell},
-                        [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
-                        [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
-                        [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
-                        [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
-                                                draw->listed.index},
-                        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
-                                                draw->sorted.index, draw->uv},
+    const struct hair_sim*   sim                                  = &hair->sim;
+    const struct hair_draw*  draw                                 = &hair->draw;
+    const struct hair_fluid* air                                  = &sim->blow.fluid;
+    const struct hair_gl*    gl                                   = &hair->context->gl;
+    const GLuint             buffers[HAIR_GL_WORKS][MOST_BUFFERS] = {
+                    [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
+                    [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
+                    [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
+                                           air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
+                                           air->pressure[0].buffer, air->pressure[1].buffer, air->params,
+                                           air->level_params, air->motion},
+                    [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
+                                            sim->crowd.push},
+                    [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
+                    [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
+                                            sim->history, sim->material, sim->reduction, sim->ties.buffer},
+                    [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
+                    [HAIR_GL_WORK_FIELD]  = {hair->field.params, hair->field.work, sim->contacts.solid,
+                                             sim->contacts.cell},
+                    [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
+                    [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
+                    [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
+                    [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
+                                            draw->listed.index},
+                    [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
+                                            draw->sorted.index, draw->uv},
+    };
+    const GLuint textures[HAIR_GL_WORKS][MOST_TEXTURES] = {
+        [HAIR_GL_WORK_WIND]  = {air->air, sim->air.gusts},
+        [HAIR_GL_WORK_FIELD] = {hair->field.distance, hair->field.number},
+        [HAIR_GL_WORK_HIT]   = {draw->hits.image},
+        [HAIR_GL_WORK_COLOR] = {draw->fibres.texture},
     };
     uint64_t bytes = 0;
-    for (int i = 0; i < MOST_BUFFERS; ++i) {
-        GLint64 size = 0;
-        if (buffers[work][i]) gl->GetNamedBufferParameteri64v(buffers[work][i], GL_BUFFER_SIZE, &size);
-        bytes += (uint64_t)size;
-    }
-    if (work == HAIR_GL_WORK_WIND && air->air)
-        bytes += 8 * (uint64_t)air->desc.cells * air->desc.cells * air->desc.cells;
-    if (work == HAIR_GL_WORK_FIELD && hair->field.distance) // Halves, and numbers.
-        bytes += (uint64_t)hair_field_bricks(box) * HAIR_BRICK * HAIR_BRICK * HAIR_BRICK * (2 + 4);
-    if (work == HAIR_GL_WORK_HIT && draw->hits.image)
-        bytes +=
-            4 * (uint64_t)HAIR_HIT_COLUMNS * ((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
-    if (work == HAIR_GL_WORK_COLOR && draw->fibres.texture)
-        bytes += 16u * HAIR_FIBRE_COLUMNS * HAIR_FIBRE_ROWS * HAIR_FIBRE_LAYERS;
+    for (int i = 0; i < MOST_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
+    for (int i = 0; i < MOST_TEXTURES; ++i) bytes += hair_gl_texture_bytes(gl, textures[work][i]);
     return bytes;
 }
 

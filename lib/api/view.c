@@ -184,6 +184,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = check_framebuffer(hair);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
+    hair_draw_tidy(&hair->draw, hair->ledger.number);
     if (own.pass == HAIR_PASS_SOLIDS) {
         result = draw_solids(hair, &own);
     } else {
@@ -196,6 +197,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
                                    own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
     }
     hair_gl_leave(&context->gl);
+    if (!result) hair->sim.unseen = 0;
     return result;
 }
 
@@ -269,6 +271,7 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     *count          = (uint32_t)all;
     uint32_t number = *count < capacity ? *count : capacity;
     if (number == 0) return HAIR_OK;
+    hair->sim.unseen = 0;
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
     if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);
     return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,

@@ -5,6 +5,15 @@
 #include <stdint.h>
 #include <string.h>
 
+// FNV-1a. Goes on from `hash`, which at first is:
+#define HAIR_HASH_BEGIN 0xcbf29ce484222325u
+static inline uint64_t hair_hash_bytes(uint64_t hash, const void* bytes, size_t size)
+{
+    const unsigned char* at = (const unsigned char*)bytes;
+    for (size_t i = 0; i < size; ++i) hash = (hash ^ at[i]) * 0x100000001b3u;
+    return hash;
+}
+
 static inline uint32_t hair_read_u16(const unsigned char* at)
 {
     return at[0] | (uint32_t)at[1] << 8;

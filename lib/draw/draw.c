@@ -39,8 +39,10 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_expanded(draw);
     hair_draw_free_sorted(draw);
     hair_draw_free_uvs(draw);
-    hair_gl_free_texture(draw->gl, &draw->follower_texture);
-    hair_gl_free_texture(draw->gl, &draw->patch_texture);
+    hair_seats_release(draw->seats);
+    draw->seats = NULL;
+    hair_gl_free_buffer_texture(draw->gl, &draw->follower_texture);
+    hair_gl_free_buffer_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
     hair_gl_free_buffer(draw->gl, &draw->patch);
     hair_gl_free_buffer(draw->gl, &draw->params);
@@ -204,7 +206,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     int          guides = view->pass == HAIR_PASS_GUIDES;
     struct drawn with   = {.path = HAIR_PATH_TESSELLATION};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
-    hair_result result = guides ? HAIR_OK : make_ready(draw, smooth, head, view, shader, &with);
+    hair_result result =
+        guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
     if (result) return result;
 
     struct hair_draw_params params;

@@ -24,8 +24,21 @@ struct hair_extent {
     float     reach, length;
 };
 
+// What only some views need: it is made when one first does, and freed once for long none has.
+enum {
+    HAIR_DRAW_LISTED,
+    HAIR_DRAW_EXPANDED,
+    HAIR_DRAW_MOTION,
+    HAIR_DRAW_SORTED,
+    HAIR_DRAW_FIBRES,
+    HAIR_DRAW_UVS,
+    HAIR_DRAW_PARTS
+};
+
 struct hair_draw {
     struct hair_gl*      gl;
+    uint32_t             frame;                           // as tidy.c was told,
+    uint32_t             used[HAIR_DRAW_PARTS];           // and in which each was last needed
     hair_look            look;                            // soaked
     GLuint               follower, patch, params;         // buffers
     GLuint               follower_texture, patch_texture; // the first two, for stages without storage buffers
@@ -73,6 +86,9 @@ hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
 hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
+
+// tidy.c: a frame begins, or goes on; free what none of the last ones needed.
+void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
 
 // places.c: where roots are by the scalp's uvs, of a groom that has them.
 int         hair_draw_has_uvs(const struct hair_draw* draw);

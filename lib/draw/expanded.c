@@ -34,8 +34,8 @@ static hair_result make(struct hair_draw* draw)
 void hair_draw_free_expanded(struct hair_draw* draw)
 {
     struct hair_expanded* expanded = &draw->expanded;
-    hair_gl_free_texture(draw->gl, &expanded->position_texture);
-    hair_gl_free_texture(draw->gl, &expanded->tangent_texture);
+    hair_gl_free_buffer_texture(draw->gl, &expanded->position_texture);
+    hair_gl_free_buffer_texture(draw->gl, &expanded->tangent_texture);
     hair_gl_free_buffer(draw->gl, &expanded->position);
     hair_gl_free_buffer(draw->gl, &expanded->tangent);
     expanded->vertices = 0;
@@ -53,6 +53,7 @@ static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smoo
 
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth)
 {
+    draw->used[HAIR_DRAW_EXPANDED] = draw->frame;
     struct hair_gl*       gl       = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
     hair_gl_pass          pass     = HAIR_GL_EXPAND;

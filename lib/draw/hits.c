@@ -38,8 +38,8 @@ static hair_result make(struct hair_draw* draw)
 void hair_draw_free_hits(struct hair_draw* draw)
 {
     struct hair_hits* hits = &draw->hits;
-    hair_gl_free_texture(draw->gl, &hits->hit_texture);
-    hair_gl_free_texture(draw->gl, &hits->repair_texture);
+    hair_gl_free_buffer_texture(draw->gl, &hits->hit_texture);
+    hair_gl_free_buffer_texture(draw->gl, &hits->repair_texture);
     hair_gl_free_buffer(draw->gl, &hits->hit);
     hair_gl_free_buffer(draw->gl, &hits->repair);
     hair_gl_free_buffer(draw->gl, &hits->list);

@@ -70,7 +70,8 @@ static hair_result make_indices(struct hair_draw* draw)
 
 hair_result hair_draw_make_listed(struct hair_draw* draw)
 {
-    hair_result result = make_lists(draw);
+    draw->used[HAIR_DRAW_LISTED] = draw->frame;
+    hair_result result           = make_lists(draw);
     return result ? result : make_indices(draw);
 }
 
@@ -80,7 +81,8 @@ void hair_draw_free_listed(struct hair_draw* draw)
     struct hair_gl*     gl     = draw->gl;
     if (listed->vertex_array) gl->DeleteVertexArrays(1, &listed->vertex_array);
     listed->vertex_array = 0;
-    hair_gl_free_texture(gl, &listed->strand_texture);
+    listed->segments     = 0;
+    hair_gl_free_buffer_texture(gl, &listed->strand_texture);
     hair_free(&gl->host, listed->of);
     listed->of = NULL;
     hair_gl_free_buffer(gl, &listed->start);

@@ -6,10 +6,11 @@
 
 hair_result hair_draw_need_motion(struct hair_draw* draw)
 {
-    struct hair_gl*     gl     = draw->gl;
-    struct hair_motion* motion = &draw->motion;
-    hair_result         result = HAIR_OK;
-    size_t              size   = draw->expanded.vertices * sizeof(hair_vec4);
+    draw->used[HAIR_DRAW_MOTION] = draw->frame;
+    struct hair_gl*     gl       = draw->gl;
+    struct hair_motion* motion   = &draw->motion;
+    hair_result         result   = HAIR_OK;
+    size_t              size     = draw->expanded.vertices * sizeof(hair_vec4);
     if (!motion->buffer) result = hair_gl_storage(gl, "hair expanded before", size, NULL, &motion->buffer);
     if (!result && !motion->texture)
         result =
@@ -19,7 +20,7 @@ hair_result hair_draw_need_motion(struct hair_draw* draw)
 
 void hair_draw_free_motion(struct hair_draw* draw)
 {
-    hair_gl_free_texture(draw->gl, &draw->motion.texture);
+    hair_gl_free_buffer_texture(draw->gl, &draw->motion.texture);
     hair_gl_free_buffer(draw->gl, &draw->motion.buffer);
     draw->motion.shown = 0;
 }

@@ -8,8 +8,9 @@ int hair_draw_has_uvs(const struct hair_draw* draw)
 
 hair_result hair_draw_need_uvs(struct hair_draw* draw)
 {
-    struct hair_gl* gl     = draw->gl;
-    hair_result     result = HAIR_OK;
+    draw->used[HAIR_DRAW_UVS] = draw->frame;
+    struct hair_gl* gl        = draw->gl;
+    hair_result     result    = HAIR_OK;
     if (!draw->uv)
         result = hair_gl_buffer(gl, "hair root uvs", draw->followers * 2 * sizeof(float), draw->seats->uv,
                                 &draw->uv);
@@ -20,8 +21,6 @@ hair_result hair_draw_need_uvs(struct hair_draw* draw)
 
 void hair_draw_free_uvs(struct hair_draw* draw)
 {
-    hair_gl_free_texture(draw->gl, &draw->uv_texture);
+    hair_gl_free_buffer_texture(draw->gl, &draw->uv_texture);
     hair_gl_free_buffer(draw->gl, &draw->uv);
-    hair_seats_release(draw->seats);
-    draw->seats = NULL;
 }

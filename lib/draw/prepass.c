@@ -9,16 +9,13 @@
 
 hair_result hair_draw_make_prepass(struct hair_draw* draw)
 {
-    struct hair_gl*   gl   = draw->gl;
-    struct hair_hits* hits = &draw->hits;
-    GLsizei           rows = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
-    if (!hits->image) {
-        gl->CreateTextures(GL_TEXTURE_2D, 1, &hits->image);
-        if (!hits->image)
-            return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for hair hits");
-        gl->TextureStorage2D(hits->image, 1, GL_R32F, HAIR_HIT_COLUMNS, rows);
-        gl->ObjectLabel(GL_TEXTURE, hits->image, -1, "hair hits");
-    }
+    struct hair_gl*   gl     = draw->gl;
+    struct hair_hits* hits   = &draw->hits;
+    GLsizei           rows   = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
+    hair_result       result = HAIR_OK;
+    if (!hits->image)
+        result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows, &hits->image);
+    if (result) return result;
     if (!hits->frame) {
         gl->CreateFramebuffers(1, &hits->frame);
         if (hits->frame) gl->NamedFramebufferTexture(hits->frame, GL_COLOR_ATTACHMENT0, hits->image, 0);

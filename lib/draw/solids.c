@@ -75,11 +75,14 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
                              const hair_solid* solids, uint32_t count, const struct hair_pose* head,
                              const hair_view* view)
 {
-    struct hair_gl*           gl     = draw->gl;
-    GLuint                    buffer = 0; // Made each time: who draws no solids has none.
+    struct hair_gl* gl     = draw->gl;
+    GLuint          buffer = 0; // Made each time: who draws no solids has none.
+    hair_result     result = hair_gl_need(gl, HAIR_GL_SOLIDS);
+    if (!result && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
+    if (result) return result;
     struct hair_shown_params* params = hair_alloc(&gl->host, 1, sizeof *params);
     if (!params) return hair_fail_memory(&gl->host, "the solids to draw");
-    hair_result result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
+    result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
     if (!result) {
         struct hair_draw_params own;
         hair_draw_write_params(draw, head, view, &own);

@@ -21,6 +21,7 @@ static hair_result make_index(struct hair_draw* draw, size_t segments)
 
 hair_result hair_draw_need_sorted(struct hair_draw* draw)
 {
+    draw->used[HAIR_DRAW_SORTED] = draw->frame;
     struct hair_gl*     gl       = draw->gl;
     struct hair_sorted* sorted   = &draw->sorted;
     size_t              segments = (size_t)draw->followers * draw->look.segments;

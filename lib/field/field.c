@@ -23,7 +23,7 @@ static void clear(struct hair_solid_field* field)
     hair_gl_free_texture(gl, &field->distance);
     hair_gl_free_texture(gl, &field->number);
     hair_gl_free_buffer(gl, &field->params);
-    hair_gl_free_texture(gl, &field->work_texture);
+    hair_gl_free_buffer_texture(gl, &field->work_texture);
     hair_gl_free_buffer(gl, &field->work);
     hair_free(&gl->host, field->placed);
     hair_free(&gl->host, field->dirty);
@@ -162,7 +162,6 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     GLintptr        at[PARTS];
     GLsizeiptr      length[PARTS];
     size_t          all = 0;
-    GLint64         got = 0;
     for (int i = 0; i < PARTS; ++i) {
         at[i]     = (GLintptr)all;
         length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
@@ -178,12 +177,11 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
     for (int i = 0; i < PARTS; ++i)
         if (sizes[i]) memcpy(bytes + at[i], parts[i], sizes[i]);
-    hair_gl_write_uniform(gl, field->work, all, bytes);
+    hair_result result = hair_gl_resize(gl, "hair field work", all, bytes, field->work);
     hair_free(&gl->host, bytes);
-    gl->GetNamedBufferParameteri64v(field->work, GL_BUFFER_SIZE, &got);
-    if (got != (GLint64)all)
-        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for hair field work",
-                         all);
+    if (!result && plain) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
+    if (!result && job->with_forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
+    if (result) return result;
     gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
     run(field, HAIR_GL_VOXELISE, plain, 2, at, length);
     if (job->with_forms)

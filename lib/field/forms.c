@@ -31,7 +31,7 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
     if (room < LEAST_ROOM) room = LEAST_ROOM;
     hair_result result = hair_gl_storage(forms->gl, "hair forms", room * sizeof(float), NULL, &buffer);
     if (result) return result;
-    hair_gl_free_texture(forms->gl, &forms->texture);
+    hair_gl_free_buffer_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
     forms->nodes = buffer;
     forms->room  = room;
@@ -64,7 +64,7 @@ static void free_if_empty(struct hair_forms* forms)
 {
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form) return;
-    hair_gl_free_texture(forms->gl, &forms->texture);
+    hair_gl_free_buffer_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
     hair_free(&forms->gl->host, forms->pooled);
     *forms = (struct hair_forms){.gl = forms->gl};

@@ -1,11 +1,66 @@
 // buffer.c - buffers and textures, checked: the error flag stays the host's, so sizes are asked back.
 #include "lib/gl/gl.h"
 
+// Memory ----------------------------------------------------------------------------------------------------
+
+// Whether `size` more bytes may be had, which `label` is to have.
+static hair_result ask(struct hair_gl* gl, const char* label, uint64_t size)
+{
+    const struct hair_gl_memory* memory = &gl->memory;
+    if (!memory->limit || (memory->bytes <= memory->limit && size <= memory->limit - memory->bytes))
+        return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
+                     "%s: %llu more bytes than the %llu in use would be beyond the limit of %llu", label,
+                     (unsigned long long)size, (unsigned long long)memory->bytes,
+                     (unsigned long long)memory->limit);
+}
+
+static void count(struct hair_gl* gl, uint64_t size)
+{
+    gl->memory.bytes += size;
+    if (gl->memory.bytes > gl->memory.most) gl->memory.most = gl->memory.bytes;
+}
+
+uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer)
+{
+    GLint64 size = 0;
+    if (buffer) gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    return (uint64_t)size;
+}
+
+static uint64_t texel_bytes(GLenum format)
+{
+    switch (format) {
+    case GL_R16F: return 2;
+    case GL_RG32F:
+    case GL_RGBA16:
+    case GL_RGBA16F: return 8;
+    case GL_RGBA32F:
+    case GL_RGBA32UI: return 16;
+    default: return 4; // GL_R32F, GL_R32UI
+    }
+}
+
+uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
+{
+    GLint format = 0, size[3] = {0};
+    if (!texture) return 0;
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_WIDTH, &size[0]);
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &size[1]);
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH, &size[2]);
+    return texel_bytes((GLenum)format) * (uint64_t)size[0] * (uint64_t)size[1] * (uint64_t)size[2];
+}
+
+// Buffers ---------------------------------------------------------------------------------------------------
+
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
-    GLuint  buffer = 0;
-    GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
-    void*   zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
+    GLuint      buffer = 0;
+    GLint64     got = 0, want = size < 16 ? 16 : (GLint64)size;
+    hair_result result = ask(gl, label, (uint64_t)want);
+    if (result) return result;
+    void* zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
     if (!data && !zeros) return hair_fail_memory(&gl->host, label);
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
@@ -20,6 +75,7 @@ hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, c
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want,
                          label);
     }
+    count(gl, (uint64_t)want);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     return HAIR_OK;
@@ -37,8 +93,10 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out)
 {
-    GLuint  buffer = 0;
-    GLint64 got    = 0;
+    GLuint      buffer = 0;
+    GLint64     got    = 0;
+    hair_result result = ask(gl, label, size);
+    if (result) return result;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
         gl->NamedBufferData(buffer, (GLsizeiptr)size, NULL, GL_STREAM_DRAW);
@@ -48,6 +106,7 @@ hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, 
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
     }
+    count(gl, size);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     return HAIR_OK;
@@ -58,6 +117,20 @@ void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
 }
 
+hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                           GLuint buffer)
+{
+    uint64_t    was    = hair_gl_buffer_bytes(gl, buffer), got;
+    hair_result result = size > was ? ask(gl, label, size - was) : HAIR_OK;
+    if (result) return result;
+    gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
+    got = hair_gl_buffer_bytes(gl, buffer);
+    gl->memory.bytes -= was;
+    count(gl, got);
+    if (got == size) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
+}
+
 hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
                            const void** mapped)
 {
@@ -65,6 +138,8 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
     GLuint                  buffer = 0;
     GLint64                 got    = 0;
     const void*             at     = NULL;
+    hair_result             result = ask(gl, label, size);
+    if (result) return result;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
         gl->NamedBufferStorage(buffer, (GLsizeiptr)size, NULL, access);
@@ -75,23 +150,24 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver maps no %zu bytes for %s", size, label);
     }
+    count(gl, size);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out    = buffer;
     *mapped = at;
     return HAIR_OK;
 }
 
+// Textures --------------------------------------------------------------------------------------------------
+
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {
-    GLint64 wide = format == GL_RGBA16F || format == GL_RGBA16 ? 8 : 16;
-    GLint64 size = 0, texel = format == GL_R32F || format == GL_R32UI ? 4 : wide;
-    GLint   most = 0;
-    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    uint64_t texels = hair_gl_buffer_bytes(gl, buffer) / texel_bytes(format);
+    GLint    most   = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (size / texel > most)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %lld texels, more than the driver's %d",
-                         label, (long long)(size / texel), most);
+    if (texels > (uint64_t)most)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %llu texels, more than the driver's %d",
+                         label, (unsigned long long)texels, most);
     GLuint texture = 0;
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);
@@ -111,6 +187,9 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
         if (size[i] > (uint32_t)most)
             return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
                              label, size[i], most);
+    uint64_t    bytes  = texel_bytes(format) * size[0] * size[1] * size[2];
+    hair_result result = ask(gl, label, bytes);
+    if (result) return result;
     gl->CreateTextures(GL_TEXTURE_3D, 1, &texture);
     if (texture) {
         gl->TextureStorage3D(texture, 1, format, (GLsizei)size[0], (GLsizei)size[1], (GLsizei)size[2]);
@@ -121,11 +200,32 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %u x %u x %u texels for %s",
                          size[0], size[1], size[2], label);
     }
+    count(gl, bytes);
     gl->TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, (GLint)filter);
     gl->TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, (GLint)filter);
     gl->TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl->TextureParameteri(texture, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
+    *out = texture;
+    return HAIR_OK;
+}
+
+hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
+                               uint32_t height, GLuint* out)
+{
+    GLuint      texture = 0;
+    uint64_t    bytes   = texel_bytes(format) * width * height;
+    hair_result result  = ask(gl, label, bytes);
+    if (result) return result;
+    gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
+    if (texture) gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
+    if (!texture || hair_gl_texture_bytes(gl, texture) != bytes) {
+        if (texture) gl->DeleteTextures(1, &texture);
+        return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %u x %u texels for %s", width,
+                         height, label);
+    }
+    count(gl, bytes);
     gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
     *out = texture;
     return HAIR_OK;
@@ -150,12 +250,22 @@ void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t 
 
 void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
-    if (*buffer) gl->DeleteBuffers(1, buffer);
+    if (!*buffer) return;
+    gl->memory.bytes -= hair_gl_buffer_bytes(gl, *buffer);
+    gl->DeleteBuffers(1, buffer);
     *buffer = 0;
+}
+
+void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture)
+{
+    if (*texture) gl->DeleteTextures(1, texture);
+    *texture = 0;
 }
 
 void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 {
-    if (*texture) gl->DeleteTextures(1, texture);
+    if (!*texture) return;
+    gl->memory.bytes -= hair_gl_texture_bytes(gl, *texture);
+    gl->DeleteTextures(1, texture);
     *texture = 0;
 }

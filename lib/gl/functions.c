@@ -84,6 +84,8 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
     gl->host    = *host;
     gl->promise = desc->gl_state;
     gl->timings = (int)desc->timings;
+    gl->made    = 1;
+    if (desc->cache) gl->cache = *desc->cache;
     if (desc->glsl_dir) {
         size_t size  = strlen(desc->glsl_dir) + 1;
         gl->glsl_dir = hair_alloc(host, size, 1);
@@ -95,7 +97,6 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
         hair_gl_enter(gl);
         result = make_objects(gl);
         if (!result) result = hair_gl_selftest(gl);
-        if (!result) result = hair_gl_compile(gl);
         hair_gl_leave(gl);
     }
     if (result) hair_gl_destroy(gl);

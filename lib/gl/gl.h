@@ -56,10 +56,17 @@ struct hair_gl_shader {
 
 struct hair_gl_ledger;
 
+// Of buffers and textures. Bytes.
+struct hair_gl_memory {
+    uint64_t bytes, most, limit; // in use; that have been; that may be, 0: any
+};
+
 struct hair_gl {
     hair_host              host;
     hair_gl_state          promise;
     char*                  glsl_dir; // NULL: the text built in
+    hair_cache             cache;    // get NULL: there is none
+    struct hair_gl_memory  memory;
     int                    timings;
     int                    software; // the driver is a software rasteriser
     int                    subgroup; // work groups of 32 threads are one
@@ -80,17 +87,16 @@ struct hair_gl {
 
 // functions.c, program.c, selftest.c ------------------------------------------------------------------------
 
-// Fill the table by `get_proc`, ask the version, compile the passes, find out what the driver gets wrong.
+// Fill the table by `get_proc`, ask the version, find out what the driver gets wrong.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
 void        hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
-// Compile every pass but those of GUIDE_PASS, of the crowd, the fluid, of hits and of styles that nothing has needed; those that fail keep the
-// program they had, and the first failure is returned.
-hair_result hair_gl_compile(struct hair_gl* gl);
-
-// The program that such a row runs, compiled when first needed: a head of hair needs one of its four sizes.
+// The program of a pass, compiled when first needed. Whoever runs one has needed it.
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
+
+// Compile all that have been needed again; those that fail keep the program they had, and the first failure is returned.
+hair_result hair_gl_compile(struct hair_gl* gl);
 
 // One program of stages such as "NAME=1 draw/patch.vert draw/patch.tesc", definitions first; `captured`: outputs for transform feedback, or NULL.
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
@@ -108,6 +114,16 @@ void hair_gl_write_variant(const struct hair_gl_shader* shader, uint32_t bits, c
 // program.c: compile and link one.
 hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
                                  hair_gl_pass pass, GLuint* out);
+
+// cache.c: a program as the driver compiled it before, kept by the host. `key`: of all that it is made of, twice hashed.
+struct hair_gl_key {
+    uint64_t hash, check;
+};
+struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
+void               hair_gl_key_add(struct hair_gl_key* key, const char* text); // NULL: nothing
+// 1: it was there, and `program` is what it was. 0: it is to be compiled, as if nothing had been.
+int  hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 
 // source.c --------------------------------------------------------------------------------------------------
 
@@ -145,6 +161,9 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 // that what is under way keeps what it was given: one driver was seen to write ahead of a dispatch before it.
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out);
 void        hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
+// The same where it may be of another size than it was. On failure it is of any size.
+hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                           GLuint buffer);
 
 // A buffer that the GPU copies into and the host reads where it is `mapped`, as long as there is the buffer: what was copied
 // is there once a fence after it has been passed.
@@ -158,10 +177,16 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
 // refuses.
 hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
                                GLenum filter, GLuint* out);
+hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
+                               uint32_t height, GLuint* out);
 // Of four floats a texel. However the host unpacks its pixels.
 void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t size[3], const void* texels);
-void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
-void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
+// Memory that they have; 0 has none. A buffer texture has that of its buffer.
+uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer);
+uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture);
+void     hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
+void     hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
+void     hair_gl_free_texture(struct hair_gl* gl, GLuint* texture); // of two or three dimensions
 
 // pass.c ----------------------------------------------------------------------------------------------------
 

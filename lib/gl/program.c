@@ -65,82 +65,141 @@ static hair_result report(struct hair_gl* gl, const struct hair_gl_source* sourc
     return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
-static hair_result compile_stage(struct hair_gl* gl, const struct hair_gl_shader* of, GLuint program,
-                                 const char* name, const char* prefix)
-{
-    struct hair_gl_source source;
-    hair_result result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, name, prefix, of->text, &source);
-    if (result) return result;
+// A program to be: what its stages are, each with its whole text.
+#define MOST_STAGES 5
+struct recipe {
+    struct hair_gl*              gl;
+    const struct hair_gl_shader* of;
+    const char*                  label;
+    const char*                  captured; // NULL: nothing is
+    uint32_t                     stages;
+    struct stage {
+        char                  name[64];
+        struct hair_gl_source source;
+    } stage[MOST_STAGES];
+};
 
-    GLuint shader = gl->CreateShader(stage_of(name));
-    GLint  done   = 0;
+static hair_result compile_stage(const struct recipe* recipe, const struct stage* stage, GLuint program)
+{
+    struct hair_gl* gl     = recipe->gl;
+    hair_result     result = HAIR_OK;
+    GLuint          shader = gl->CreateShader(stage_of(stage->name));
+    GLint           done   = 0;
     if (!shader)
-        result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", name);
-    else {
-        const char* text = source.text;
-        gl->ShaderSource(shader, 1, &text, NULL);
-        gl->CompileShader(shader);
-        gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
-        if (done) {
-            gl->AttachShader(program, shader);
-        } else {
-            char message[1024] = "";
-            gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
-            result = report(gl, &source, of->label, name, message);
-        }
-        gl->DeleteShader(shader); // Lives on while it is attached.
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", stage->name);
+    const char* text = stage->source.text;
+    gl->ShaderSource(shader, 1, &text, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    if (done) {
+        gl->AttachShader(program, shader);
+    } else {
+        char message[1024] = "";
+        gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
+        result = report(gl, &stage->source, recipe->of->label, stage->name, message);
     }
-    hair_free(&gl->host, source.text);
+    gl->DeleteShader(shader); // Lives on while it is attached.
     return result;
+}
+
+// Stages and definitions, as in "NAME=1 draw/patch.vert".
+static hair_result read_stages(struct recipe* recipe, uint32_t bits, const char* stages)
+{
+    struct hair_gl* gl          = recipe->gl;
+    char            prefix[512] = "";
+    size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
+    if (gl->subgroup)
+        used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define HAIR_SUBGROUP 1\n");
+    hair_gl_write_variant(recipe->of, bits, prefix + used, sizeof prefix - used);
+    used += strlen(prefix + used);
+    for (const char* at = stages; *at && recipe->stages < MOST_STAGES;) {
+        struct stage* stage  = &recipe->stage[recipe->stages];
+        size_t        length = strcspn(at, " ");
+        snprintf(stage->name, sizeof stage->name, "%.*s", (int)length, at);
+        char* value = strchr(stage->name, '=');
+        if (value) {
+            *value = ' ';
+            used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define %s\n", stage->name);
+            if (used >= sizeof prefix)
+                return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", recipe->label);
+        } else {
+            hair_result result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, prefix,
+                                                          recipe->of->text, &stage->source);
+            if (result) return result;
+            ++recipe->stages;
+        }
+        at += length + strspn(at + length, " ");
+    }
+    return HAIR_OK;
+}
+
+static struct hair_gl_key key_of(const struct recipe* recipe)
+{
+    struct hair_gl_key key = hair_gl_key_begin(recipe->gl);
+    for (uint32_t i = 0; i < recipe->stages; ++i) {
+        hair_gl_key_add(&key, recipe->stage[i].name);
+        hair_gl_key_add(&key, recipe->stage[i].source.text);
+    }
+    hair_gl_key_add(&key, recipe->captured);
+    return key;
+}
+
+static hair_result compile(const struct recipe* recipe, GLuint program)
+{
+    struct hair_gl* gl     = recipe->gl;
+    hair_result     result = HAIR_OK;
+    GLint           done   = 0;
+    for (uint32_t i = 0; i < recipe->stages && !result; ++i)
+        result = compile_stage(recipe, &recipe->stage[i], program);
+    if (result) return result;
+    if (recipe->captured)
+        gl->TransformFeedbackVaryings(program, 1, &recipe->captured, GL_INTERLEAVED_ATTRIBS);
+    if (gl->cache.put) gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    gl->LinkProgram(program);
+    gl->GetProgramiv(program, GL_LINK_STATUS, &done);
+    if (done) return HAIR_OK;
+    char message[512] = "";
+    gl->GetProgramInfoLog(program, sizeof message, NULL, message);
+    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
+                     recipe->of->text ? recipe->of->label : "", recipe->of->text ? ": " : "", recipe->label,
+                     (int)strcspn(message, "\n"), message);
+}
+
+static hair_result make(const struct recipe* recipe, GLuint* out)
+{
+    struct hair_gl*    gl      = recipe->gl;
+    struct hair_gl_key key     = {0, 0};
+    GLuint             program = gl->CreateProgram();
+    if (!program)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
+    if (gl->cache.get) key = key_of(recipe);
+    if (!gl->cache.get || !hair_gl_cached(gl, key, program)) {
+        hair_result result = compile(recipe, program);
+        if (result) {
+            gl->DeleteProgram(program);
+            return result;
+        }
+        hair_gl_keep(gl, key, program);
+    }
+    gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
+    *out = program;
+    return HAIR_OK;
 }
 
 static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
                         const char* label, const char* stages, const char* captured, GLuint* out)
 {
-    GLuint program = gl->CreateProgram();
-    if (!program) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", label);
-    hair_result result      = HAIR_OK;
-    char        prefix[512] = "";
-    size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
-    if (gl->subgroup)
-        used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define HAIR_SUBGROUP 1\n");
-    hair_gl_write_variant(shader, bits, prefix + used, sizeof prefix - used);
-    used += strlen(prefix + used);
-    for (const char* at = stages; *at && !result;) {
-        char   word[64];
-        size_t length = strcspn(at, " ");
-        snprintf(word, sizeof word, "%.*s", (int)length, at);
-        char* value = strchr(word, '=');
-        if (value) {
-            *value = ' ';
-            used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define %s\n", word);
-            if (used >= sizeof prefix)
-                result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", label);
-        } else {
-            result = compile_stage(gl, shader, program, word, prefix);
-        }
-        at += length + strspn(at + length, " ");
-    }
-    if (!result) {
-        GLint done = 0;
-        if (captured) gl->TransformFeedbackVaryings(program, 1, &captured, GL_INTERLEAVED_ATTRIBS);
-        gl->LinkProgram(program);
-        gl->GetProgramiv(program, GL_LINK_STATUS, &done);
-        if (!done) {
-            char message[512] = "";
-            gl->GetProgramInfoLog(program, sizeof message, NULL, message);
-            result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
-                               shader->text ? shader->label : "", shader->text ? ": " : "", label,
-                               (int)strcspn(message, "\n"), message);
-        }
-    }
-    if (result) {
-        gl->DeleteProgram(program);
-        return result;
-    }
-    gl->ObjectLabel(GL_PROGRAM, program, -1, label);
-    *out = program;
-    return HAIR_OK;
+    struct recipe* recipe = hair_alloc(&gl->host, 1, sizeof *recipe);
+    if (!recipe) return hair_fail_memory(&gl->host, "a program's text");
+    recipe->gl         = gl;
+    recipe->of         = shader;
+    recipe->label      = label;
+    recipe->captured   = captured;
+    hair_result result = read_stages(recipe, bits, stages);
+    if (!result) result = make(recipe, out);
+    for (uint32_t i = 0; i < recipe->stages; ++i) hair_free(&gl->host, recipe->stage[i].source.text);
+    hair_free(&gl->host, recipe);
+    return result;
 }
 
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
@@ -165,14 +224,9 @@ static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
     return HAIR_OK;
 }
 
-// Of a size that no guide may have, of what hair can do without, or one of the ways to draw it.
-static int is_optional(hair_gl_pass pass)
+hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
 {
-    const char* stages = passes[pass].stages;
-    return strstr(stages, "HAIR_GUIDE_THREADS=") || strstr(stages, "HAIR_CROWD=") ||
-           strstr(stages, "HITS=") || strstr(stages, "HAIR_STYLED=") || strstr(stages, "HAIR_LISTED=") ||
-           strstr(stages, "HAIR_SKINNED=") || strstr(stages, "HAIR_FLUID=") || strstr(stages, "sim/stir.") ||
-           strstr(stages, "draw/strand.") || strstr(stages, "draw/depth.");
+    return gl->program[pass] ? HAIR_OK : compile_pass(gl, pass);
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
@@ -180,14 +234,8 @@ hair_result hair_gl_compile(struct hair_gl* gl)
     hair_result first = HAIR_OK;
     ++gl->made;
     for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
-        if (is_optional((hair_gl_pass)pass) && !gl->program[pass]) continue;
-        hair_result result = compile_pass(gl, (hair_gl_pass)pass);
+        hair_result result = gl->program[pass] ? compile_pass(gl, (hair_gl_pass)pass) : HAIR_OK;
         if (!first) first = result;
     }
     return first;
-}
-
-hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
-{
-    return gl->program[pass] ? HAIR_OK : compile_pass(gl, pass);
 }

@@ -21,7 +21,7 @@ void hair_smooth_destroy(struct hair_smooth* smooth)
 {
     if (!smooth->gl) return;
     for (int i = 0; i < 3; ++i) {
-        hair_gl_free_texture(smooth->gl, &smooth->texture[i]);
+        hair_gl_free_buffer_texture(smooth->gl, &smooth->texture[i]);
         hair_gl_free_buffer(smooth->gl, &smooth->buffer[i]);
     }
 }

@@ -73,18 +73,13 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
     size_t      texel  = format == GL_R32UI ? 4 : 16;
     hair_result result = HAIR_OK;
     GLint       most   = 0;
-    GLint64     got    = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (size / texel > (size_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
                          label, size / texel, most);
     if (!*buffer) result = hair_gl_uniform(gl, label, 16, buffer);
     if (!result && !*texture) result = hair_gl_buffer_texture(gl, label, format, *buffer, texture);
-    if (result) return result;
-    hair_gl_write_uniform(gl, *buffer, size, data);
-    gl->GetNamedBufferParameteri64v(*buffer, GL_BUFFER_SIZE, &got);
-    if (got == (GLint64)size) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
+    return result ? result : hair_gl_resize(gl, label, size, data, *buffer);
 }
 
 static hair_result upload(struct hair_sim* sim)
@@ -139,9 +134,9 @@ void hair_contacts_free(struct hair_sim* sim)
     struct hair_contacts* contacts = &sim->contacts;
     let_go(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
-    hair_gl_free_texture(sim->gl, &contacts->solid_texture);
+    hair_gl_free_buffer_texture(sim->gl, &contacts->solid_texture);
     hair_gl_free_buffer(sim->gl, &contacts->solid);
-    hair_gl_free_texture(sim->gl, &contacts->cell_texture);
+    hair_gl_free_buffer_texture(sim->gl, &contacts->cell_texture);
     hair_gl_free_buffer(sim->gl, &contacts->cell);
     hair_cells_free(&sim->gl->host, &contacts->cells);
     *contacts = (struct hair_contacts){.forms = contacts->forms};

@@ -224,7 +224,7 @@ hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guide
 void hair_crowd_free(struct hair_sim* sim)
 {
     struct hair_crowd* crowd = &sim->crowd;
-    hair_gl_free_texture(sim->gl, &crowd->texture);
+    hair_gl_free_buffer_texture(sim->gl, &crowd->texture);
     hair_gl_free_buffer(sim->gl, &crowd->params);
     hair_gl_free_buffer(sim->gl, &crowd->grid);
     hair_gl_free_buffer(sim->gl, &crowd->share);

@@ -21,6 +21,8 @@ struct hair_rods {
 #define LONGEST                                                                                              \
     (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
 
+#define UNSEEN 0.25 // s: for so long hair is taken to be seen any moment
+
 #define CONTACT_MARGIN                                                                                       \
     1.6 // of substeps. Measured: from 1.5 on nothing falls back in a head's shake over solids
 
@@ -63,7 +65,9 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
-    while (2 * (float)longer * sim->physics.rate <= 1) longer *= 2;
+    float    rate   = sim->physics.rate;
+    if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.unseen_rate);
+    while (2 * (float)longer * rate <= 1) longer *= 2;
     return longer;
 }
 

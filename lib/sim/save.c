@@ -382,14 +382,8 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
     walk_skin(c, sim, skinned);
     walk_sleep(c, sim);
+    walk_double(c, "time since hair was seen", &sim->unseen, 0, 1);
     walk_blow(c, &sim->blow);
-}
-
-static uint64_t hash(const unsigned char* bytes, size_t size)
-{
-    uint64_t value = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size; ++i) value = (value ^ bytes[i]) * 0x100000001b3u;
-    return value;
 }
 
 size_t hair_sim_save_size(struct hair_sim* sim)
@@ -408,7 +402,7 @@ void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, VERSION);
     hair_write_u64(bytes + 12, c.at + TRAILER);
-    hair_write_u64(bytes + c.at, hash(bytes, c.at));
+    hair_write_u64(bytes + c.at, hair_hash_bytes(HAIR_HASH_BEGIN, bytes, c.at));
 }
 
 static hair_result check_frame(const hair_host* host, const unsigned char* bytes, size_t size)
@@ -426,7 +420,7 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
         return hair_fail(host, HAIR_ERROR_FILE,
                          "the saved state ends at byte %zu, not at byte %llu as byte 12 says", size,
                          (unsigned long long)whole);
-    if (hash(bytes, size - TRAILER) != hair_read_u64(bytes + size - TRAILER))
+    if (hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER) != hair_read_u64(bytes + size - TRAILER))
         return hair_fail(host, HAIR_ERROR_FILE,
                          "the saved state is damaged: the hash at byte %zu is not that of the bytes before",
                          size - TRAILER);

@@ -106,6 +106,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_sim_make_rods(sim, groom);
     }
     sim->last_substep = sim->substep;
+    if (!result) result = hair_gl_need(gl, sim->rods ? HAIR_GL_RESET_ROD : HAIR_GL_RESET);
     return result ? result : hair_gl_need(gl, solver_pass(sim));
 }
 
@@ -408,8 +409,10 @@ void hair_sim_reset(struct hair_sim* sim)
 }
 
 // The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
-void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
+hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
+    hair_result result = hair_gl_need(sim->gl, sim->rods ? HAIR_GL_TURN_ROD : HAIR_GL_TURN);
+    if (result) return result;
     struct hair_step_params params  = {0};
     struct hair_pose        from    = sim->head;
     struct hair_pose*       moved[] = {&sim->last_before, &sim->last_after, &sim->at_step, &sim->head};
@@ -430,4 +433,5 @@ void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     params.rotation_now    = vec4_of_quat(to->rotation);
     run_over_vertices(sim, HAIR_GL_TURN, HAIR_GL_TURN_ROD, &params);
     hair_sim_show(sim);
+    return HAIR_OK;
 }

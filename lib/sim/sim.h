@@ -39,6 +39,7 @@ struct hair_sim {
     int                  struck; // there have been solids: the accurate solver's own substep is for impacts
     double               last_substep; // s: of the last substep done, which displacements are over
     double               next_substep; // s: of the one under way; 0: not known, as of what was loaded
+    double               unseen;       // s: since a view last showed any of it
     uint32_t             guides, guide_vertices, smooth_vertices;
     uint32_t             most_vertices; // of a guide
     uint32_t             layout;        // hash of how many vertices each guide has
@@ -64,11 +65,12 @@ void        hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
 hair_result hair_sim_step(struct hair_sim* sim, double dt);
-void        hair_sim_pass_time(struct hair_sim* sim, double dt);          // as if it had, at rest
-void        hair_sim_reset(struct hair_sim* sim);                         // rest pose under sim->head
-void hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to); // sim->head and the hair with it
-void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
-void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+void        hair_sim_pass_time(struct hair_sim* sim, double dt); // as if it had, at rest
+void        hair_sim_reset(struct hair_sim* sim);                // rest pose under sim->head
+// sim->head and the hair with it
+hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
+void        hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
+void        hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
 
 // contacts.c: solids where they may be anything. `find` is for a step of dt that has been done up to a share of it, which
 // may be below 0; `write` fills in what it found of the parameters.

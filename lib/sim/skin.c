@@ -12,7 +12,7 @@ int hair_skin_is_on(const struct hair_sim* sim)
 static void free_buffers(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
-    hair_gl_free_texture(sim->gl, &skin->texture);
+    hair_gl_free_buffer_texture(sim->gl, &skin->texture);
     hair_gl_free_buffer(sim->gl, &skin->ride);
     hair_gl_free_buffer(sim->gl, &skin->seat);
     hair_gl_free_buffer(sim->gl, &skin->rest);

@@ -134,7 +134,7 @@ hair_result hair_ties_check(const struct hair_sim* sim, const struct hair_knot* 
 void hair_ties_free(struct hair_sim* sim)
 {
     hair_ties_take(sim, NULL, 0);
-    hair_gl_free_texture(sim->gl, &sim->ties.texture);
+    hair_gl_free_buffer_texture(sim->gl, &sim->ties.texture);
     hair_gl_free_buffer(sim->gl, &sim->ties.buffer);
 }
 
@@ -169,7 +169,7 @@ hair_result hair_ties_write(struct hair_sim* sim)
     size_t      size   = ties->count * sizeof *held;
     hair_result result = HAIR_OK;
     if (!ties->buffer) result = hair_gl_uniform(gl, "hair ties", size, &ties->buffer);
-    if (!result) hair_gl_write_uniform(gl, ties->buffer, size, held);
+    if (!result) result = hair_gl_resize(gl, "hair ties", size, held, ties->buffer);
     if (!result && !ties->texture)
         result = hair_gl_buffer_texture(gl, "hair ties", GL_RGBA32F, ties->buffer, &ties->texture);
     hair_free(&gl->host, held);

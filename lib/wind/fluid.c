@@ -18,7 +18,7 @@ static hair_result make(struct hair_fluid* fluid, const char* label, size_t coun
 
 static void let_go(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
 {
-    hair_gl_free_texture(fluid->gl, &buffer->texture);
+    hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
     hair_gl_free_buffer(fluid->gl, &buffer->buffer);
 }
 
@@ -212,25 +212,33 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
     if (solids <= fluid->room) return HAIR_OK;
     struct hair_fluid_motion* motion = hair_alloc(host, solids, sizeof *motion);
     if (!motion) return hair_fail_memory(host, "the velocities of solids");
+    hair_result result =
+        hair_gl_resize(fluid->gl, "hair fluid motion", solids * sizeof *motion, motion, fluid->motion);
+    if (result) {
+        hair_free(host, motion);
+        return result;
+    }
     hair_free(host, fluid->motion_of);
     fluid->motion_of = motion;
     fluid->room      = solids;
+    fluid->moving    = 0;
     return HAIR_OK;
 }
 
-// Of solids that all stand still a single 0 is enough.
+// While all solids stand still, what is there stays.
 static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     static const struct hair_fluid_motion still;
     uint32_t                              count = now->solids_dt > 0 ? now->solids->now.count : 0;
+    int                                   moved = fluid->moving;
     fluid->moving                               = 0;
     if (count > fluid->room) count = fluid->room;
-    for (uint32_t i = 0; i < count; ++i) {
-        fluid->motion_of[i] = motion_of(now, i);
+    for (uint32_t i = 0; i < fluid->room; ++i) {
+        fluid->motion_of[i] = i < count ? motion_of(now, i) : still;
         fluid->moving |= memcmp(&fluid->motion_of[i], &still, sizeof still) != 0;
     }
-    const struct hair_fluid_motion* from = fluid->moving ? fluid->motion_of : &still;
-    hair_gl_write_uniform(fluid->gl, fluid->motion, (fluid->moving ? count : 1) * sizeof *from, from);
+    if (fluid->moving || moved)
+        hair_gl_write_uniform(fluid->gl, fluid->motion, fluid->room * sizeof still, fluid->motion_of);
 }
 
 // The box's middle goes with the head, by whole cells.

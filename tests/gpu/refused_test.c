@@ -220,6 +220,7 @@ static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** stat
         uint32_t    rods = user.desc.solver != HAIR_SOLVER_REDBLACK;
         hair_test_ok(user.test, make_context(&user, &user.context));
         hair_test_ok(user.test, hair_create(user.context, user.groom, &user.desc, &user.hair));
+        hair_test_ok(user.test, read_all(&user)); // What compiles programs has compiled them.
         torture(&user, create_instance, of_memory(&user, 5 + 4 * rods), 1);
         torture(&user, create_instance, of_objects(20 + 8 * rods), 1);
         torture(&user, step_with_other_physics, of_memory(&user, rods), 1);
@@ -237,8 +238,8 @@ static void a_context_without_memory_or_objects_leaks_nothing_and_a_retry_works(
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 6) {
         struct user user = start(state, way);
-        torture(&user, create_context, of_memory(&user, 100), 19);
-        torture(&user, create_context, of_objects(50), 7);
+        torture(&user, create_context, of_memory(&user, 50), 19);
+        torture(&user, create_context, of_objects(30), 7);
         hair_groom_destroy(user.groom);
     }
 }

@@ -22,7 +22,8 @@ enum {
     SOLIDS      = POSES + 4 * 40 + 3 * 8, // after the way of gusts
     SOLID_BYTES = 72,
     TIE_BYTES   = 36,
-    SLEEP       = 132 // bytes, of hair that guides are not looked at, and of air that is no fluid
+    SLEEP =
+        140 // bytes, of hair that guides are not looked at, of when it was seen, and of air that is no fluid
 };
 
 // As the library hashes, so that what is harmful looks undamaged.

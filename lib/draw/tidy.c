@@ -1,0 +1,16 @@
+// tidy.c - memory of what views do not ask for any more.
+#include "lib/draw/draw.h"
+
+#define LONG 240 // frames: who changes a setting to and fro does not have everything made anew each time
+
+void hair_draw_tidy(struct hair_draw* draw, uint32_t frame)
+{
+    static void (*const release[HAIR_DRAW_PARTS])(struct hair_draw*) = {
+        [HAIR_DRAW_LISTED] = hair_draw_free_listed, [HAIR_DRAW_EXPANDED] = hair_draw_free_expanded,
+        [HAIR_DRAW_MOTION] = hair_draw_free_motion, [HAIR_DRAW_SORTED] = hair_draw_free_sorted,
+        [HAIR_DRAW_FIBRES] = hair_draw_free_fibres, [HAIR_DRAW_UVS] = hair_draw_free_uvs,
+    };
+    draw->frame = frame;
+    for (int part = 0; part < HAIR_DRAW_PARTS; ++part)
+        if (frame - draw->used[part] > LONG) release[part](draw);
+}

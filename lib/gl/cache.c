@@ -1,0 +1,95 @@
+// cache.c - programs as the driver has compiled them, in a place that the host keeps.
+//
+//   byte  0  "hairprog"
+//         8  u64 the second hash of what the program is made of: the first is the key that the host knows
+//        16  u32 the driver's format
+//        20  the driver's bytes
+//   the end  u64 FNV-1a hash of all bytes before
+//
+// What does not look so, or what the driver does not take, is not there: then the program is compiled, and kept again.
+#include "lib/base/bytes.h"
+#include "lib/gl/gl.h"
+
+#define MAGIC "hairprog"
+#define HEADER 20
+#define TRAILER 8
+#define MOST_BYTES (64u << 20) // of one program
+#define MOST_FORMATS 64
+#define OTHER_HASH 0x9e3779b97f4a7c15u // begins the second
+
+void hair_gl_key_add(struct hair_gl_key* key, const char* text)
+{
+    size_t size = text ? strlen(text) + 1 : 0;
+    key->hash   = hair_hash_bytes(key->hash, text, size);
+    key->check  = hair_hash_bytes(key->check, text, size);
+}
+
+struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl)
+{
+    static const GLenum driver[] = {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION};
+    struct hair_gl_key  key      = {HAIR_HASH_BEGIN, OTHER_HASH};
+    for (int i = 0; i < 4; ++i) hair_gl_key_add(&key, (const char*)gl->GetString(driver[i]));
+    return key;
+}
+
+// A format that the driver does not know would raise the host's error flag.
+static int is_known(struct hair_gl* gl, GLenum format)
+{
+    GLint formats[MOST_FORMATS], count = 0;
+    gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
+    if (count <= 0 || count > MOST_FORMATS) return 0;
+    gl->GetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats);
+    for (GLint i = 0; i < count; ++i)
+        if ((GLenum)formats[i] == format) return 1;
+    return 0;
+}
+
+static int is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key key)
+{
+    return memcmp(bytes, MAGIC, 8) == 0 && hair_read_u64(bytes + 8) == key.check &&
+           hair_read_u64(bytes + size - TRAILER) == hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER);
+}
+
+static int load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
+{
+    GLint  done   = 0;
+    GLenum format = hair_read_u32(bytes + 16);
+    if (!is_known(gl, format)) return 0;
+    gl->ProgramBinary(program, format, bytes + HEADER, (GLsizei)(size - HEADER - TRAILER));
+    gl->GetProgramiv(program, GL_LINK_STATUS, &done);
+    return done != 0;
+}
+
+int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
+{
+    const hair_cache* cache = &gl->cache;
+    size_t            size  = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
+    if (size <= HEADER + TRAILER || size > MOST_BYTES) return 0;
+    unsigned char* bytes = hair_alloc(&gl->host, size, 1);
+    if (!bytes) return 0; // It can be had without.
+    int there = cache->get(key.hash, bytes, size, cache->user) == size && is_whole(bytes, size, key) &&
+                load(gl, bytes, size, program);
+    hair_free(&gl->host, bytes);
+    return there;
+}
+
+void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
+{
+    const hair_cache* cache  = &gl->cache;
+    GLint             length = 0;
+    GLsizei           got    = 0;
+    GLenum            format = 0;
+    if (!cache->put) return;
+    gl->GetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length <= 0 || length > (GLint)(MOST_BYTES - HEADER - TRAILER)) return;
+    unsigned char* bytes = hair_alloc(&gl->host, (size_t)length + HEADER + TRAILER, 1);
+    if (!bytes) return;
+    gl->GetProgramBinary(program, length, &got, &format, bytes + HEADER);
+    size_t size = (size_t)got + HEADER;
+    memcpy(bytes, MAGIC, 8);
+    hair_write_u64(bytes + 8, key.check);
+    hair_write_u32(bytes + 16, format);
+    hair_write_u64(bytes + size, hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size));
+    if (got > 0) cache->put(key.hash, bytes, size + TRAILER, cache->user);
+    hair_free(&gl->host, bytes);
+}
