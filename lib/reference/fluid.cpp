@@ -122,6 +122,22 @@ place shifted(const hair_reference_flow& flow, place p, double by)
     return p;
 }
 
+// It, and what is so far from it along some axes, either way.
+std::array<place, 27> around(const place& p, double far)
+{
+    std::array<place, 27> all;
+    for (int i = 0; i < 27; ++i)
+        all[i] = {p[0] + far * (i % 3 - 1), p[1] + far * (i / 3 % 3 - 1), p[2] + far * (i / 9 - 1)};
+    return all;
+}
+
+struct range {
+    double least = INFINITY, most = -INFINITY;
+
+    bool is_empty() const { return least > most; }
+    void add(double v) { least = std::min(least, v), most = std::max(most, v); }
+};
+
 // Of each face that there is.
 template <typename Function> void for_faces(const grid& g, Function function)
 {
@@ -179,35 +195,46 @@ void hair_reference_coarsen(uint32_t cells, const double* open, double* coarse)
     });
 }
 
-void hair_reference_carry(const hair_reference_flow* flow, double* carried)
+void hair_reference_carry(const hair_reference_flow* flow, double* least, double* most)
 {
     const grid g{int(flow->cells)};
     for_faces(g, [&](int axis, const cell& at) {
-        const place from          = trace(*flow, shifted(*flow, middle(axis, at), 1), -1);
-        carried[g.face(axis, at)] = g.holds(from) ? sample(g, flow->before, axis, from) : flow->wind[axis];
+        const place from = trace(*flow, shifted(*flow, middle(axis, at), 1), -1);
+        range       r;
+        for (const place& p : around(from, flow->blur))
+            r.add(g.holds(p) ? sample(g, flow->before, axis, p) : flow->wind[axis]);
+        least[g.face(axis, at)] = r.least, most[g.face(axis, at)] = r.most;
     });
 }
 
-void hair_reference_correct(const hair_reference_flow* flow, const double* carried, double* after)
+void hair_reference_correct(const hair_reference_flow* flow, const double* carried, double* least,
+                            double* most)
 {
     const grid g{int(flow->cells)};
     for_faces(g, [&](int axis, const cell& at) {
-        const place own  = shifted(*flow, middle(axis, at), 1);
-        const place from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
-        double&     out = after[g.face(axis, at)];
-        out             = carried[g.face(axis, at)];
-        if (!g.holds(from)) return;
-        if (g.holds(to) && g.holds(own)) {
-            const corners c     = faces_around(g, axis, from);
-            double        least = INFINITY, most = -INFINITY;
-            for (const cell& corner : c.at) {
-                least = std::min(least, flow->before[g.face(axis, corner)]);
-                most  = std::max(most, flow->before[g.face(axis, corner)]);
-            }
-            out += (sample(g, flow->before, axis, own) - sample(g, carried, axis, to)) / 2;
-            out = std::clamp(out, least, most);
+        const int    face = g.face(axis, at);
+        const place  own  = shifted(*flow, middle(axis, at), 1);
+        const place  from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
+        const double was = g.holds(own) ? sample(g, flow->before, axis, own) : NAN;
+        range        better, r;
+        bool         ends = !g.holds(own); // nothing is known of how it would come back
+        for (const place& p : around(to, flow->blur)) {
+            if (g.holds(own) && g.holds(p))
+                better.add(carried[face] + (was - sample(g, carried, axis, p)) / 2);
+            else
+                ends = true;
         }
-        out += flow->gain[axis];
+        for (const place& p : around(from, flow->blur)) {
+            const double gain = g.holds(p) ? flow->gain[axis] : 0;
+            if (ends || !g.holds(p)) r.add(carried[face] + gain);
+            if (!g.holds(p) || better.is_empty()) continue;
+            range kept;
+            for (const cell& corner : faces_around(g, axis, p).at)
+                kept.add(flow->before[g.face(axis, corner)]);
+            r.add(std::clamp(better.least, kept.least, kept.most) + gain);
+            r.add(std::clamp(better.most, kept.least, kept.most) + gain);
+        }
+        least[face] = r.least, most[face] = r.most;
     });
 }
 

@@ -21,6 +21,7 @@ struct hair_reference_flow {
     double        gain[3];   ///< By which that has changed.
     const double* before;    ///< Of faces. m/s.
     const double* air;       ///< At the middles of cells, xyz each: what air is carried by. m/s.
+    double        blur;      ///< By which where air comes from and goes to may be off along each axis. Cells.
 };
 
 /// Share of a face that is open. `distance`: to the nearest solid, in sides of a cell, at a place in the same unit.
@@ -29,8 +30,11 @@ double hair_reference_open(uint32_t axis, const int32_t                         
 /// Of the grid of half as many cells.
 void hair_reference_coarsen(uint32_t cells, const double* open, double* coarse);
 
-void hair_reference_carry(const struct hair_reference_flow* flow, double* carried);
-void hair_reference_correct(const struct hair_reference_flow* flow, const double* carried, double* after);
+/// Between what and what every face is then. Both jump with where air comes from: at the border of the box, and corrected
+/// air, which is kept within what is around there, from cell to cell.
+void hair_reference_carry(const struct hair_reference_flow* flow, double* least, double* most);
+void hair_reference_correct(const struct hair_reference_flow* flow, const double* carried, double* least,
+                            double* most);
 
 /// What flows into each cell.
 void hair_reference_inflow(uint32_t cells, const double* open, const double* wall, const double* velocity,

@@ -322,7 +322,8 @@ static void show_next(struct hair_fluid* fluid)
     uint32_t        n  = fluid->desc.cells;
     gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
-    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    // What is written again, or cleared, must not be overtaken.
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fluid->now = (fluid->now + 2) % 3;
 }
 

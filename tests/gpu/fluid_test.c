@@ -28,15 +28,16 @@ static void check(const char* what, const double* got, const double* expected, s
     for (size_t i = 0; i < count; ++i) hair_test_near(what, i, got[i], expected[i], tolerance);
 }
 
-// Faces that there are not hold anything.
-static void check_faces(const char* what, const double* got, const double* expected, double tolerance)
+// Faces that there are not hold anything. The others are between `least` and `most`.
+static void check_faces(const char* what, const double* got, const double* least, const double* most,
+                        double tolerance)
 {
     uint32_t side = CELLS + 1, slots = cubed(side);
     for (uint32_t i = 0; i < 3 * slots; ++i) {
         uint32_t at[3] = {i % slots % side, i % slots / side % side, i % slots / (side * side)};
         int      there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < CELLS || k == i / slots;
-        if (there) hair_test_near(what, i, got[i], expected[i], tolerance);
+        if (there) hair_test_near(what, i, got[i], fmin(fmax(got[i], least[i]), most[i]), tolerance);
     }
 }
 
@@ -144,29 +145,35 @@ static double* put_air(struct hair_test_fluid* f, double most)
     return air;
 }
 
+// OpenGL names no precision for how a texture is read between its texels; there are GPUs with eight bits of a texel's side.
+// Rounded down to that, which is the worse way, air of up to 3 m/s is 0.012 cells off where it comes from.
+#define BLUR 0.03
+
 static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, &f);
-    double *before = any_numbers(f.faces, 3, 1), *air = put_air(&f, 6), most = 0;
+    double *before = any_numbers(f.faces, 3, 1), *air = put_air(&f, 3), gone = 0, between = 0;
     f.now.head.position[0] = 2.2 * (double)HAIR_TEST_FLUID_SIDE / CELLS;
     f.now.wind             = hair_v3(4, 1, -2);
     hair_fluid_place(&f.fluid, &f.now);
     hair_test_put_floats(f.fluid.velocity[0].buffer, before, f.faces);
     hair_fluid_carry(&f.fluid);
-    struct hair_reference_flow flow = {
-        CELLS, {2, 0, 0}, CELLS / (60 * (double)HAIR_TEST_FLUID_SIDE), {4, 1, -2}, {-1, 1, -2}, before, air};
-    double *carried = calloc(f.faces, sizeof *carried), *after = calloc(f.faces, sizeof *after);
-    hair_reference_carry(&flow, carried);
-    hair_reference_correct(&flow, carried, after);
-    double* got[2] = {hair_test_floats(f.fluid.velocity[1].buffer, f.faces),
-                      hair_test_floats(f.fluid.velocity[2].buffer, f.faces)};
-    // A driver may place samples of a texture as coarsely as in 256ths of a cell: 2 % of what is 6 m/s from the next.
-    check_faces("carried", got[0], carried, 0.06);
-    check_faces("corrected", got[1], after, 0.09);
-    for (size_t i = 0; i < f.faces; ++i) most = fmax(most, fabs(after[i] - carried[i]));
-    assert_true(most > 1);
-    free(before), free(air), free(carried), free(after), free(got[0]), free(got[1]);
+    struct hair_reference_flow flow  = {CELLS,      {2, 0, 0},   CELLS / (60 * (double)HAIR_TEST_FLUID_SIDE),
+                                        {4, 1, -2}, {-1, 1, -2}, before,
+                                        air,        BLUR};
+    double *                   least = calloc(f.faces, sizeof *least), *most = calloc(f.faces, sizeof *most);
+    double*                    got[2] = {hair_test_floats(f.fluid.velocity[1].buffer, f.faces),
+                                         hair_test_floats(f.fluid.velocity[2].buffer, f.faces)};
+    hair_reference_carry(&flow, least, most);
+    check_faces("carried", got[0], least, most, 0.02);
+    hair_reference_correct(&flow, got[0], least, most);
+    check_faces("corrected", got[1], least, most, 0.02);
+    for (size_t i = 0; i < f.faces; ++i) gone += fabs(got[1][i] - got[0][i]) / (double)f.faces;
+    for (size_t i = 0; i < f.faces; ++i) between += (most[i] - least[i]) / (double)f.faces;
+    print_message("    corrected by %.3f m/s in the mean, known to %.3f\n", gone, between);
+    assert_true(gone > 5 * between);
+    free(before), free(air), free(least), free(most), free(got[0]), free(got[1]);
     hair_test_fluid_end(&f);
 }
 
@@ -289,7 +296,7 @@ static void the_slope_of_the_pressure_is_taken_from_velocities_that_are_then_sho
     hair_fluid_project(&p.f.fluid);
     hair_reference_release(CELLS, p.open[0], p.wall, p.pressure, p.velocity);
     double* got = hair_test_fluid_velocity(&p.f);
-    check_faces("velocity", got, p.velocity, 1e-6);
+    check_faces("velocity", got, p.velocity, p.velocity, 1e-6);
     hair_reference_air(CELLS, p.velocity, air);
     glGetTextureImage(p.f.fluid.air, 0, GL_RGBA, GL_FLOAT, (GLsizei)(4 * p.f.count * sizeof *texel), texel);
     for (size_t i = 0; i < 3 * p.f.count; ++i)
