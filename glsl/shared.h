@@ -151,7 +151,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_UV 5       // vec2 per follower: of its root on the scalp
 #define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
-#define HAIR_UNIT_GUST 8     // of the solvers of rods, in place of the field: gusts of standard deviation 1,
+#define HAIR_UNIT_GUST 8     // of the solvers of rods and of the fluid, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
@@ -527,15 +527,16 @@ HAIR_SIZE(hair_field_brick, 16)
 struct hair_fluid_params {
     hair_vec4 lower;    // xyz: its corner, from the head's origin, m; w: side of a cell, m
     hair_vec4 shift;    // xyz: by how many cells it has moved since the last step; w: cells per m/s in a step, s/m
-    hair_vec4 wind;     // xyz: of the scene, m/s
+    hair_vec4 wind;     // xyz: of the scene, m/s; w: standard deviation of gusts, m/s
     hair_vec4 gain;     // xyz: by how much that has changed since the last step, m/s
     hair_vec4 rotation; // of the head: unit quaternion
+    hair_vec4 gust_turn, gust_from; // as in hair_wind_params, at the start of the step
     hair_uint cells;    // along each axis
     hair_uint solids;   // 0: there are none in reach
     hair_uint open;     // 0: the box is closed all round
     hair_uint unused;
 };
-HAIR_SIZE(hair_fluid_params, 96)
+HAIR_SIZE(hair_fluid_params, 128)
 
 // A level of the fluid's grid, each of half as many cells along an axis as the one before; and what a pass does there.
 struct hair_fluid_level {

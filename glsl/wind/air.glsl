@@ -5,17 +5,16 @@
 
 #include "shared.h"
 #include "rotation.glsl"
+#include "wind/gust.glsl"
 
 layout(std140, binding = HAIR_BIND_WIND) uniform wind_buffer { hair_wind_params wind; };
-layout(binding = HAIR_UNIT_GUST) uniform sampler3D gust_texture;
 layout(binding = HAIR_UNIT_AIR) uniform sampler3D air_texture;
 layout(binding = HAIR_UNIT_VOLUME) uniform sampler3D volume_texture;
 
 // Taylor's frozen turbulence: the pattern goes along with the wind.
 vec3 gust_at(vec3 place, float time)
 {
-    vec3 at = wind.gust_from.xyz + wind.gust_from.w * rotate(wind.gust_turn, place - wind.velocity.xyz * time);
-    return wind.velocity.w > 0.0 ? wind.velocity.w * textureLod(gust_texture, at, 0.0).xyz : vec3(0.0);
+    return gust_of(wind.gust_turn, wind.gust_from, wind.velocity.w, place - wind.velocity.xyz * time);
 }
 
 // Around a ball, with p from its centre in radii, and x how far that is down the wind. Potential flow has no part into it;
@@ -51,12 +50,11 @@ float fluid_share(vec3 place)
     return inside.x * inside.y * inside.z;
 }
 
-// In the fluid, which knows of no gusts, they are as much weaker as it is slower than the wind.
-vec3 in_fluid(vec3 place, vec3 gust)
+// Gusts come into the fluid with the air that does.
+vec3 in_fluid(vec3 place, vec3 around)
 {
-    vec3  at = (place - wind.box.xyz) * wind.box.w, u = textureLod(air_texture, at, 0.0).xyz;
-    float slower = min(length(u) / max(length(wind.velocity.xyz), 1e-6), 1.0);
-    return mix(wind.velocity.xyz + gust, u + slower * gust, fluid_share(at));
+    vec3 at = (place - wind.box.xyz) * wind.box.w;
+    return mix(around, textureLod(air_texture, at, 0.0).xyz, fluid_share(at));
 }
 
 // What is not finite, which may be the texture's, is no wind. By the bits, for comparisons with NaN may be compiled away.
@@ -76,10 +74,10 @@ vec3 from_texture(vec3 place)
 vec3 air_at(vec3 position, uint substep)
 {
     vec4 at    = wind.at[substep];
-    vec3 place = position + at.xyz, gust = gust_at(place, at.w), u = wind.velocity.xyz + gust, past = u;
+    vec3 place = position + at.xyz, u = wind.velocity.xyz + gust_at(place, at.w), past = u;
     vec3 down  = direction_or(wind.velocity.xyz, vec3(0.0));
     for (uint k = 0u; k < wind.balls; ++k) past = around_ball(past, (position - wind.ball[k].xyz) / wind.ball[k].w, down);
-    u = wind.box.w > 0.0 ? in_fluid(place, gust) : mix(u, past, wind.shelter);
+    u = wind.box.w > 0.0 ? in_fluid(place, u) : mix(u, past, wind.shelter);
     for (uint k = 0u; k < wind.sources; ++k) u += from_source(k, place);
     return wind.volume != 0u ? u + from_texture(place) : u;
 }

@@ -83,6 +83,7 @@ uint32_t hair_blow_left(struct hair_sim* sim, double dt)
     struct hair_fluid_now now = {.head      = sim->last_after,
                                  .middle    = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
                                  .wind      = hair_load3(sim->wind.velocity),
+                                 .gusts     = hair_air_gusts_from(&sim->air, &sim->wind, &sim->last_after),
                                  .dt        = length * sim->substep,
                                  .field     = blow->field,
                                  .solids    = &sim->solids,

@@ -129,29 +129,42 @@ static void write_sources(const struct hair_air_now* now, struct hair_wind_param
     params->sources = now->wind->source_count;
 }
 
-// Gusts at the end of the dispatch, in doubles: the wind may have carried them far.
-static void write_gusts(struct hair_air* air, const struct hair_air_now* now, struct hair_wind_params* params)
+// In doubles: the wind may have carried them far.
+struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair_wind* wind,
+                                          const struct hair_pose* head)
 {
-    double side = HAIR_GUST_LENGTHS * (double)now->wind->gust_length, at[3], place[3];
+    double side = HAIR_GUST_LENGTHS * (double)wind->gust_length, at[3], place[3];
     double r[9], x = (double)lie.x, y = (double)lie.y, z = (double)lie.z, w = (double)lie.w;
     double n = x * x + y * y + z * z + w * w, speed = 0;
     r[0] = 1 - 2 * (y * y + z * z) / n, r[1] = 2 * (x * y - w * z) / n, r[2] = 2 * (x * z + w * y) / n;
     r[3] = 2 * (x * y + w * z) / n, r[4] = 1 - 2 * (x * x + z * z) / n, r[5] = 2 * (y * z - w * x) / n;
     r[6] = 2 * (x * z - w * y) / n, r[7] = 2 * (y * z + w * x) / n, r[8] = 1 - 2 * (x * x + y * y) / n;
     for (int k = 0; k < 3; ++k) {
-        double u = (double)now->wind->velocity[k];
-        air->moved[k] += u * now->substep * now->substeps;
-        at[k] = now->head.position[k] - air->moved[k];
+        double u = (double)wind->velocity[k];
+        at[k]    = head->position[k] - air->moved[k];
         speed += u * u;
     }
     for (int k = 0; k < 3; ++k) {
         place[k] = (r[3 * k] * at[0] + r[3 * k + 1] * at[1] + r[3 * k + 2] * at[2]) / side;
         place[k] -= floor(place[k]);
     }
-    hair_quat q        = hair_quat_normalize(lie);
-    params->gust_turn  = (hair_vec4){q.x, q.y, q.z, q.w};
-    params->gust_from  = (hair_vec4){(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)};
-    params->velocity.w = air->gusts ? (float)(sqrt(speed) * (double)now->wind->gusts) : 0;
+    hair_quat q = hair_quat_normalize(lie);
+    return (struct hair_air_gusts){
+        .texture = air->gusts,
+        .turn    = {q.x, q.y, q.z, q.w},
+        .from    = {(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)},
+        .speed   = air->gusts ? (float)(sqrt(speed) * (double)wind->gusts) : 0,
+    };
+}
+
+static void write_gusts(struct hair_air* air, const struct hair_air_now* now, struct hair_wind_params* params)
+{
+    for (int k = 0; k < 3; ++k)
+        air->moved[k] += (double)now->wind->velocity[k] * now->substep * now->substeps;
+    struct hair_air_gusts gusts = hair_air_gusts_from(air, now->wind, &now->head);
+    params->gust_turn           = gusts.turn;
+    params->gust_from           = gusts.from;
+    params->velocity.w          = gusts.speed;
 }
 
 // From the head's origin at the end of the dispatch: the transform after a shift by it.

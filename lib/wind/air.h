@@ -26,12 +26,23 @@ struct hair_air_now {
     double                         substep; // s
 };
 
+// Gusts as shaders find them: see hair_wind_params.
+struct hair_air_gusts {
+    GLuint    texture; // 0: there are none
+    hair_vec4 turn, from;
+    float     speed; // standard deviation, m/s
+};
+
 int hair_wind_is_on(const hair_wind* wind);
 int hair_wind_is_unsteady(const hair_wind* wind); // 1: air changes though nothing is set anew
 
 // What such a wind takes; nothing if there is none.
 hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);
 void        hair_air_free(struct hair_air* air, struct hair_gl* gl);
+
+// As far as they have gone, seen from a head.
+struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair_wind* wind,
+                                          const struct hair_pose* head);
 
 // What the next dispatch of a solver reads; gusts go on by its time.
 void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_air_now* now);

@@ -278,17 +278,20 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
     hair_vec3                gain   = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
     hair_quat                q      = now->head.rotation;
     struct hair_fluid_params params = {
-        .lower    = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
-        .shift    = {shift[0], shift[1], shift[2], (float)(now->dt / (double)cell)},
-        .wind     = {wind.x, wind.y, wind.z, 0},
-        .gain     = {gain.x, gain.y, gain.z, 0},
-        .rotation = {q.x, q.y, q.z, q.w},
-        .cells    = fluid->desc.cells,
-        .solids   = now->field && hair_field_is_near(now->field),
-        .open     = !fluid->desc.closed,
+        .lower     = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
+        .shift     = {shift[0], shift[1], shift[2], (float)(now->dt / (double)cell)},
+        .wind      = {wind.x, wind.y, wind.z, now->gusts.speed},
+        .gain      = {gain.x, gain.y, gain.z, 0},
+        .rotation  = {q.x, q.y, q.z, q.w},
+        .gust_turn = now->gusts.turn,
+        .gust_from = now->gusts.from,
+        .cells     = fluid->desc.cells,
+        .solids    = now->field && hair_field_is_near(now->field),
+        .open      = !fluid->desc.closed,
     };
     hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
     fluid->wind  = wind;
+    fluid->gusts = now->gusts.texture;
     fluid->fresh = 0;
     if (moved || !is_as_made(fluid, &params, now->field)) fluid->made_for.cells = 0;
     if (!fluid->made_for.cells) {
@@ -310,7 +313,12 @@ void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 
 void hair_fluid_carry(struct hair_fluid* fluid)
 {
+    struct hair_gl* gl = fluid->gl;
     hair_fluid_bind(fluid);
+    if (fluid->gusts) {
+        gl->BindTextureUnit(HAIR_UNIT_GUST, fluid->gusts);
+        gl->BindSampler(HAIR_UNIT_GUST, 0);
+    }
     hair_fluid_run(fluid, HAIR_GL_FLUID_ADVECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     hair_fluid_run(fluid, HAIR_GL_FLUID_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
 }

@@ -9,6 +9,7 @@
 #include "lib/collide/solid.h"
 #include "lib/field/field.h"
 #include "lib/gl/gl.h"
+#include "lib/wind/air.h"
 
 #define HAIR_FLUID_LEVELS 5 // from 128 cells along an axis to 8
 
@@ -51,7 +52,8 @@ struct hair_fluid {
     GLuint                     air;       // 3D texture, RGBA16F: velocity at the middles of cells, m/s
     int                        fresh;     // there is no past: the first step begins with the wind everywhere
     double                     origin[3]; // of the box, in cells from the world's origin: whole
-    hair_vec3                  wind;      // of the last step
+    hair_vec3                  wind;      // of the last step,
+    GLuint                     gusts;     // and their texture
     hair_vec3                  lower;     // of the box, from the head's origin. m
     struct hair_fluid_motion*  motion_of; // of solids, `room` of them at most
     uint32_t                   room;
@@ -65,6 +67,7 @@ struct hair_fluid_now {
     struct hair_pose               head;   // at its end
     hair_vec3                      middle; // of the box, in the head's frame
     hair_vec3                      wind;   // m/s
+    struct hair_air_gusts          gusts;  // at its start
     double                         dt;     // s
     const struct hair_solid_field* field;
     const struct hair_solids*      solids;    // which move from `before` to `now`

@@ -7,6 +7,7 @@
 
 #include "lib/base/math.h"
 #include "lib/reference/fluid.h"
+#include "lib/wind/gusts.h"
 
 #define WIND 5.0
 
@@ -164,6 +165,43 @@ static void without_solids_the_wind_stays_as_it_is_wherever_the_head_goes(void**
     hair_test_near("changed", 0, hair_test_fluid_at(&f, velocity, 0, middle), -2, 1e-3);
     hair_test_near("changed", 2, hair_test_fluid_at(&f, velocity, 2, middle), 7, 1e-3);
     free(velocity);
+    hair_test_fluid_end(&f);
+}
+
+// By the pattern that the wind carries along as it is: how alike the fluid's middle is to it, and how much of it is there.
+static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
+{
+    struct hair_test_fluid f;
+    struct hair_air        air  = {0};
+    hair_wind              wind = hair_wind_default();
+    begin(*state, 32, 0, &f);
+    wind.velocity[0] = (float)WIND, wind.gusts = 0.2f, wind.gust_length = 0.5f;
+    hair_test_ok(f.test, hair_air_need(&air, &f.test->context->gl, &wind));
+    float* texel = hair_gusts_make(&f.test->host.host, wind.seed);
+    assert_non_null(texel);
+    double alike = 0, there = 0, all = 0;
+    for (int i = 0; i < 60; ++i) { // In 0.16 s all that is in the box has come in.
+        f.now.gusts = hair_air_gusts_from(&air, &wind, &f.now.head);
+        advance(&f, 1);
+        air.moved[0] += WIND * f.now.dt;
+        if (i < 15 || i % 5) continue;
+        struct hair_air_gusts now      = hair_air_gusts_from(&air, &wind, &f.now.head);
+        double*               velocity = hair_test_fluid_velocity(&f);
+        for (int k = 0; k < 6 * 6 * 6; ++k) {
+            double place[3] = {7 + 3.5 * (k % 6), 7 + 3.5 * (k / 6 % 6), 7 + 3.5 * (k / 36)}, gust[3];
+            hair_test_gust_at(&f, &now, texel, place, gust);
+            for (int c = 0; c < 3; ++c) {
+                double is = hair_test_fluid_at(&f, velocity, c, place) - (c ? 0 : WIND);
+                alike += is * gust[c], there += is * is, all += gust[c] * gust[c];
+            }
+        }
+        free(velocity);
+    }
+    print_message("    correlation with what the wind brings %.3f, of its energy %.3f\n",
+                  alike / sqrt(there * all), there / all);
+    assert_true(alike > 0.8 * sqrt(there * all) && fabs(there / all - 1) < 0.3);
+    hair_free(&f.test->host.host, texel);
+    hair_air_free(&air, &f.test->context->gl);
     hair_test_fluid_end(&f);
 }
 
@@ -331,6 +369,7 @@ int main(void)
         HAIR_TEST(nothing_is_left_to_be_driven_out_of_cells),
         HAIR_TEST(air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it),
         HAIR_TEST(without_solids_the_wind_stays_as_it_is_wherever_the_head_goes),
+        HAIR_TEST(gusts_come_in_with_the_wind_and_travel_through_the_box),
         HAIR_TEST(a_ball_that_moves_through_still_air_pushes_it_along),
         HAIR_TEST(in_a_closed_box_nothing_goes_out_and_energy_only_fades),
         HAIR_TEST(whatever_happens_air_is_finite_bounded_and_recovers),

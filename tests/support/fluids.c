@@ -126,6 +126,32 @@ double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocit
     return sum;
 }
 
+void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_air_gusts* gusts,
+                       const float* texel, const double place[3], double out[3])
+{
+    const float* lower = &f->fluid.lower.x;
+    const float* from  = &gusts->from.x;
+    double       cell  = (double)HAIR_TEST_FLUID_SIDE / f->cells;
+    hair_quat    turn  = {gusts->turn.x, gusts->turn.y, gusts->turn.z, gusts->turn.w};
+    hair_vec3    at    = hair_v3(lower[0] + (float)(place[0] * cell), lower[1] + (float)(place[1] * cell),
+                                 lower[2] + (float)(place[2] * cell));
+    hair_vec3    way   = hair_rotate(turn, at);
+    double       g[3]  = {(double)way.x, (double)way.y, (double)way.z};
+    out[0] = out[1] = out[2] = 0;
+    for (int c = 0; c < 8; ++c) {
+        double weight = (double)gusts->speed;
+        int    index = 0, stride = 1;
+        for (int k = 0; k < 3; ++k, stride *= HAIR_GUST_NODES) {
+            double s    = ((double)from[k] + (double)from[3] * g[k]) * HAIR_GUST_NODES - 0.5,
+                   part = s - floor(s);
+            int n       = ((int)floor(s) + (c >> k & 1)) % HAIR_GUST_NODES;
+            index += stride * (n < 0 ? n + HAIR_GUST_NODES : n);
+            weight *= c >> k & 1 ? part : 1 - part;
+        }
+        for (int k = 0; k < 3; ++k) out[k] += weight * (double)texel[4 * index + k];
+    }
+}
+
 double hair_test_rms(const double* numbers, size_t count)
 {
     double sum = 0;

@@ -41,6 +41,9 @@ double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocit
                           const double place[3]);
 // Root mean square of what flows into cells as the last step left them.
 double hair_test_fluid_left(struct hair_test_fluid* f);
+// Gusts at such a place, m/s, from their texture's texels.
+void   hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_air_gusts* gusts,
+                         const float* texel, const double place[3], double out[3]);
 double hair_test_rms(const double* numbers, size_t count);
 
 #endif
