@@ -213,6 +213,8 @@ static const struct member members[] = {
     VEC4(hair_fluid_params, wind),
     VEC4(hair_fluid_params, gain),
     VEC4(hair_fluid_params, rotation),
+    VEC4(hair_fluid_params, gust_turn),
+    VEC4(hair_fluid_params, gust_from),
     UINT(hair_fluid_params, cells),
     UINT(hair_fluid_params, solids),
     UINT(hair_fluid_params, open),
