@@ -145,8 +145,11 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_CARRIED 1  // as it has been carried along,
 #define HAIR_UNIT_OPEN 2     // and what else is bound as its slots say
 #define HAIR_UNIT_PRESSURE 3
+#define HAIR_UNIT_THICKET 3 // in its place, of the pass that knows of hair: HAIR_BIND_CROWD in fours, of a grid all over the box
 #define HAIR_UNIT_RIGHT 4
 #define HAIR_UNIT_WALL 6
+#define HAIR_UNIT_BARE_OPEN 5 // what is bound as HAIR_BIND_OPEN and _WALL as solids leave them; at their own units
+#define HAIR_UNIT_BARE_WALL 7 // they are as hair does
 #define HAIR_UNIT_BEFORE 2 // of what draws velocities, in place of frames: as HAIR_UNIT_EXPANDED, of the frame before
 #define HAIR_UNIT_UV 5       // vec2 per follower: of its root on the scalp
 #define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
@@ -534,9 +537,13 @@ struct hair_fluid_params {
     hair_uint cells;    // along each axis
     hair_uint solids;   // 0: there are none in reach
     hair_uint open;     // 0: the box is closed all round
+    hair_uint nodes;    // of the grid of hair, along each axis
+    float     thick;    // strands in a cubic metre by the mass at a node of it, 1/m^2; 0: there is no hair
+    float     per_speed; // Reynolds number of a strand by the speed of air, s/m
+    float     viscous;   // drag of strands by a viscous force, and that over a step, m^2
     hair_uint unused;
 };
-HAIR_SIZE(hair_fluid_params, 128)
+HAIR_SIZE(hair_fluid_params, 144)
 
 // A level of the fluid's grid, each of half as many cells along an axis as the one before; and what a pass does there.
 struct hair_fluid_level {

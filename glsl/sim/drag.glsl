@@ -1,21 +1,12 @@
-// drag.glsl - air that carries strands along. By a metre of a strand of diameter d, with u the air's velocity against it, n
-// across and t along the strand, and Re = |u_n| d / nu,
-//
-//   F_n = rho d / 2 C(Re) |u_n| u_n,  C = 9.689 Re^-0.78 (1 + f(Re))
-//
-// of infinite cylinders, 0.1 < Re < 400 (Clift, Grace and Weber 1978, "Bubbles, Drops, and Particles"). What flows along a
-// yawed cylinder does not change what flows across it and is carried by it, as heat is at a Prandtl number of 1 (the
-// independence principle: Sears 1948), so
-//
-//   F_t = pi mu Nu(Re) u_t,  Nu = 0.3 + 0.62 Re^(1/2) / (1 + 0.4^(2/3))^(1/4)
-//
-// as heat passes from cylinders (Churchill and Bernstein 1977). Both are rates at which a relative velocity decays. They are
-// taken at the velocity before the substep, and the decay implicitly (BDF2, Euler) or exactly (SHAKE): so no air carries a
-// strand past itself. What is done so, each direction by itself, comes before what bending does with it.
+// drag.glsl - air that carries strands along, as cylinders. What it does across and along a strand are rates at which a relative
+// velocity decays. They are taken at the velocity before the substep, and the decay implicitly (BDF2, Euler) or exactly
+// (SHAKE): so no air carries a strand past itself. What is done so, each direction by itself, comes before what bending does
+// with it.
 #ifndef HAIR_DRAG_GLSL
 #define HAIR_DRAG_GLSL
 
 #include "wind/air.glsl"
+#include "wind/cylinder.glsl"
 
 vec3 along; // unit
 uint substep_number; // of the dispatch
@@ -27,14 +18,6 @@ vec3 by_parts(vec2 share, vec3 v)
 {
     float a = dot(v, along);
     return share.x * (v - a * along) + share.y * a * along;
-}
-
-// Of a strand by its mass, 1/s.
-vec2 drag_rates(float reynolds)
-{
-    float l    = log2(max(reynolds, 1e-12)), root = exp2(0.82 * l);
-    float more = max(min(0.147 * root, 0.227 * exp2(0.55 * l)), 0.0838 * root);
-    return wind.viscous * vec2(0.5 * 9.689 * exp2(0.22 * l) * (1.0 + more), 3.14159265 * (0.3 + 0.5563 * sqrt(reynolds)));
 }
 
 // At a vertex whose velocity is about hv / h. No drag is more than what takes a strand its length in a substep. `share`: of
@@ -50,7 +33,7 @@ void feel_air(uint i, vec3 before, float share, vec3 hv)
     float faces = dot(past, along), across = length(past - faces * along);
     float light = min(0.5 * (beside + own(rest_length)) * own(slack), 1.0); // Not of what hangs on a tip.
     vec2  most  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
-    drags       = light * min(h * drag_rates(across / h * wind.per_speed), most);
+    drags       = light * min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), most);
     drifts      = share * params.damping * h * air + by_parts(drags, air);
 }
 

@@ -1,12 +1,21 @@
-// project.comp - the pressure's slope taken from the velocity of every face; a face that is closed goes with what closes it.
-// What is not sound becomes the wind. One thread per slot.
+// project.comp - the pressure's slope taken from the velocity of every face; a face that is closed goes with what closes it, and
+// air between strands goes in part as they do. What is not sound becomes the wind. One thread per slot.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_PRESSURE) uniform samplerBuffer pressure_texture;
 layout(binding = HAIR_UNIT_WALL) uniform samplerBuffer wall_texture;
+layout(binding = HAIR_UNIT_BARE_OPEN) uniform usamplerBuffer bare_open_texture;
+layout(binding = HAIR_UNIT_BARE_WALL) uniform samplerBuffer bare_wall_texture;
 layout(std430, binding = HAIR_BIND_VELOCITY) buffer velocity_buffer { float velocity[]; };
+
+// Of what solids leave open, where hair leaves a share of the face to air of such a speed: as much as goes through in all.
+float among_hair(int slot, int face, int axis, float share, float speed)
+{
+    float bare = open_share(texelFetch(bare_open_texture, slot).x, axis), hair = texelFetch(wall_texture, face).x;
+    return (share * speed + (1.0 - share) * hair - (1.0 - bare) * texelFetch(bare_wall_texture, face).x) / bare;
+}
 
 void main()
 {
@@ -17,13 +26,15 @@ void main()
     for (int axis = 0; axis < 3; ++axis) {
         int   face = face_of(axis, at), n = int(fluid.cells);
         float speed = texelFetch(wall_texture, face).x;
-        if (open_share(slot, axis) > 0.0) {
+        float share = open_share(slot, axis);
+        if (share > 0.0) {
             bool  first = at[axis] == 0, last = at[axis] == n;
             int   above = index_of(min(at, n - 1), fluid.cells);
             int   below = index_of(max(at - axis_of(axis), 0), fluid.cells);
             float q     = last ? 0.0 : texelFetch(pressure_texture, above).x;
             float p     = first ? 0.0 : texelFetch(pressure_texture, below).x;
             speed       = velocity[face] - (first || last ? 2.0 : 1.0) * (q - p);
+            if (fluid.thick > 0.0) speed = among_hair(int(i), face, axis, share, speed);
         }
         velocity[face] = is_sound(speed) ? speed : fluid.wind[axis];
     }

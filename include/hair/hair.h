@@ -607,6 +607,9 @@ typedef struct hair_wind {
     /// it is not finite, outside, and when it has been deleted.
     uint32_t texture;               ///< Of OpenGL: 3D, of floats. 0: none. Default 0.
     float    texture_transform[16]; ///< World to its coordinates. Affine. Default identity.
+    /// Hair slows the fluid as porous matter does: as so many strands that lie where guides are, each of which takes from
+    /// air what hair_physics.drag gives to a guide. A scalp has some 100000. 0: air blows through hair as through nothing.
+    uint32_t strands; ///< [0, 10000000]. Default 0.
 } hair_wind;
 HAIR_DESC(hair_wind)
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define MOST_BUFFERS 12 // of one kind of work
+#define MOST_BUFFERS 17 // of one kind of work
 #define MOST_TEXTURES 2 // likewise, but for those of buffers
 
 const char* hair_why_string(hair_why why)
@@ -109,7 +109,8 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                     [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
                                            air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
                                            air->pressure[0].buffer, air->pressure[1].buffer, air->params,
-                                           air->level_params, air->motion},
+                                           air->level_params, air->motion, air->hair.grid.buffer, air->hair.wall.buffer,
+                                           air->hair.open.buffer, sim->blow.share, sim->blow.params},
                     [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
                                             sim->crowd.push},
                     [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},

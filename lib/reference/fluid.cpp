@@ -1,5 +1,6 @@
 // fluid.cpp - air on a staggered grid, in double precision.
 #include "lib/reference/fluid.h"
+#include "lib/reference/drag.h"
 
 #include <algorithm>
 #include <array>
@@ -235,6 +236,38 @@ void hair_reference_correct(const hair_reference_flow* flow, const double* carri
             r.add(std::clamp(better.most, kept.least, kept.most) + gain);
         }
         least[face] = r.least, most[face] = r.most;
+    });
+}
+
+void hair_reference_hold(const hair_reference_flow* flow, const hair_reference_thicket* hair, double* open,
+                         double* wall)
+{
+    const grid   g{int(flow->cells)}, nodes{int(hair->nodes)};
+    const double finer = double(hair->nodes) / flow->cells;
+    for_faces(g, [&](int axis, const cell& at) {
+        const int     face = g.face(axis, at);
+        const place   here = middle(axis, at), then = shifted(*flow, here, 1);
+        const corners c({finer * here[0], finer * here[1], finer * here[2]}, {0.5, 0.5, 0.5},
+                        {nodes.n, nodes.n, nodes.n});
+        double        density = 0, speed = 0;
+        place         air = way(*flow, then), hairs = {0, 0, 0};
+        for (int k = 0; k < 8; ++k) {
+            density += c.weight[k] * hair->density[nodes.index(c.at[k])];
+            for (int a = 0; a < 3; ++a) hairs[a] += c.weight[k] * hair->flux[3 * nodes.index(c.at[k]) + a];
+        }
+        if (!(density > 0)) return;
+        for (int a = 0; a < 3; ++a) {
+            hairs[a] /= density;
+            air[a] = g.holds(then) ? air[a] / flow->cells_per : flow->wind[a];
+            speed += (air[a] - hairs[a]) * (air[a] - hairs[a]);
+        }
+        const double reynolds = std::sqrt(speed) * hair->per_speed;
+        const double across   = reynolds > 0 ? hair_reference_drag_across(reynolds) * reynolds / 2 : 0;
+        const double along    = hair_reference_drag_along(reynolds);
+        const double left     = 1 / (1 + density * hair->viscous * (2 * across + along) / 3);
+        const double closed = 1 - open[face], held = open[face] * (1 - left);
+        if (closed + held > 0) wall[face] = (held * hairs[axis] + closed * wall[face]) / (closed + held);
+        open[face] *= left;
     });
 }
 

@@ -36,6 +36,19 @@ void hair_reference_carry(const struct hair_reference_flow* flow, double* least,
 void hair_reference_correct(const struct hair_reference_flow* flow, const double* carried, double* least,
                             double* most);
 
+/// Strands that lie every way, in a grid of `nodes` along each axis whose cells' middles they are.
+struct hair_reference_thicket {
+    uint32_t      nodes;
+    const double* density;   ///< Metres of them in a cubic metre.
+    const double* flux;      ///< That times their velocity, xyz each. 1/m/s.
+    double        per_speed; ///< Reynolds number of a strand by the speed of air. s/m.
+    double        viscous;   ///< Their drag by a viscous force, over the step. m^2.
+};
+
+/// How open faces are and what closes them goes, after that is left of air which they hold back implicitly.
+void hair_reference_hold(const struct hair_reference_flow* flow, const struct hair_reference_thicket* hair,
+                         double* open, double* wall);
+
 /// What flows into each cell.
 void hair_reference_inflow(uint32_t cells, const double* open, const double* wall, const double* velocity,
                            double* right);

@@ -37,6 +37,24 @@ static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
     return desc;
 }
 
+static void free_hair(struct hair_blow* blow, struct hair_gl* gl)
+{
+    hair_gl_free_buffer(gl, &blow->share);
+    hair_gl_free_buffer(gl, &blow->params);
+}
+
+static hair_result need_hair(struct hair_sim* sim)
+{
+    struct hair_blow* blow   = &sim->blow;
+    int               wanted = sim->wind.strands > 0 && sim->physics.drag > 0;
+    if (!wanted) free_hair(blow, sim->gl);
+    hair_result result = hair_fluid_need_hair(&blow->fluid, wanted);
+    if (!result && wanted && !blow->share) result = hair_crowd_weigh(sim, &blow->share, &blow->metres);
+    if (!result && wanted && !blow->params)
+        result = hair_gl_uniform(sim->gl, "hair thicket", sizeof(struct hair_crowd_params), &blow->params);
+    return result;
+}
+
 hair_result hair_blow_need(struct hair_sim* sim)
 {
     struct hair_fluid* fluid = &sim->blow.fluid;
@@ -52,11 +70,13 @@ hair_result hair_blow_need(struct hair_sim* sim)
         hair_blow_free(sim);
         result = hair_fluid_create(fluid, sim->gl, &desc);
     }
+    if (!result) result = need_hair(sim);
     return result ? result : hair_fluid_make_room(fluid, sim->solids.now.count);
 }
 
 void hair_blow_free(struct hair_sim* sim)
 {
+    free_hair(&sim->blow, sim->gl);
     hair_fluid_destroy(&sim->blow.fluid);
     sim->blow.beat = 0;
 }
@@ -71,6 +91,41 @@ static uint32_t block_length(const struct hair_sim* sim)
 {
     uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
     return substeps < 1 ? 1 : substeps;
+}
+
+// Mass and momentum of hair, in the fluid's box.
+static void gather_hair(struct hair_sim* sim)
+{
+    struct hair_gl*          gl    = sim->gl;
+    const struct hair_fluid* fluid = &sim->blow.fluid;
+    uint32_t                 nodes = hair_fluid_nodes(fluid), fours = nodes * nodes * nodes;
+    float                    cell = fluid->desc.side / (float)nodes, half = 0.5f * cell;
+    hair_vec3                lower     = hair_add(fluid->lower, hair_v3(half, half, half));
+    struct hair_crowd_params params    = {.rotation = {0, 0, 0, 1},
+                                          .moved    = {0, 0, 0, (float)(1 / sim->last_substep)},
+                                          .lower    = {lower.x, lower.y, lower.z, cell},
+                                          .nodes_x  = nodes,
+                                          .nodes_y  = nodes,
+                                          .nodes_z  = nodes,
+                                          .vertices = sim->guide_vertices};
+    GLuint                   storage[] = {sim->state, fluid->hair.grid.buffer, sim->history, sim->blow.share};
+    hair_gl_write_uniform(gl, sim->blow.params, sizeof params, &params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_CROWD_PARAMS, 1, &sim->blow.params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
+    hair_gl_run(gl, HAIR_GL_FLUID_CLEAR, (fours + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+}
+
+// By the drag that guides have of it: what air loses, they gain.
+static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
+{
+    const hair_wind* wind      = &sim->wind;
+    double           viscosity = (double)wind->viscosity / (double)wind->density;
+    return (struct hair_fluid_strands){
+        .metres    = sim->blow.metres * wind->strands / sim->guides,
+        .per_speed = (float)(2 * (double)sim->physics.fiber_radius / viscosity),
+        .viscous   = (float)((double)sim->physics.drag * viscosity),
+    };
 }
 
 uint32_t hair_blow_left(struct hair_sim* sim, double dt)
@@ -88,7 +143,10 @@ uint32_t hair_blow_left(struct hair_sim* sim, double dt)
                                  .field     = blow->field,
                                  .solids    = &sim->solids,
                                  .solids_dt = dt};
-    hair_fluid_step(&blow->fluid, &now);
+    if (blow->share) now.strands = strands_of(sim);
+    hair_fluid_place(&blow->fluid, &now);
+    if (blow->share) gather_hair(sim);
+    hair_fluid_move(&blow->fluid);
     hair_sim_bind(sim);
     hair_sim_bind_rods(sim);
     if (sim->contacts.any) hair_contacts_bind(sim);

@@ -11,6 +11,9 @@ struct hair_blow {
     const struct hair_solid_field* field; // of the instance, brought up to date before every step
     struct hair_fluid              fluid; // there is none unless the wind is one
     uint32_t                       beat;  // substeps done of the block under way
+    // Of the grid of hair, where the fluid knows of it.
+    GLuint share, params; // buffers, as the crowd's
+    double metres;        // of guides that a unit of mass is
 };
 
 struct hair_sim;

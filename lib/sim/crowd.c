@@ -79,13 +79,13 @@ struct draft {
 };
 
 static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest,
-                  struct draft* draft)
+                  double* mass)
 {
     for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0; i < guides[g].count; ++i) {
             uint32_t at     = guides[g].first + i;
             double   before = i > 0 ? (double)rest[at - 1].position.w : 0;
-            draft->mass[at] = (before + (double)rest[at].position.w) / 2;
+            mass[at]        = (before + (double)rest[at].position.w) / 2;
         }
 }
 
@@ -143,31 +143,42 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
     }
 }
 
-// In the grid's units. A node presses from where it is full, or as it is at rest.
-static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct draft* draft)
+// In the grid's units. `volume` NULL: none.
+static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* guides, const double* mass,
+                                 const double* volume, GLuint* out)
 {
-    const hair_host*   host  = &sim->gl->host;
-    struct hair_crowd* crowd = &sim->crowd;
-    uint32_t           nodes = node_count(crowd), vertices = sim->guide_vertices;
-    struct hair_share* share = hair_alloc(host, vertices, sizeof *share);
-    float*             limit = hair_alloc(host, nodes, sizeof *limit);
-    double             mass = 0, volume = 0;
-    hair_result        result = HAIR_OK;
-    if (!share || !limit) result = hair_fail_memory(host, "the crowd's grid");
-    for (uint32_t i = 0; i < vertices && !result; ++i) mass += draft->mass[i], volume += draft->volume[i];
-    for (uint32_t i = 0; i < vertices && !result; ++i) {
-        share[i].mass   = (uint32_t)(draft->mass[i] * (HAIR_CROWD_UNITS / mass) + 0.5);
-        share[i].volume = (uint32_t)(draft->volume[i] * (HAIR_CROWD_UNITS / volume) + 0.5);
+    const hair_host*   host     = &sim->gl->host;
+    uint32_t           vertices = sim->guide_vertices;
+    struct hair_share* share    = hair_alloc(host, vertices, sizeof *share);
+    double             masses = 0, volumes = 0;
+    if (!share) return hair_fail_memory(host, "the crowd's grid");
+    for (uint32_t i = 0; i < vertices; ++i) masses += mass[i], volumes += volume ? volume[i] : 0;
+    for (uint32_t i = 0; i < vertices; ++i) {
+        share[i].mass   = (uint32_t)(mass[i] * (HAIR_CROWD_UNITS / masses) + 0.5);
+        share[i].volume = volume ? (uint32_t)(volume[i] * (HAIR_CROWD_UNITS / volumes) + 0.5) : 0;
     }
-    for (uint32_t g = 0; g < sim->guides && !result; ++g)
+    for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0, first = guides[g].first; i < guides[g].count; ++i)
             share[first + i].first = first, share[first + i].end = first + guides[g].count;
+    hair_result result = hair_gl_storage(sim->gl, "hair share", vertices * sizeof *share, share, out);
+    hair_free(host, share);
+    return result;
+}
+
+// A node presses from where it is full, or as it is at rest.
+static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct draft* draft)
+{
+    const hair_host*   host   = &sim->gl->host;
+    struct hair_crowd* crowd  = &sim->crowd;
+    uint32_t           nodes  = node_count(crowd);
+    float*             limit  = hair_alloc(host, nodes, sizeof *limit);
+    double             volume = 0;
+    hair_result        result = limit ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) volume += draft->volume[i];
     for (uint32_t n = 0; n < nodes && !result; ++n)
         limit[n] = (float)(fmax(draft->filled[n], 1) * (HAIR_CROWD_UNITS / volume));
-    struct hair_gl* gl = sim->gl;
-    if (!result) result = hair_gl_storage(gl, "hair share", vertices * sizeof *share, share, &crowd->share);
-    if (!result) result = hair_gl_storage(gl, "hair limit", nodes * sizeof *limit, limit, &crowd->limit);
-    hair_free(host, share);
+    if (!result) result = upload_shares(sim, guides, draft->mass, draft->volume, &crowd->share);
+    if (!result) result = hair_gl_storage(sim->gl, "hair limit", nodes * sizeof *limit, limit, &crowd->limit);
     hair_free(host, limit);
     return result;
 }
@@ -188,7 +199,7 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     int         whole  = draft.mass && draft.volume && draft.filled && draft.bin && draft.vertex;
     hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
     if (!result) {
-        weigh(sim, guides, rest, &draft);
+        weigh(sim, guides, rest, draft.mass);
         sort(sim, rest, &draft);
         fill(sim, rest, &draft);
         result = upload(sim, guides, &draft);
@@ -198,6 +209,21 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     hair_free(host, draft.filled);
     hair_free(host, draft.bin);
     hair_free(host, draft.vertex);
+    return result;
+}
+
+hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres)
+{
+    const hair_host*         host = &sim->gl->host;
+    const struct hair_rest*  rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
+    double*                  mass   = hair_alloc(host, sim->guide_vertices, sizeof *mass);
+    if (!mass) return hair_fail_memory(host, "the lengths of guides");
+    weigh(sim, guides, rest, mass);
+    *metres = 0;
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += mass[i] / HAIR_CROWD_UNITS;
+    hair_result result = upload_shares(sim, guides, mass, NULL, share);
+    hair_free(host, mass);
     return result;
 }
 

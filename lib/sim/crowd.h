@@ -29,6 +29,9 @@ hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guide
                             const struct hair_rest* rest); // if it is on and not yet made
 void        hair_crowd_free(struct hair_sim* sim);
 
+// What guide vertices put into a grid of mass alone, as hair_share[]; and of how many metres of guides a unit of mass is.
+hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres);
+
 // How many substeps the block under way still has. At its start: find its accelerations first.
 uint32_t hair_crowd_left(struct hair_sim* sim);
 void     hair_crowd_bind(struct hair_sim* sim); // what the solver reads

@@ -9,14 +9,14 @@
 
 // Making ----------------------------------------------------------------------------------------------------
 
-static hair_result make(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
-                        struct hair_fluid_buffer* out)
+hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
+                                   struct hair_fluid_buffer* out)
 {
     hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
     return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
 }
 
-static void let_go(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
+void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
 {
     hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
     hair_gl_free_buffer(fluid->gl, &buffer->buffer);
@@ -69,6 +69,7 @@ static int takes(const struct hair_fluid* fluid, hair_gl_pass pass)
     int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
                  pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
     if (coarse) return fluid->desc.method == HAIR_FLUID_MULTIGRID;
+    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return 0;
     if (pass == HAIR_GL_FLUID_SMOOTH) return fluid->desc.method != HAIR_FLUID_JACOBI;
     return pass != HAIR_GL_FLUID_JACOBI || fluid->desc.method == HAIR_FLUID_JACOBI;
 }
@@ -86,12 +87,13 @@ static hair_result make_all(struct hair_fluid* fluid)
     for (int pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
         if (takes(fluid, (hair_gl_pass)pass)) result = hair_gl_need(gl, (hair_gl_pass)pass);
     for (int i = 0; i < 3 && !result; ++i)
-        result = make(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
-    if (!result) result = make(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);
-    if (!result) result = make(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->open);
-    if (!result) result = make(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->right);
+        result = hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
+    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);
+    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->open);
+    if (!result)
+        result = hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->right);
     for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1) && !result; ++i)
-        result = make(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
+        result = hair_fluid_make_buffer(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
     if (!result) result = hair_gl_uniform(gl, "hair fluid", sizeof(struct hair_fluid_params), &fluid->params);
     if (!result)
         result = hair_gl_uniform(gl, "hair fluid motion", sizeof(struct hair_fluid_motion), &fluid->motion);
@@ -114,11 +116,12 @@ hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
 void hair_fluid_destroy(struct hair_fluid* fluid)
 {
     if (!fluid->gl) return;
-    for (int i = 0; i < 3; ++i) let_go(fluid, &fluid->velocity[i]);
-    for (int i = 0; i < 2; ++i) let_go(fluid, &fluid->pressure[i]);
-    let_go(fluid, &fluid->wall);
-    let_go(fluid, &fluid->open);
-    let_go(fluid, &fluid->right);
+    for (int i = 0; i < 3; ++i) hair_fluid_free_buffer(fluid, &fluid->velocity[i]);
+    for (int i = 0; i < 2; ++i) hair_fluid_free_buffer(fluid, &fluid->pressure[i]);
+    hair_fluid_free_buffer(fluid, &fluid->wall);
+    hair_fluid_free_buffer(fluid, &fluid->open);
+    hair_fluid_free_buffer(fluid, &fluid->right);
+    hair_fluid_free_hair(fluid);
     hair_gl_free_buffer(fluid->gl, &fluid->params);
     hair_gl_free_buffer(fluid->gl, &fluid->level_params);
     hair_gl_free_buffer(fluid->gl, &fluid->motion);
@@ -143,11 +146,15 @@ static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
     carried                             = &fluid->velocity[(fluid->now + 1) % 3];
     next                                = &fluid->velocity[(fluid->now + 2) % 3];
-    int    early                        = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
-    int    jacobi                       = pass == HAIR_GL_FLUID_JACOBI;
-    GLuint write[]                      = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
-                      fluid->wall.buffer,
-                      fluid->open.buffer,
+    // Solids leave faces as open as they do; all that comes later goes by what hair makes of that.
+    int                             hairy   = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
+    const struct hair_fluid_buffer* wall    = hairy ? &fluid->hair.wall : &fluid->wall;
+    const struct hair_fluid_buffer* open    = hairy ? &fluid->hair.open : &fluid->open;
+    int                             early   = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
+    int                             jacobi  = pass == HAIR_GL_FLUID_JACOBI;
+    GLuint                          write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
+                      wall->buffer,
+                      open->buffer,
                       fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
                       fluid->right.buffer,
                       fluid->motion};
@@ -155,10 +162,14 @@ static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
     gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
     gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
-    gl->BindTextureUnit(HAIR_UNIT_OPEN, fluid->open.texture);
+    gl->BindTextureUnit(HAIR_UNIT_OPEN, open->texture);
     gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
     gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
-    gl->BindTextureUnit(HAIR_UNIT_WALL, fluid->wall.texture);
+    gl->BindTextureUnit(HAIR_UNIT_WALL, wall->texture);
+    if (!hairy) return;
+    gl->BindTextureUnit(HAIR_UNIT_BARE_OPEN, fluid->open.texture);
+    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL, fluid->wall.texture);
+    if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
 }
 
 void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
@@ -268,6 +279,13 @@ static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_pa
            (!params->solids || fluid->writes == field->writes);
 }
 
+// In a cubic metre, by the mass at a node.
+static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_now* now)
+{
+    double node = (double)fluid->desc.side / hair_fluid_nodes(fluid);
+    return fluid->hair.grid.buffer ? (float)(now->strands.metres / (node * node * node)) : 0;
+}
+
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     float shift[3], cell = hair_fluid_cell(fluid);
@@ -288,6 +306,10 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
         .cells     = fluid->desc.cells,
         .solids    = now->field && hair_field_is_near(now->field),
         .open      = !fluid->desc.closed,
+        .nodes     = hair_fluid_nodes(fluid),
+        .thick     = thickness(fluid, now),
+        .per_speed = now->strands.per_speed,
+        .viscous   = (float)((double)now->strands.viscous * now->dt),
     };
     hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
     fluid->wind  = wind;
@@ -305,6 +327,11 @@ void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
     hair_fluid_run(fluid, HAIR_GL_FLUID_OPEN, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    if (!fluid->hair.grid.buffer) hair_fluid_coarsen(fluid);
+}
+
+void hair_fluid_coarsen(struct hair_fluid* fluid)
+{
     if (fluid->desc.method != HAIR_FLUID_MULTIGRID) return;
     for (uint32_t i = 0; i + 1 < fluid->levels; ++i)
         hair_fluid_run(fluid, HAIR_GL_FLUID_COARSEN, i, 0,
@@ -352,7 +379,13 @@ void hair_fluid_show(struct hair_fluid* fluid)
 void hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     hair_fluid_place(fluid, now);
+    hair_fluid_move(fluid);
+}
+
+void hair_fluid_move(struct hair_fluid* fluid)
+{
     hair_fluid_carry(fluid);
+    if (fluid->hair.grid.buffer) hair_fluid_let_through(fluid);
     hair_fluid_solve(fluid);
     hair_fluid_project(fluid);
 }

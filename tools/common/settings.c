@@ -98,6 +98,7 @@ static const struct row rows[] = {
     {"wind.gust_length", "their integral length scale, m", FLOAT, {AT(wind.gust_length)}, {0}},
     {"wind.seed", "of gusts", COUNT, {AT(wind.seed)}, {0}},
     {"wind.shelter", "how much head and solids divert it", FLOAT, {AT(wind.shelter)}, {0}},
+    {"wind.strands", "that slow the fluid down", COUNT, {AT(wind.strands)}, {0}},
     {"wind.density", "of the air, kg/m^3", FLOAT, {AT(wind.density)}, {0}},
     {"wind.viscosity", "of the air, Pa s", FLOAT, {AT(wind.viscosity)}, {0}},
     {"drag", "of wind, as a multiple of that of a single hair", FLOAT, {AT(physics.drag)}, {0}},

@@ -1,0 +1,38 @@
+// porous.c - hair in the way of the fluid: it closes faces in part.
+#include "lib/wind/fluid.h"
+
+hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
+{
+    struct hair_fluid_hair* hair  = &fluid->hair;
+    size_t                  nodes = hair_fluid_nodes(fluid);
+    if (!wanted == !hair->grid.buffer) return HAIR_OK;
+    fluid->made_for.cells = 0; // Coarser faces go by hair, or no longer.
+    hair_fluid_free_hair(fluid);
+    hair_result result = HAIR_OK;
+    for (int pass = HAIR_GL_FLUID_CLEAR; wanted && pass <= HAIR_GL_FLUID_POROUS && !result; ++pass)
+        result = hair_gl_need(fluid->gl, (hair_gl_pass)pass);
+    if (!wanted || result) return result;
+    result =
+        hair_fluid_make_buffer(fluid, "hair thicket", 4 * nodes * nodes * nodes, GL_RGBA32I, &hair->grid);
+    if (!result)
+        result = hair_fluid_make_buffer(fluid, "hair fluid walls among hair", 3 * hair_fluid_slots(fluid),
+                                        GL_R32F, &hair->wall);
+    if (!result)
+        result = hair_fluid_make_buffer(fluid, "hair fluid openings among hair",
+                                        fluid->level[fluid->levels].slot, GL_R32UI, &hair->open);
+    if (result) hair_fluid_free_hair(fluid);
+    return result;
+}
+
+void hair_fluid_free_hair(struct hair_fluid* fluid)
+{
+    hair_fluid_free_buffer(fluid, &fluid->hair.grid);
+    hair_fluid_free_buffer(fluid, &fluid->hair.wall);
+    hair_fluid_free_buffer(fluid, &fluid->hair.open);
+}
+
+void hair_fluid_let_through(struct hair_fluid* fluid)
+{
+    hair_fluid_run(fluid, HAIR_GL_FLUID_POROUS, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    hair_fluid_coarsen(fluid);
+}
