@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "lib/api/api.h"
+#include "lib/reference/air.h"
 #include "tests/support/motion.h"
 
 #define STEP (1.0 / 270) // Four substeps.
@@ -133,7 +134,15 @@ static void a_ball_shelters_what_is_behind_it(void** state)
     hair_test_blow(&living, &wind);
     measure(&living);
     for (uint32_t i = 0; i < 8; ++i) {
+        hair_vec3 middle = hair_add(hair_test_at(&living, i, 0), hair_load3(living.before + 6 * (size_t)i));
+        const double one[3]   = {0, 0, 1},
+                     place[3] = {5 * (double)middle.x, 5 * (double)middle.y, 5 * (double)middle.z};
+        double twin[3];
         share[i] = (double)speed_of(&living, i).z;
+        hair_reference_around_ball(one, place, twin);
+        if (i > 0)
+            expect(speed_of(&living, i), twin[0], twin[1], twin[2],
+                   0.02); // The first is at the ball's margin.
         print_message("    at (%g, %g, %g) m: %.3f of the wind\n", (double)at[i].x, (double)at[i].y,
                       (double)at[i].z, share[i]);
     }
