@@ -40,4 +40,8 @@ double bench_flow_asymmetry(const struct bench_flow* flow, const double* velocit
 double bench_flow_beside(const struct bench_flow* flow, const double* velocity, double along, double beside);
 double bench_flow_energy(const double* velocity, size_t faces);
 
+// lee.c: rows of air by formulas against the fluid's mean, by the wind, past the ball; and of what either costs.
+void bench_lee_compare(const struct bench_flow* flow, const double* mean);
+void bench_lee_cost(struct bench* bench);
+
 #endif

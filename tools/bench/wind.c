@@ -1,5 +1,5 @@
 // wind.c - the suite `wind`: what the fluid's parts cost, how fast each projection drives out what presses cells together
-// (all tuned, the sweep shown), and how air goes round a ball and in a closed box.
+// (all tuned, the sweep shown), how air goes round a ball and in a closed box, and how far off air by formulas is.
 #include "tools/bench/flow.h"
 #include "tools/bench/timer.h"
 
@@ -12,10 +12,10 @@
 #define MOST_FRUITLESS 30e3 // ms: a method that takes longer goes through no more iterations
 #define WANTED 1e-3         // of what was to be driven out, to be left
 
-static const char* const columns[] = {"case",   "method",    "resolution", "relax",      "iterations",
-                                      "ms",     "ms_min",    "ms_max",     "runs",       "divergence",
-                                      "front",  "to_jacobi", "flux",       "asymmetry",  "before",
-                                      "beside", "behind",    "energy",     "drag_error", NULL};
+static const char* const columns[] = {
+    "case",   "method",     "resolution", "relax",     "iterations", "ms",        "ms_min", "ms_max",
+    "runs",   "divergence", "front",      "to_jacobi", "flux",       "asymmetry", "before", "beside",
+    "behind", "energy",     "drag_error", "off",       "off_behind", "along",     "speed",  NULL};
 
 static const char* const methods[] = {"multigrid", "relaxation",
                                       "jacobi"}; // in the order of hair_fluid_method
@@ -193,6 +193,7 @@ static bool measure_ball(struct bench_flow* flow, json_t* row)
     bench_set_number(row, "before", bench_flow_beside(flow, mean, -1.5, 0));
     bench_set_number(row, "beside", bench_flow_beside(flow, mean, 0, 1.5));
     bench_set_number(row, "behind", lee);
+    bench_lee_compare(flow, mean);
     free(mean);
     return !bench_was_interrupted();
 }
@@ -261,6 +262,7 @@ static void run_suite(struct bench* bench)
     run_parts(bench);
     run_projections(bench);
     run_flows(bench);
+    bench_lee_cost(bench);
 }
 
 const struct bench_suite bench_wind = {

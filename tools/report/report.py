@@ -109,13 +109,14 @@ def plot(panels, style):
                     ax.annotate(p[2], p[:2], xytext=(4, 4), textcoords="offset points", fontsize=7, color=look["color"])
         if "limit" in style:
             ax.axvline(style["limit"], color="black", linewidth=1, linestyle="--")
-        ax.set_xscale("log")
+        scale = "linear" if style.get("linear") else "log"
+        ax.set_xscale(scale)
         ax.xaxis.set_minor_formatter(NullFormatter())
         if named:
             ax.invert_yaxis()
             ax.tick_params(axis="y", labelsize=8)
         else:
-            ax.set_yscale("log")
+            ax.set_yscale(scale)
             ax.yaxis.set_minor_formatter(NullFormatter())
         ax.set(title=title, xlabel=style["across"], ylabel=style.get("down", ""))
         ax.grid(True, which="major", color="#ddd", linewidth=0.6)

@@ -82,6 +82,18 @@ def divergence(rows):
                    lambda row: (row["ms"], row["divergence"], "", bounds(row, "ms")) if row["divergence"] and row["ms"] else None)
 
 
+def through_a_ball(rows):
+    def point(row):
+        return (row["along"], row["speed"]) if row.get("along") is not None else None
+
+    # A line each way: it would go through the ball.
+    return grouped(rows, lambda row: f'{row["method"]}, {row["resolution"]} cells, {"behind" if (row.get("along") or 0) > 0 else "before"}', point)
+
+
+def step_in_wind(rows):
+    return grouped(rows, lambda row: row["method"], lambda row: (row["ms"], row["method"], "", bounds(row, "ms")) if row["case"] == "a step in wind" else None)
+
+
 def with_and_without(rows):
     return grouped(rows, lambda row: row["scene"], lambda row: (row["ms_all"], row["ms"]) if row.get("ms_all") and row.get("ms") else None)
 
@@ -151,7 +163,10 @@ SUITES = [
         "name": "wind", "title": "Wind",
         "text": "The fluid around the head: what a projection takes and what divergence it leaves; flows whose shape is known.",
         "plots": [{"series": divergence, "joined": True, "across": "milliseconds", "down": "divergence left, as a share",
-                   "caption": "Projections, each with as much relaxation as its number says, by more and more cycles or iterations."}],
+                   "caption": "Projections, each with as much relaxation as its number says, by more and more cycles or iterations."},
+                  {"series": through_a_ball, "joined": True, "across": "radii down the wind from a ball's middle", "down": "speed, by the wind's", "linear": True,
+                   "caption": "Air by formulas, and the mean of the fluid."},
+                  {"series": step_in_wind, "across": "milliseconds", "caption": "A step of 64 strands around a ball."}],
         "shown": missed, "shown_title": "limits that are missed",
     },
     {
