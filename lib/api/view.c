@@ -166,8 +166,9 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     int depth = view->pass == HAIR_PASS_DEPTH, unseen = is_out_of_view(hair, view);
     ++asked->views[depth];
     asked->unseen[depth] += (uint32_t)unseen;
-    asked->listed |= !unseen && view->path != HAIR_PATH_TESSELLATION;
-    asked->expanded |= !unseen && view->path == HAIR_PATH_EXPANDED && !view->lod;
+    hair_path path = hair_draw_path(&hair->draw, view);
+    asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
+    asked->expanded |= !unseen && path == HAIR_PATH_EXPANDED;
     return !unseen && hair->draw.look.density > 0;
 }
 

@@ -16,6 +16,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
     hair_draw_find_extent(draw, groom);
+    hair_draw_find_fastest(draw);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
                                         groom->followers, &draw->follower);
     if (!result)
@@ -95,25 +96,12 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-static int is_shared(const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_SHARES;
-}
-
-// Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are
-// segments between such.
-static hair_path path_of(const hair_view* view)
-{
-    if (view->pass == HAIR_PASS_MOTION || is_shared(view)) return HAIR_PATH_EXPANDED;
-    return view->path == HAIR_PATH_EXPANDED && view->lod ? HAIR_PATH_INSTANCED : view->path;
-}
-
 // Of the rows of a DRAW_PASS, two each.
 static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view, hair_path path)
 {
     int depth  = view->pass == HAIR_PASS_DEPTH;
     int fibres = view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES;
-    int row    = (view->primitive == HAIR_LINES && !is_shared(view)) + 2 * depth + 4 * fibres;
+    int row    = (view->primitive == HAIR_LINES && !hair_draw_is_shared(view)) + 2 * depth + 4 * fibres;
     static const hair_gl_pass first[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED_RIBBONS,
                                          [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED_RIBBONS,
                                          [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED_RIBBONS};
@@ -144,10 +132,10 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
     struct hair_gl* gl   = draw->gl;
     uint32_t        bits = view->pass == HAIR_PASS_ID       ? HAIR_GL_IDS
                            : view->pass == HAIR_PASS_MOTION ? HAIR_GL_MOTION
-                           : is_shared(view)                ? HAIR_GL_SHARES
+                           : hair_draw_is_shared(view)      ? HAIR_GL_SHARES
                                                             : 0;
     if (wants_uvs(draw, view, shader)) bits |= HAIR_GL_TINTED;
-    out->path = path_of(view);
+    out->path = hair_draw_path(draw, view);
     out->pass = hair_draw_choose(draw, pass_of(draw, view, out->path));
     if (bits || shader)
         return hair_gl_need_variant(gl, shader ? shader : &gl->ours, bits, out->pass, &out->program);
@@ -173,12 +161,12 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     if (listed) hair_draw_list(draw, smooth, params);
     if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
-    if (is_shared(view)) hair_draw_sort(draw);
+    if (hair_draw_is_shared(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
-    (is_shared(view) ? hair_draw_sorted : listed ? hair_draw_listed : hair_draw_patches)(draw);
+    (hair_draw_is_shared(view) ? hair_draw_sorted : listed ? hair_draw_listed : hair_draw_patches)(draw);
     hair_gl_end(gl, with->pass);
 }
 
@@ -194,7 +182,7 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw);
     if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
-    if (!result && is_shared(view)) result = hair_draw_need_sorted(draw);
+    if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
     if (!result && motion) hair_draw_begin_motion(draw, head, view->frame);
     return result;

@@ -45,6 +45,7 @@ struct hair_draw {
     uint32_t             followers, patches, smooth_vertices, guides;
     uint32_t             most_isolines; // of a patch
     uint32_t             map_sets;
+    uint32_t             driver;  // row of paths.inl
     hair_vec4            skull;   // of the groom
     int                  bounded; // roots are held: no strand leaves its patch's reach
     uint32_t             seated;  // for which run of smooth.comp followers are
@@ -107,6 +108,11 @@ void        hair_draw_free_listed(struct hair_draw* draw);
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params);
 void hair_draw_listed(struct hair_draw* draw);
+
+// path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
+void      hair_draw_find_fastest(struct hair_draw* draw);
+hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
+int       hair_draw_is_shared(const hair_view* view);
 
 // cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);

@@ -1,0 +1,179 @@
+// paths_test.c - by whatever path hair is drawn it looks alike, and HAIR_PATH_AUTO takes the one that is known to be fast.
+#include "tests/support/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <hair/hair_asset.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+
+// Tools are not linked into tests.
+#include "tools/common/flip.c"
+#include "tools/common/image_error.c"
+
+enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_PATH_AUTO };
+
+static const char* const names[PATHS] = {"tessellated", "instanced", "expanded"};
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+// Few strands, each as wide as several; `curly`: in curls, and a ball that many of them run into.
+static struct fixture start(void** state, int curly)
+{
+    struct fixture  f     = {.test = *state};
+    hair_asset*     asset = NULL;
+    hair_style_desc of    = hair_style_desc_default();
+    hair_groom_desc desc  = hair_groom_desc_default();
+    hair_desc       how   = hair_desc_default();
+    hair_look       look  = hair_look_default();
+    hair_solid      ball  = hair_solid_default();
+    of.host = desc.host = &f.test->host.host;
+    of.style            = HAIR_STYLE_CURLY;
+    if (curly) hair_test_ok(f.test, hair_look_preset(&look, HAIR_LOOK_CURLY));
+    hair_test_ok(f.test, hair_look_color(&look, HAIR_COLOR_BLOND));
+    look.radius = 5e-4f;
+    how.look    = &look;
+    hair_test_ok(f.test, hair_asset_generate(&of, &asset));
+    hair_test_ok(f.test, hair_asset_fill(asset, &desc));
+    desc.follower_count = curly ? 1500 : 200;
+    hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
+    hair_asset_destroy(asset);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    ball.size[0]     = 0.06f;
+    ball.position[0] = 0.1f, ball.position[1] = 1.55f, ball.position[2] = 0.05f;
+    if (curly) hair_test_ok(f.test, hair_set_solids(f.hair, &ball, 1, sizeof ball));
+    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+// From in front of the head, 0.8 m away.
+static hair_view front(hair_path path, hair_primitive primitive)
+{
+    hair_view view = hair_view_default();
+    view.path = path, view.primitive = primitive;
+    view.view[13] = -1.6f, view.view[14] = -0.8f;
+    view.projection[0] = view.projection[5] = 3;
+    view.projection[10] = -1, view.projection[14] = -0.02f;
+    view.projection[11] = -1, view.projection[15] = 0;
+    return view;
+}
+
+struct picture {
+    float         pixels[4 * PIXELS], shown[3 * PIXELS];
+    unsigned char mask[PIXELS]; // of what hair covers, and 8 pixels around
+};
+
+static void draw(struct fixture* f, const hair_view* view, struct picture* out)
+{
+    struct hair_test_frame frame;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 4);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&frame, out->pixels);
+    hair_test_frame_free(&frame);
+    for (int i = 0; i < PIXELS; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            float x               = fminf(fmaxf(out->pixels[4 * i + k], 0), 1);
+            out->shown[3 * i + k] = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+        }
+        out->mask[i] = out->pixels[4 * i + 3] > 0;
+    }
+    assert_true(hair_mask_dilate(out->mask, SIDE, SIDE, 8));
+}
+
+// The pass that drew colour in this frame.
+static const char* drawn_by(struct fixture* f)
+{
+    hair_report_info info = hair_report_info_default();
+    hair_report_row  rows[64];
+    uint32_t         count;
+    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    for (uint32_t i = 0; i < count; ++i)
+        if (strcmp(rows[i].work, "color") == 0 && rows[i].pass) return rows[i].pass;
+    return "";
+}
+
+static uint32_t count_hits(struct fixture* f)
+{
+    uint32_t count = 0;
+    float*   hits  = malloc(f->hair->draw.followers * sizeof *hits);
+    glGetNamedBufferSubData(f->hair->draw.hits.hit, 0, (GLsizeiptr)(f->hair->draw.followers * sizeof *hits),
+                            hits);
+    for (uint32_t i = 0; i < f->hair->draw.followers; ++i) count += hits[i] < (float)HAIR_NO_HIT;
+    free(hits);
+    return count;
+}
+
+static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** state)
+{
+    static struct picture picture[PATHS];
+    struct fixture        f = start(state, 1);
+    for (hair_primitive primitive = HAIR_RIBBONS; primitive <= HAIR_LINES; ++primitive) {
+        for (hair_path path = 0; (int)path < PATHS; ++path) {
+            struct hair_image_error error;
+            hair_view               view = front(path, primitive);
+            draw(&f, &view, &picture[path]);
+            assert_non_null(strstr(drawn_by(&f), names[path]));
+            assert_true(
+                hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
+            print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
+                          primitive ? "lines" : "ribbons", error.flip, count_hits(&f));
+            assert_true(error.flip <= 0.01);
+        }
+        assert_true(count_hits(&f) > 100);
+    }
+    finish(&f);
+}
+
+static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
+{
+    static struct picture own, same;
+    struct fixture        f   = start(state, 0);
+    hair_lod              lod = hair_lod_default();
+    for (int i = 0; i < 4; ++i) {
+        hair_view view  = front(HAIR_PATH_AUTO, (hair_primitive)(i % 2));
+        view.lod        = i / 2 ? &lod : NULL;
+        hair_path taken = hair_draw_path(&f.hair->draw, &view);
+        draw(&f, &view, &own);
+        assert_non_null(strstr(drawn_by(&f), names[taken]));
+        view.path = taken;
+        draw(&f, &view, &same);
+        assert_memory_equal(own.pixels, same.pixels, sizeof own.pixels);
+    }
+    finish(&f);
+}
+
+// What would take too much memory is not chosen for being fast.
+static void auto_does_not_expand_more_than_fits(void** state)
+{
+    struct fixture   f    = start(state, 0);
+    hair_view        view = front(HAIR_PATH_AUTO, HAIR_RIBBONS);
+    struct hair_draw many = f.hair->draw;
+    many.followers        = 4000000;
+    assert_int_not_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);
+    view.path = HAIR_PATH_EXPANDED;
+    assert_int_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths),
+        HAIR_TEST(auto_draws_what_the_path_of_the_table_does_and_says_so),
+        HAIR_TEST(auto_does_not_expand_more_than_fits),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
