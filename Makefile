@@ -197,7 +197,7 @@ FEATURES := HAIR_(CURVED|THREAD_PER_GUIDE|CROWD|SKINNED|TIED|WIND|STIFF|SOLIDS)=
 glsl: ## Compile every shader offline, no GPU needed
 	@{ echo '#define PASS(name, label, stages) stages;'; echo '#include "lib/gl/passes.inl"'; \
 	   echo '"gl/selftest.tesc gl/selftest.tese";'; \
-	   for v in HAIR_IDS HAIR_TINTED HAIR_OWN_VERTICES "HAIR_FIBRES=1 HAIR_OWN_PIXELS" "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_MOTION" \
+	   for v in HAIR_IDS HAIR_TINTED HAIR_PAINTED HAIR_OWN_VERTICES "HAIR_FIBRES=1 HAIR_OWN_PIXELS" "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_MOTION" \
 	     "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_FIBRES=1 HAIR_SHARES"; do \
 	     echo "\"$$v=1 draw/strand.vert draw/ribbon.geom draw/strand.frag\";"; done; } | $(CC) -E -P -I. -x c - | tr -d '"\n' | tr ';' '\n' | \
 	  grep -vE 'THREADS=(32|64|128) ' | awk '{ n = gsub(/$(FEATURES)/, "&"); if (!/rod.comp/ || n < 3 || n > 6) print }' | while read -r stages; do defines=-DHAIR_LINES_LEVEL=0; \

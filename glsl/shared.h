@@ -153,6 +153,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_BEFORE 2 // of what draws velocities, in place of frames: as HAIR_UNIT_EXPANDED, of the frame before
 #define HAIR_UNIT_UV 5       // vec2 per follower: of its root on the scalp
 #define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
+#define HAIR_UNIT_PAINT 17   // vec4 per follower and place along it: colours of its own
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_GUST 8     // of the solvers of rods and of the fluid, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
@@ -623,8 +624,11 @@ struct hair_tint {
     float     root_recovery; // 1 / share of the strand over which it comes back
     float     streak_locks;  // share of strands that go by their lock
     float     sparkle;
+    float     paint;       // share of the colours of the groom
+    float     paint_power; // that these are darkened by
+    hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 32)
+HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 48)
 
 #define HAIR_LIGHT_TO 0    // xyz, w 0: unit, towards it; w 1: m, from the head's origin to it
 #define HAIR_LIGHT_COLOR 1 // rgb: irradiance, or that 1 m away; w: m^2: squared distance below which it is no brighter

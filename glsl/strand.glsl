@@ -23,6 +23,21 @@ layout(binding = HAIR_UNIT_UV) uniform samplerBuffer uv_texture;
 layout(binding = HAIR_UNIT_COLOR) uniform sampler2D color_texture;
 #endif
 
+#ifdef HAIR_PAINTED
+layout(binding = HAIR_UNIT_PAINT) uniform samplerBuffer paint_texture;
+
+// What it would have by the look, and what the groom has for it, wet as it may be.
+vec3 color_at(uint number, float t)
+{
+    float along = t * float(HAIR_CURVE_INTERVALS);
+    int   k     = min(int(along), HAIR_CURVE_INTERVALS - 1), at = int(number) * (HAIR_CURVE_INTERVALS + 1) + k;
+    vec3  own   = mix(texelFetch(paint_texture, at).rgb, texelFetch(paint_texture, at + 1).rgb, along - float(k));
+    return mix(ramp_at(t), pow(max(own, 0.0), vec3(draw.tint.paint_power)), draw.tint.paint);
+}
+#else
+vec3 color_at(uint number, float t) { return ramp_at(t); }
+#endif
+
 hair_fragment fragment_of(hair_follower follower, uint number, hair_point point, float t)
 {
     hair_fragment f;
@@ -36,7 +51,7 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     f.strand   = number;
     f.uv       = vec2(0.0);
     f.across   = 0.0;
-    f.color    = tint_of(f.seed, f.lock, t, f.random);
+    f.color    = tint_of(f.seed, f.lock, t, f.random, color_at(number, t));
 #ifdef HAIR_TINTED
     f.uv = texelFetch(uv_texture, int(number)).xy;
     if (draw.textured != 0u) f.color *= textureLod(color_texture, f.uv, 0.0).rgb;

@@ -13,12 +13,16 @@ bool is_streak(uint seed, uint lock)
     return random(together ? lock + 0x2c1b3c6du : seed + 9u) < draw.tint.streak.w;
 }
 
-// `bright`: the strand's own random number for that.
-vec3 tint_of(uint seed, uint lock, float t, float bright)
+vec3 ramp_at(float t)
 {
     float along = t * float(HAIR_CURVE_INTERVALS);
     int   k     = min(int(along), HAIR_CURVE_INTERVALS - 1);
-    vec3  color = mix(draw.tint.ramp[k].rgb, draw.tint.ramp[k + 1].rgb, along - float(k));
+    return mix(draw.tint.ramp[k].rgb, draw.tint.ramp[k + 1].rgb, along - float(k));
+}
+
+// `bright`: the strand's own random number for that. `color`: what it has at t before chance.
+vec3 tint_of(uint seed, uint lock, float t, float bright, vec3 color)
+{
     if (is_streak(seed, lock)) color = draw.tint.streak.rgb;
     float red = draw.tint.hue * (2.0 * random(seed + 10u) - 1.0);
     color *= vec3(1.0 + red, 1.0, 1.0 - red);

@@ -337,6 +337,7 @@ static void print_asset(const hair_asset_info* info)
     printf("%-10s x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m\n", "bounds:", l[0] + 0.0, u[0] + 0.0,
            l[1] + 0.0, u[1] + 0.0, l[2] + 0.0, u[2] + 0.0);
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
+    printf("%-10s %s\n", "colours:", info->strand_colors ? "of every strand" : "none");
     print_repairs(&info->repairs);
 }
 

@@ -164,6 +164,14 @@ typedef struct hair_groom_desc {
     uint32_t        seed;                 ///< Of every random choice. Default 1.
     const float*    scalp_uvs;            ///< uv per scalp vertex, for maps that are images. NULL: none.
     const hair_map_set* map_sets[4];      ///< Maps on the scalp, up to the first NULL. NULL: none.
+    /// Per strand, in the unit of `positions`: of the mean of all that much thicker than hair_look.radius are it and what
+    /// grows of it, at most 4 times. [0, 1e6]. NULL: chance has it.
+    const float* strand_radii;
+    /// Of strands, linear rgb; followers between guides have what lies between. See hair_look.groom_colors. [0, 1]. NULL:
+    /// none. They are kept at 8 even places from root to tip.
+    const float* colors;
+    uint32_t
+        color_count; ///< Of each strand, at even places from root to tip; 0: one per vertex. [0, 256]. Default 0.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 
@@ -230,7 +238,7 @@ typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
     ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
-    ///< 2D textures, samplers of units 12-16, 3D textures, samplers of units 8-11, image units 0-1.
+    ///< buffer texture of unit 17, 2D textures, samplers of units 12-16, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
 /// Where a host keeps programs as its driver has compiled them, so that they need not be compiled in every run: bytes under
@@ -456,6 +464,9 @@ typedef struct hair_look {
     /// Water makes hair darker and smoother, draws strands together and holds down what strays: it changes the numbers
     /// above, not how they are drawn. How wet hair moves is a preset of hair_physics.
     float wetness; ///< [0, 1]. Default 0.
+    /// Share of the colours that the groom has of its own, if any, in those from root_color to tip_color. Spreads, streaks and
+    /// root_shade go on top.
+    float groom_colors; ///< [0, 1]. Default 1.
 } hair_look;
 HAIR_DESC(hair_look)
 

@@ -32,7 +32,7 @@ HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* by
 HAIR_API void        hair_asset_destroy(hair_asset* asset);
 
 /// Write strands as HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Returns in `size` the bytes needed; writes them if
-/// `capacity` is enough. For .tfx all strands must have the same fitting number of vertices: resample first.
+/// `capacity` is enough. Colours of files are sRGB, and kept at 8 places of a strand. For .tfx all strands must have the same fitting number of vertices: resample first.
 HAIR_API hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* bytes,
                                       size_t capacity, size_t* size);
 
@@ -84,12 +84,14 @@ typedef struct hair_asset_info {
     const float*     scalp_positions; ///< xyz per vertex. NULL: no scalp.
     const uint32_t*  scalp_triangles;
     uint32_t         scalp_vertex_count, scalp_triangle_count;
+    const float*
+        strand_colors; ///< Per strand, linear rgb at 8 even places from root to tip. NULL: the file has none.
 } hair_asset_info;
 HAIR_DESC(hair_asset_info)
 
 HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out);
 
-/// Point `desc` at the asset's strands, scalp and what they are; the rest of `desc` stays. The asset must
+/// Point `desc` at the asset's strands, their radii and colours, scalp and what they are; the rest of `desc` stays. The asset must
 /// live until hair_groom_create has returned.
 HAIR_API hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc);
 

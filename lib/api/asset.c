@@ -113,6 +113,7 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
         .scalp_triangles      = asset->scalp_triangles,
         .scalp_vertex_count   = asset->scalp_vertex_count,
         .scalp_triangle_count = asset->scalp_triangle_count,
+        .strand_colors        = asset->strands.colors,
     };
     measure(&asset->strands, &info);
     return HAIR_GIVE(&asset->host, hair_asset_info, &info, out);
@@ -132,5 +133,8 @@ hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc)
     desc->scalp_triangles      = asset->scalp_triangles;
     desc->scalp_vertex_count   = asset->scalp_vertex_count;
     desc->scalp_triangle_count = asset->scalp_triangle_count;
+    desc->strand_radii         = asset->strands.radii;
+    desc->colors               = asset->strands.colors;
+    desc->color_count          = HAIR_STRAND_COLORS;
     return HAIR_OK;
 }

@@ -125,7 +125,7 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                     [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
                                             draw->listed.index},
                     [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
-                                            draw->sorted.index, draw->uv},
+                                            draw->sorted.index, draw->uv, draw->paint},
     };
     const GLuint textures[HAIR_GL_WORKS][MOST_TEXTURES] = {
         [HAIR_GL_WORK_WIND]  = {air->air, sim->air.gusts},

@@ -38,6 +38,14 @@ void        hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
 hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
                                uint64_t count, uint32_t size);
 
+// rgb per vertex as sRGB, `size` bytes from one to the next, which lie within the file: of strands that have their positions.
+// With one that is not in [0, 1] none is used, which a warning says.
+hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t size,
+                             struct hair_strands* strands);
+
+// The same for a file, with a channel of 1 after them where `channels` is 4.
+unsigned char* hair_write_colors(const struct hair_strands* strands, int channels, unsigned char* at);
+
 // Memory for the strands of a file whose size has been checked to hold them.
 hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
                                   uint32_t vertex_count);

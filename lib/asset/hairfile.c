@@ -8,7 +8,7 @@
 //       128  the arrays whose bit is set, in the order of the bits: u16 segments, f32[3] points,
 //            f32 thickness, f32 transparency, f32[3] colours; the first per strand, the others per vertex
 //
-// There is no unit; thickness is taken as a diameter in the unit of the points. Arrays of higher bits would
+// There is no unit; thickness is taken as a diameter in the unit of the points, colours as sRGB. Arrays of higher bits would
 // come after all that is read, so unknown bits are accepted, with a warning.
 #include "lib/asset/formats.h"
 
@@ -20,7 +20,7 @@ enum { SEGMENTS = 1, POINTS = 2, THICKNESS = 4, TRANSPARENCY = 8, COLORS = 16, K
 
 struct header {
     uint32_t strands, vertices, arrays, segments;
-    uint64_t segments_at, points_at, thickness_at; // bytes
+    uint64_t segments_at, points_at, thickness_at, colors_at; // bytes
 };
 
 bool hair_is_hairfile(const unsigned char* bytes, size_t size)
@@ -55,7 +55,7 @@ static hair_result find_arrays(const struct hair_source* source, struct header* 
         {POINTS, header->vertices, 12, "points", &header->points_at},
         {THICKNESS, header->vertices, 4, "thicknesses", &header->thickness_at},
         {TRANSPARENCY, header->vertices, 4, "transparencies", NULL},
-        {COLORS, header->vertices, 12, "colours", NULL},
+        {COLORS, header->vertices, 12, "colours", &header->colors_at},
     };
     *end = HEADER;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) {
@@ -149,14 +149,17 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
     const unsigned char* points = source->bytes + header.points_at;
     for (size_t i = 0; i < 3 * (size_t)header.vertices; ++i)
         strands->positions[i] = hair_read_float(points + 4 * i);
-    return header.arrays & THICKNESS ? read_radii(source, &header, strands) : HAIR_OK;
+    if (header.arrays & THICKNESS) result = read_radii(source, &header, strands);
+    if (!result && header.arrays & COLORS)
+        result = hair_read_colors(source, (size_t)header.colors_at, 12, strands);
+    return result;
 }
 
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size)
 {
     const struct hair_strands* strands = &asset->strands;
     *size                              = HEADER + 2 * (size_t)strands->strand_count +
-            (strands->radii ? 16 : 12) * (size_t)strands->vertex_count;
+            (12 + (strands->radii ? 4u : 0) + (strands->colors ? 12u : 0)) * (size_t)strands->vertex_count;
     return HAIR_OK;
 }
 
@@ -168,7 +171,8 @@ static unsigned char* write_header(const struct hair_strands* strands, unsigned 
     memcpy(at, "HAIR", 4);
     at = hair_write_u32(at + 4, strands->strand_count);
     at = hair_write_u32(at, strands->vertex_count);
-    at = hair_write_u32(at, SEGMENTS | POINTS | (strands->radii ? THICKNESS : 0));
+    at = hair_write_u32(at, SEGMENTS | POINTS | (strands->radii ? THICKNESS : 0) |
+                                (strands->colors ? COLORS : 0));
     at = hair_write_u32(at, 0);
     at = hair_write_float(at, 1e-4f); // The width of a real hair; only readers without the array look here.
     at = hair_write_float(at, 0);
@@ -186,4 +190,5 @@ void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes)
         at = hair_write_float(at, strands->positions[i]);
     for (uint32_t i = 0; strands->radii && i < strands->strand_count; ++i)
         for (uint32_t j = 0; j < strands->vertices[i]; ++j) at = hair_write_float(at, 2 * strands->radii[i]);
+    if (strands->colors) hair_write_colors(strands, 3, at);
 }

@@ -12,6 +12,7 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     hair_free(host, strands->positions);
     hair_free(host, strands->vertices);
     hair_free(host, strands->radii);
+    hair_free(host, strands->colors);
     memset(strands, 0, sizeof *strands);
 }
 
@@ -34,11 +35,17 @@ static void reverse(float* p, uint32_t vertices)
     }
 }
 
+static float* colors_of(const struct hair_strands* strands, uint32_t strand)
+{
+    return strands->colors + 3 * HAIR_STRAND_COLORS * (size_t)strand;
+}
+
 static void reverse_all(struct hair_strands* strands)
 {
     size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         reverse(strands->positions + 3 * first, strands->vertices[i]);
+        if (strands->colors) hair_strand_reverse_colors(colors_of(strands, i));
         first += strands->vertices[i];
     }
 }
@@ -48,13 +55,22 @@ struct kept {
     uint32_t strands, vertices;
 };
 
+// What goes along with a strand.
+static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
+{
+    if (strands->radii) strands->radii[kept] = strands->radii[strand];
+    if (strands->colors)
+        memmove(colors_of(strands, kept), colors_of(strands, strand),
+                3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
+}
+
 static void keep(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
                  uint32_t vertices)
 {
     float* from = strands->positions + 3 * first;
     memmove(strands->positions + 3 * (size_t)kept->vertices, from, 3 * (size_t)vertices * sizeof *from);
     strands->vertices[kept->strands] = vertices;
-    if (strands->radii) strands->radii[kept->strands] = strands->radii[strand];
+    keep_rest(strands, kept->strands, strand);
     ++kept->strands;
     kept->vertices += vertices;
 }
@@ -180,7 +196,7 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
         float*   out      = sampled + 3 * (size_t)kept.vertices;
         if (sample(strands->positions + 3 * first, vertices, out, count, repairs)) {
             strands->vertices[kept.strands] = count;
-            if (strands->radii) strands->radii[kept.strands] = strands->radii[i];
+            keep_rest(strands, kept.strands, i);
             ++kept.strands;
             kept.vertices += count;
         }
@@ -206,13 +222,17 @@ static hair_result shrink(const hair_host* host, void** memory, size_t count, si
 // Give back what thinning out and repairs have freed.
 static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
 {
-    void *      positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii;
+    void *positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii,
+         *colors       = strands->colors;
     hair_result result = shrink(host, &positions, strands->vertex_count, 3 * sizeof(float));
     if (!result) result = shrink(host, &vertices, strands->strand_count, sizeof(uint32_t));
     if (!result) result = shrink(host, &radii, strands->strand_count, sizeof(float));
+    if (!result)
+        result = shrink(host, &colors, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof(float));
     strands->positions = positions;
     strands->vertices  = vertices;
     strands->radii     = radii;
+    strands->colors    = colors;
     return result;
 }
 

@@ -8,11 +8,13 @@
 #include <stdbool.h>
 
 #define HAIR_STRAND_MAX_VERTICES 256
+#define HAIR_STRAND_COLORS 8 // even places from root to tip
 
 struct hair_strands {
     float*    positions; // xyz per vertex, root first
     uint32_t* vertices;  // of each strand
     float*    radii;     // of each strand at its root, in the unit of the positions; NULL: none known
+    float*    colors;    // linear rgb at HAIR_STRAND_COLORS places of each strand; NULL: none known
     uint32_t  strand_count;
     uint32_t  vertex_count;
 };
@@ -48,6 +50,14 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices);
 
 // Split the longest segments in half until there are `count` vertices.
 void hair_strand_split(float* positions, uint32_t vertices, uint32_t count);
+
+// colors.c: of colours of each vertex, or of `count` even places, those of HAIR_STRAND_COLORS; of these, the one at t.
+void  hair_strand_colors(const float* positions, uint32_t vertices, const float* colors, float* out);
+void  hair_strand_even_colors(const float* colors, uint32_t count, float* out);
+void  hair_strand_color_at(const float* colors, float t, float out[3]);
+void  hair_strand_reverse_colors(float* colors);
+float hair_from_srgb(float c);
+float hair_to_srgb(float c);
 
 // Whether it is long enough and no segment of it too short.
 bool hair_strand_is_fit(const float* positions, uint32_t vertices);

@@ -16,8 +16,8 @@
 //                                                     168  32 reserved u32
 //                                                     296  data
 //
-// Offsets come in any order and 0 means none. Positions alone are read; the other sections must lie in the
-// file. The fourth number of a position is its inverse mass: 0 at the two vertices next to the root, which
+// Offsets come in any order and 0 means none. Positions and colours are read, these as sRGB; the other sections must lie in
+// the file. The fourth number of a position is its inverse mass: 0 at the two vertices next to the root, which
 // are held.
 // Thickness is a factor, not a length, so no radius comes of it.
 // Not handled: sections that overlap; each is read for what its offset says.
@@ -34,12 +34,14 @@ struct section {
 struct layout {
     hair_format    format;
     uint32_t       header, floats;     // of the header in bytes; of a position
+    uint32_t       colors_at;          // byte of the offset of colours
     struct section sections[SECTIONS]; // positions first
 };
 
 static const struct layout version3 = {HAIR_FORMAT_TFX3,
                                        296,
                                        3,
+                                       156,
                                        {{144, 12, 1, "positions"},
                                         {148, 4, 0, "thicknesses"},
                                         {152, 8, 0, "texture coordinates of strands"},
@@ -50,6 +52,7 @@ static const struct layout version3 = {HAIR_FORMAT_TFX3,
 static const struct layout version4 = {HAIR_FORMAT_TFX4,
                                        160,
                                        4,
+                                       28,
                                        {{12, 16, 1, "positions"},
                                         {16, 8, 0, "texture coordinates of strands"},
                                         {20, 8, 1, "texture coordinates of vertices"},
@@ -115,7 +118,8 @@ static hair_result decode(const struct hair_source* source, const struct layout*
     const unsigned char* at = source->bytes + hair_read_u32(source->bytes + layout->sections[0].at);
     for (size_t i = 0; i < strands->vertex_count; ++i, at += 4 * (size_t)layout->floats)
         for (size_t j = 0; j < 3; ++j) strands->positions[3 * i + j] = hair_read_float(at + 4 * j);
-    return HAIR_OK;
+    uint32_t colors = hair_read_u32(source->bytes + layout->colors_at);
+    return colors ? hair_read_colors(source, colors, 16, strands) : HAIR_OK;
 }
 
 hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset)
@@ -141,8 +145,8 @@ hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)
             "read with hair_import.strand_vertices set",
             i, vertices, each);
     }
-    uint64_t needed =
-        version4.header + 16 * (uint64_t)strands->vertex_count + 8 * (uint64_t)strands->strand_count;
+    uint64_t needed = version4.header + (strands->colors ? 32u : 16u) * (uint64_t)strands->vertex_count +
+                      8 * (uint64_t)strands->strand_count;
     if (needed > UINT32_MAX)
         return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
                          "%llu bytes are more than the offsets of .tfx can reach, %u",
@@ -162,6 +166,9 @@ void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes)
     at                = hair_write_u32(at, each);
     at                = hair_write_u32(at, version4.header);
     hair_write_u32(at, version4.header + 16 * strands->vertex_count);
+    if (strands->colors)
+        hair_write_u32(bytes + version4.colors_at,
+                       version4.header + 16 * strands->vertex_count + 8 * strands->strand_count);
 
     at = bytes + version4.header;
     for (size_t i = 0; i < strands->vertex_count; ++i) {
@@ -170,4 +177,5 @@ void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes)
     }
     // Readers expect texture coordinates; none are known.
     memset(at, 0, 8 * (size_t)strands->strand_count);
+    if (strands->colors) hair_write_colors(strands, 4, at + 8 * (size_t)strands->strand_count);
 }

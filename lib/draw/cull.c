@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define GIVE 1.1f  // as in glsl/detail.glsl
-#define WIDEST 4.0 // that a map makes a strand, as a multiple
-#define EDGE 8.0   // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
+#define GIVE 1.1f   // as in glsl/detail.glsl
+#define WIDEST 16.0 // that a map and the groom make a strand, as a multiple
+#define EDGE 8.0    // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
 
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom)
 {

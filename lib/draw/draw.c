@@ -26,6 +26,12 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, draw->follower,
                                         &draw->follower_texture);
+    if (!result && groom->paint)
+        result = hair_gl_buffer(gl, "hair colours",
+                                draw->followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *groom->paint,
+                                groom->paint, &draw->paint);
+    if (!result && groom->paint)
+        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, draw->paint, &draw->paint_texture);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, draw->patch, &draw->patch_texture);
     return result;
@@ -46,6 +52,8 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_gl_free_buffer_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
     hair_gl_free_buffer(draw->gl, &draw->patch);
+    hair_gl_free_texture(draw->gl, &draw->paint_texture);
+    hair_gl_free_buffer(draw->gl, &draw->paint);
     hair_gl_free_buffer(draw->gl, &draw->params);
 }
 
@@ -120,6 +128,11 @@ static int is_textured(const struct hair_draw* draw, const hair_view* view)
     return view->pass == HAIR_PASS_COLOR && view->color_texture && hair_draw_has_uvs(draw);
 }
 
+static int is_painted(const struct hair_draw* draw, const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLOR && draw->paint && draw->look.groom_colors > 0;
+}
+
 // Whether uvs are asked for, and there are some.
 static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const struct hair_gl_shader* shader)
 {
@@ -135,6 +148,7 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
                            : hair_draw_is_shared(view)      ? HAIR_GL_SHARES
                                                             : 0;
     if (wants_uvs(draw, view, shader)) bits |= HAIR_GL_TINTED;
+    if (is_painted(draw, view)) bits |= HAIR_GL_PAINTED;
     out->path = hair_draw_path(draw, view);
     out->pass = hair_draw_choose(draw, pass_of(draw, view, out->path));
     if (bits || shader)
@@ -205,6 +219,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     hair_draw_bind(draw, smooth);
     if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
     if (wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
+    if (is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);
     if (params.textured) {
         draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
         draw->gl->BindSampler(HAIR_UNIT_COLOR, 0); // The host's texture has its own.

@@ -56,9 +56,10 @@ struct hair_draw {
     struct hair_fibres   fibres;
     struct hair_motion   motion;
     struct hair_sorted   sorted;
-    struct hair_seats*   seats;          // where roots are on the scalp; NULL: there is none
-    GLuint               uv, uv_texture; // 0 until they are needed
-    hair_vec4            reach;          // where hair can be, in the head's frame: a ball, w: its radius, m
+    struct hair_seats*   seats;                // where roots are on the scalp; NULL: there is none
+    GLuint               uv, uv_texture;       // 0 until they are needed
+    GLuint               paint, paint_texture; // colours of the groom; 0: it has none
+    hair_vec4            reach; // where hair can be, in the head's frame: a ball, w: its radius, m
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,

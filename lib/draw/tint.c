@@ -1,6 +1,8 @@
 // tint.c - the colours of strands as shaders read them; and what water makes of a look.
 #include "lib/draw/params.h"
 
+#define WET_POWER(wet) (1 + 0.7f * (wet)) // of colours
+
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
 {
     for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
@@ -20,6 +22,8 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
     out->root_recovery = 1 / look->root_shade_length;
     out->streak_locks  = look->streak_locks;
     out->sparkle       = look->sparkle;
+    out->paint         = look->groom_colors;
+    out->paint_power   = WET_POWER(look->wetness);
 }
 
 // A film of water keeps light in, so that it is absorbed more often, and is smoother than scales are.
@@ -45,9 +49,9 @@ void hair_look_soak(hair_look* look)
 {
     float wet = look->wetness;
     if (!(wet > 0)) return;
-    darken(look->root_color, 1 + 0.7f * wet);
-    darken(look->tip_color, 1 + 0.7f * wet);
-    darken(look->streak_color, 1 + 0.7f * wet);
+    darken(look->root_color, WET_POWER(wet));
+    darken(look->tip_color, WET_POWER(wet));
+    darken(look->streak_color, WET_POWER(wet));
     look->roughness[0] = fmaxf(look->roughness[0] * (1 - 0.55f * wet), 0.05f);
     look->roughness[1] = fmaxf(look->roughness[1] * (1 - 0.4f * wet), 0.05f);
     look->specular[0]  = fminf(look->specular[0] * (1 + 3 * wet), 4);

@@ -14,7 +14,7 @@ typedef enum hair_gl_pass {
     HAIR_GL_PASS_COUNT
 } hair_gl_pass;
 
-#define HAIR_GL_UNITS (HAIR_UNIT_COLOR + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_PAINT + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 
@@ -36,11 +36,12 @@ struct hair_gl_saved {
 };
 
 // What is added to passes that draw, in any mixture: bits.
-#define HAIR_GL_TINTED 1u // strands have colours or places on the scalp of their own
-#define HAIR_GL_IDS 2u    // numbers in place of colour
-#define HAIR_GL_MOTION 4u // velocities in place of colour
-#define HAIR_GL_SHARES 8u // strands cover shares of pixels
-#define HAIR_GL_VARIANTS 16
+#define HAIR_GL_TINTED 1u   // strands have colours or places on the scalp of their own
+#define HAIR_GL_IDS 2u      // numbers in place of colour
+#define HAIR_GL_MOTION 4u   // velocities in place of colour
+#define HAIR_GL_SHARES 8u   // strands cover shares of pixels
+#define HAIR_GL_PAINTED 16u // strands have colours of the groom
+#define HAIR_GL_VARIANTS 32
 
 // The rows of passes that draw strands.
 #define HAIR_GL_DRAWN (HAIR_GL_INSTANCED_HITS_FIBRES_LINES_STYLED - HAIR_GL_TESSELLATED_RIBBONS + 1)

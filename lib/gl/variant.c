@@ -41,7 +41,8 @@ static size_t define(char* prefix, size_t used, size_t size, const char* name)
 
 void hair_gl_write_variant(const struct hair_gl_shader* shader, uint32_t bits, char* out, size_t size)
 {
-    static const char* const names[] = {"HAIR_TINTED", "HAIR_IDS", "HAIR_MOTION", "HAIR_SHARES"};
+    static const char* const names[] = {"HAIR_TINTED", "HAIR_IDS", "HAIR_MOTION", "HAIR_SHARES",
+                                        "HAIR_PAINTED"};
     size_t                   used    = 0;
     *out                             = 0;
     for (uint32_t i = 0; i < sizeof names / sizeof *names; ++i)

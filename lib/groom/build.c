@@ -69,6 +69,7 @@ static hair_result build(struct hair_draft* draft)
     if (!result) result = hair_draft_maps(draft);
     if (!result) result = hair_draft_patches(draft);
     if (!result) result = make_followers(draft);
+    if (!result) result = hair_draft_paint(draft);
     if (!result) result = hair_draft_seats(draft);
     if (result) return result;
     hair_thicken(draft);
@@ -123,6 +124,7 @@ void hair_groom_free(hair_groom* groom)
     hair_free(&host, groom->rest);
     hair_free(&host, groom->followers);
     hair_free(&host, groom->patches);
+    hair_free(&host, groom->paint);
     hair_seats_release(groom->seats);
     hair_free(&host, groom);
 }

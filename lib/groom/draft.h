@@ -68,6 +68,7 @@ hair_result hair_draft_patches(struct hair_draft* draft);
 hair_result hair_strand_followers(struct hair_draft* draft);
 hair_result hair_guide_followers(struct hair_draft* draft);
 hair_result hair_scalp_followers(struct hair_draft* draft);
+hair_result hair_draft_paint(struct hair_draft* draft); // followers, by what strands bring along
 hair_result hair_draft_seats(struct hair_draft* draft); // of guides and followers on the scalp
 
 // sorts.c: what maps make of the sprouts that `queue` names, neighbours. Split: reorder them so that those in front

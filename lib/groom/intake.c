@@ -18,6 +18,48 @@ static hair_result count_vertices(const struct hair_draft* draft, uint32_t* out)
     return HAIR_OK;
 }
 
+static hair_result check_numbers(const struct hair_draft* draft, const char* what, const float* numbers,
+                                 size_t count, float most)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (!(numbers[i] >= 0 && numbers[i] <= most)) // NaN too.
+            return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.%s[%zu] is %g, not in [0, %g]", what, i, (double)numbers[i],
+                             (double)most);
+    return HAIR_OK;
+}
+
+// What strands have beside their vertices.
+static hair_result copy_rest(struct hair_draft* draft)
+{
+    const hair_groom_desc* desc    = draft->desc;
+    struct hair_strands*   strands = &draft->strands;
+    uint32_t               each = desc->color_count, count = strands->strand_count;
+    hair_result            result = HAIR_OK;
+    if (desc->strand_radii) {
+        result         = check_numbers(draft, "strand_radii", desc->strand_radii, count, FARTHEST);
+        strands->radii = hair_alloc(draft->host, count, sizeof *strands->radii);
+        if (!result && !strands->radii) result = hair_fail_memory(draft->host, "strands");
+        if (!result) memcpy(strands->radii, desc->strand_radii, count * sizeof *strands->radii);
+    }
+    if (!desc->colors || result) return result;
+    result          = check_numbers(draft, "colors", desc->colors,
+                                    3 * (each ? (size_t)each * count : (size_t)strands->vertex_count), 1);
+    strands->colors = hair_alloc(draft->host, count, 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
+    if (!result && !strands->colors) result = hair_fail_memory(draft->host, "the colours of strands");
+    size_t first = 0;
+    for (uint32_t i = 0; i < count && !result; ++i) {
+        float* out = strands->colors + 3 * HAIR_STRAND_COLORS * (size_t)i;
+        if (each)
+            hair_strand_even_colors(desc->colors + 3 * (size_t)each * i, each, out);
+        else if (strands->vertices[i])
+            hair_strand_colors(desc->positions + 3 * first, strands->vertices[i], desc->colors + 3 * first,
+                               out);
+        first += strands->vertices[i];
+    }
+    return result;
+}
+
 static hair_result copy_strands(struct hair_draft* draft)
 {
     const hair_groom_desc* desc    = draft->desc;
@@ -30,7 +72,7 @@ static hair_result copy_strands(struct hair_draft* draft)
     if (!strands->positions || !strands->vertices) return hair_fail_memory(draft->host, "strands");
     memcpy(strands->positions, desc->positions, 3 * (size_t)strands->vertex_count * sizeof(float));
     memcpy(strands->vertices, desc->strand_vertices, strands->strand_count * sizeof(uint32_t));
-    return HAIR_OK;
+    return copy_rest(draft);
 }
 
 static hair_result clean(struct hair_draft* draft)

@@ -136,6 +136,45 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
     finish(&f);
 }
 
+// Red on one side of the head and green on the other, by all paths; and where the look wants none of it, as if there were none.
+static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
+{
+    static struct picture picture[PATHS + 2];
+    struct fixture        f     = start(state, 0);
+    hair_look             look  = f.hair->draw.look;
+    uint32_t              count = f.groom->info.follower_count;
+    hair_view             view  = front(HAIR_PATH_TESSELLATION, HAIR_RIBBONS);
+    draw(&f, &view, &picture[PATHS]);
+    f.groom->paint = hair_alloc(&f.test->host.host, count, 8 * 4 * sizeof *f.groom->paint);
+    for (uint32_t i = 0; i < count; ++i)
+        for (int k = 0; k < 8; ++k) {
+            hair_vec4 root = f.groom->rest[f.groom->guides[f.groom->followers[i].guide0].first].position;
+            f.groom->paint[32 * i + 4 * (uint32_t)k + (root.x > 0)] = 40000;
+        }
+    hair_destroy(f.hair);
+    hair_desc how = hair_desc_default();
+    how.look      = &look;
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    for (hair_path path = 0; (int)path < PATHS; ++path) {
+        double sum[2][2] = {{0}};
+        view.path        = path;
+        draw(&f, &view, &picture[path]);
+        for (int i = 0; i < PIXELS; ++i)
+            for (int c = 0; c < 2; ++c)
+                sum[i % SIDE > SIDE / 2][c] += (double)picture[path].pixels[4 * i + c];
+        print_message("    %s: %.1f red and %.1f green to the left, %.1f and %.1f to the right\n",
+                      names[path], sum[0][0], sum[0][1], sum[1][0], sum[1][1]);
+        assert_true(sum[0][0] > 2 * sum[0][1] && sum[1][1] > 2 * sum[1][0]);
+    }
+    look.groom_colors = 0;
+    view.path         = HAIR_PATH_TESSELLATION;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    draw(&f, &view, &picture[PATHS + 1]);
+    assert_memory_equal(picture[PATHS].pixels, picture[PATHS + 1].pixels, sizeof picture[0].pixels);
+    finish(&f);
+}
+
 static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
 {
     static struct picture own, same;
@@ -172,6 +211,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths),
+        HAIR_TEST(colours_of_the_groom_are_drawn_by_all_paths),
         HAIR_TEST(auto_draws_what_the_path_of_the_table_does_and_says_so),
         HAIR_TEST(auto_does_not_expand_more_than_fits),
     };

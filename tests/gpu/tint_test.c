@@ -19,7 +19,8 @@ static const char text_of_strands[] =
     "{\n"
     "    uint  i = gl_GlobalInvocationID.x, seed = 7919u * i;\n"
     "    float t = draw.radius;\n"
-    "    found[2u * i]      = vec4(tint_of(seed, i / 16u, t, random(seed + 7u)), variance_of(seed));\n"
+    "    found[2u * i]      = vec4(tint_of(seed, i / 16u, t, random(seed + 7u), ramp_at(t)), "
+    "variance_of(seed));\n"
     "    found[2u * i + 1u] = vec4(tilt_of(random(seed + 7u)), is_streak(seed, i / 16u), sparkle_at(seed, "
     "t), t);\n"
     "}\n";

@@ -117,6 +117,82 @@ static void a_bad_thickness_leaves_no_radii_and_a_warning(void** state)
     }
 }
 
+static struct hair_test_file write_file(const hair_asset* asset, hair_format format)
+{
+    size_t size = 0, again = 0;
+    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
+    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
+    memset(file.bytes, 0x77, size + 8);
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
+    assert_int_equal(again, size);
+    assert_int_equal(file.bytes[0], 0x77); // Too little capacity: nothing is written.
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
+    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
+    return file;
+}
+
+static float linear(float c)
+{
+    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
+}
+
+// Of the k-th vertex of the file, as sRGB.
+static float color_of(uint32_t vertex, uint32_t channel)
+{
+    return (float)(3 * vertex + channel) / 32;
+}
+
+static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** state)
+{
+    (void)state;
+    for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
+        struct hair_test_file file   = hair_test_hair(31);
+        hair_import           import = hair_test_import();
+        import.tip_first             = tip_first;
+        for (uint32_t i = 0; i < 27; ++i)
+            hair_test_set_float(&file, file.size - 4 * (27 - i), color_of(i / 3, i % 3));
+        hair_asset*  asset      = read_with(&import, file);
+        uint32_t     ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
+        const float* colors     = asset->strands.colors;
+        assert_non_null(colors);
+        for (uint32_t i = 0; i < 9; ++i) { // of each strand, channel
+            const float* own = colors + 3 * HAIR_STRAND_COLORS * (i / 3) + i % 3;
+            assert_float_equal(own[0], linear(color_of(ends[i / 3][tip_first], i % 3)), 1e-6);
+            assert_float_equal(own[3 * (HAIR_STRAND_COLORS - 1)],
+                               linear(color_of(ends[i / 3][1 - tip_first], i % 3)), 1e-6);
+        }
+        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        for (uint32_t i = 0; i < 3; ++i)
+            for (uint32_t k = 0; k < 6; ++k) { // What is between ends is as near as the vertices are close.
+                uint32_t at = 3 * HAIR_STRAND_COLORS * i + (k < 3 ? k : 3 * (HAIR_STRAND_COLORS - 1) + k - 3);
+                assert_float_equal(again->strands.colors[at], colors[at], 1e-6);
+            }
+        hair_asset_free(asset);
+        hair_asset_free(again);
+    }
+    hair_asset* guides = read_file(hair_test_tfx4());
+    assert_float_equal(guides->strands.colors[5], linear(0.25f), 1e-6);
+    hair_asset* again = read_file(write_file(guides, HAIR_FORMAT_TFX4));
+    for (uint32_t i = 0; i < 9 * HAIR_STRAND_COLORS; ++i)
+        assert_float_equal(again->strands.colors[i], guides->strands.colors[i], 1e-6);
+    hair_asset_free(guides);
+    hair_asset_free(again);
+}
+
+static void a_bad_colour_leaves_none_and_a_warning(void** state)
+{
+    (void)state;
+    const float bad[] = {NAN, INFINITY, -0.1f, 1.1f};
+    for (int i = 0; i < 4; ++i) {
+        struct hair_test_file file = hair_test_hair(31);
+        hair_test_set_float(&file, file.size - 4 * 7, bad[i]);
+        hair_asset* asset = read_file(file);
+        assert_null(asset->strands.colors);
+        assert_int_equal(test.warnings, i + 1);
+        hair_asset_free(asset);
+    }
+}
+
 static void unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of(void** state)
 {
     (void)state;
@@ -205,20 +281,6 @@ static void repairs_are_counted(void** state)
     assert_int_equal(asset->repairs.dropped_short, 1);
     assert_int_equal(asset->strands.strand_count, 2);
     hair_asset_free(asset);
-}
-
-static struct hair_test_file write_file(const hair_asset* asset, hair_format format)
-{
-    size_t size = 0, again = 0;
-    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
-    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
-    memset(file.bytes, 0x77, size + 8);
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
-    assert_int_equal(again, size);
-    assert_int_equal(file.bytes[0], 0x77); // Too little capacity: nothing is written.
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
-    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
-    return file;
 }
 
 static void assert_same(const hair_asset* a, const hair_asset* b)
@@ -353,6 +415,8 @@ int main(void)
         TEST(hair_is_read_whatever_arrays_follow_the_points),
         TEST(half_the_thickness_at_the_root_is_the_radius),
         TEST(a_bad_thickness_leaves_no_radii_and_a_warning),
+        TEST(colours_go_along_with_strands_from_root_to_tip_and_come_back),
+        TEST(a_bad_colour_leaves_none_and_a_warning),
         TEST(unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of),
         TEST(tfx_holds_guides_wherever_its_sections_lie),
         TEST(tfx_needs_nothing_but_positions),

@@ -18,6 +18,7 @@ static struct hair_test_host test;
 // Desc and arrays of one case.
 struct hostile {
     float           positions[3 * VERTICES], scalp[3 * SCALP], density[SCALP];
+    float           radii[STRANDS], colors[3 * VERTICES];
     uint32_t        vertices[STRANDS], triangles[3 * 2 * SCALP];
     hair_import     import;
     hair_groom_desc desc;
@@ -68,6 +69,14 @@ static void invent(struct hostile* h, uint32_t seed)
     h->desc.follower_count  = below(h, 500);
     h->desc.clump_radius    = hair_random(&h->random);
     h->desc.seed            = seed;
+
+    for (uint32_t i = 0; i < 3 * VERTICES; ++i)
+        h->colors[i] = below(h, 2000) || !wild ? hair_random(&h->random) : number(h, 100);
+    for (uint32_t i = 0; i < STRANDS; ++i)
+        h->radii[i] = below(h, 60) || !wild ? hair_random(&h->random) : number(h, 100);
+    if (below(h, 2)) h->desc.strand_radii = h->radii;
+    if (below(h, 2)) h->desc.colors = h->colors;
+    h->desc.color_count = below(h, 2) * below(h, VERTICES / STRANDS);
 
     if (below(h, 2)) return;
     h->desc.scalp_vertex_count   = 3 + below(h, SCALP - 2);
