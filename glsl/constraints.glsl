@@ -32,26 +32,9 @@ void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
     if (a + 2u < count) relax_link(a, a + 2u, rest[first + a].direction.w, stiffness);
 }
 
+#include "capsules.glsl"
+
 #define COLLISION_REACH 0.05 // m: farther than this no vertex is taken to be moved by a substep's iterations
-
-struct capsule { // a solid at one moment
-    vec3  start, axis;
-    float radius;
-};
-
-capsule solid_at(hair_capsule solid, float share, float margin)
-{
-    vec4 a = mix(solid.start[0], solid.end[0], share);
-    vec4 b = mix(solid.start[1], solid.end[1], share);
-    return capsule(a.xyz, b.xyz - a.xyz, a.w + margin);
-}
-
-vec3 from_axis(vec3 position, capsule solid)
-{
-    vec3  arm   = position - solid.start;
-    float along = clamp(dot(arm, solid.axis) / max(dot(solid.axis, solid.axis), 1e-12), 0.0, 1.0);
-    return arm - along * solid.axis;
-}
 
 // One bit for each solid that the vertex can meet in this substep: the others need no look at every iteration.
 uvec2 find_solids(vec3 position, float share)
@@ -62,15 +45,6 @@ uvec2 find_solids(vec3 position, float share)
         if (length(from_axis(position, solid)) < solid.radius) found[k / 32u] |= 1u << (k % 32u);
     }
     return found;
-}
-
-// Out of a solid by the shortest way.
-vec3 push_out(vec3 position, capsule solid)
-{
-    vec3  out_to = from_axis(position, solid);
-    float l      = length(out_to);
-    if (l >= solid.radius) return position;
-    return position + (l > 1e-9 ? out_to * (solid.radius / l - 1.0) : vec3(0.0, solid.radius, 0.0));
 }
 
 vec3 collide(vec3 position, uvec2 solids, float share)

@@ -126,6 +126,10 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_STRAND 4   // hair_strand[], likewise, in place of patches where there is no tessellator
+#define HAIR_UNIT_STATE 0    // of redblack by transform feedback: hair_state[],
+#define HAIR_UNIT_REST 1     // hair_rest[],
+#define HAIR_UNIT_GUIDE 2    // hair_guide[], unsigned, and
+#define HAIR_UNIT_OWNER 3    // uint per guide vertex: its guide
 #define HAIR_UNIT_PUSH 0     // of the solvers of rods, whose storage slots are all taken: HAIR_BIND_PUSH
 #define HAIR_UNIT_CONTACT 1  // of the same: hair_contact[], unsigned as followers are,
 #define HAIR_UNIT_TIE 2      // hair_held[], of the same, where guides are tied

@@ -510,9 +510,13 @@ HAIR_API hair_result hair_look_curl_like(hair_look* look, const float* positions
 
 typedef enum hair_mapping {
     HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
-    HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other.
-    HAIR_MAPPING_THREAD    ///< A thread per guide: fastest on software rasterisers, which may not let one
+    HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other by compute.
+    HAIR_MAPPING_THREAD,   ///< A thread per guide: fastest on software rasterisers, which may not let one
                            ///< thread do all for long guides among many solids. Then a work group does.
+    /// Of redblack, on a rigid head, for comparison: without compute shaders, as Tariq 2010 under Direct3D 10: vertices are
+    /// captured by transform feedback, from one buffer into another, for every phase of every iteration. To be created and
+    /// stepped without transform feedback of the host under way. hair_health.reset counts nothing.
+    HAIR_MAPPING_FEEDBACK
 } hair_mapping;
 
 /// How the first vertex of a follower that is inside a solid is found: the answer is the same.

@@ -45,11 +45,16 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
-    hair->sim.wind = hair_wind_default();
+    hair->sim.feedback.wanted = desc->mapping == HAIR_MAPPING_FEEDBACK;
+    hair->sim.wind            = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
                          hair->label, (double)desc->substep, (double)SHORTEST);
+    if (desc->mapping == HAIR_MAPPING_FEEDBACK && desc->solver != HAIR_SOLVER_REDBLACK)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "%s: hair_desc.mapping is HAIR_MAPPING_FEEDBACK, which only the solver redblack has",
+                         hair->label);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
     if (!result) hair_look_soak(&hair->draw.look);

@@ -52,7 +52,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_gl_free_buffer_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
     hair_gl_free_buffer(draw->gl, &draw->patch);
-    hair_gl_free_texture(draw->gl, &draw->paint_texture);
+    hair_gl_free_buffer_texture(draw->gl, &draw->paint_texture);
     hair_gl_free_buffer(draw->gl, &draw->paint);
     hair_gl_free_buffer(draw->gl, &draw->params);
 }

@@ -150,6 +150,15 @@ hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir
 void hair_gl_enter(struct hair_gl* gl); // Before anything else in a [GL] call.
 void hair_gl_leave(struct hair_gl* gl);
 
+// What captures the vertices of draws and shows nothing needs a framebuffer all the same: without one every draw fails.
+GLuint hair_gl_blank_framebuffer(struct hair_gl* gl);
+struct hair_gl_capture {
+    GLint framebuffer, feedback;
+    int   discard;
+};
+void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
+void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
+
 // buffer.c --------------------------------------------------------------------------------------------------
 
 // A buffer of `size` bytes (at least 16) holding `data`, or zeros when NULL. 0 and an error when the driver refuses.

@@ -217,7 +217,9 @@ hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader
 static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
 {
     GLuint      program = 0;
-    hair_result result  = hair_gl_link(gl, passes[pass].label, passes[pass].stages, NULL, &program);
+    const char* stages  = passes[pass].stages;
+    hair_result result  = hair_gl_link(gl, passes[pass].label, stages,
+                                      strstr(stages, "sim/feedback.") ? "moved" : NULL, &program);
     if (result) return result;
     if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
     gl->program[pass] = program;

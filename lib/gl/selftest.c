@@ -38,24 +38,15 @@ static hair_result judge(struct hair_gl* gl, const struct captured* captured, si
 
 static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint framebuffer)
 {
-    GLint     old_framebuffer = 0, old_feedback = 0;
-    GLboolean discard = gl->IsEnabled(GL_RASTERIZER_DISCARD);
-    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &old_framebuffer);
-    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &old_feedback);
-
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer); // Without one every draw fails, discarded or not.
+    struct hair_gl_capture was;
+    hair_gl_begin_capture(gl, framebuffer, &was);
     gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback);
-    gl->BindVertexArray(gl->vertex_array);
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
-    gl->Enable(GL_RASTERIZER_DISCARD);
     gl->UseProgram(program);
     gl->BeginTransformFeedback(GL_LINES);
     gl->DrawArrays(GL_PATCHES, 1, PATCHES); // Numbers from 1, so that zeros left in the buffer are no patch.
     gl->EndTransformFeedback();
-
-    if (!discard) gl->Disable(GL_RASTERIZER_DISCARD);
-    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, (GLuint)old_feedback);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)old_framebuffer);
+    hair_gl_end_capture(gl, &was);
 }
 
 hair_result hair_gl_selftest(struct hair_gl* gl)
@@ -69,9 +60,7 @@ hair_result hair_gl_selftest(struct hair_gl* gl)
                                       "captured", &program);
     if (!result) result = hair_gl_buffer(gl, "self-test", count * sizeof *captured, NULL, &buffer);
     if (!result) {
-        gl->CreateFramebuffers(1, &framebuffer);
-        gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
-        gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+        framebuffer = hair_gl_blank_framebuffer(gl);
         gl->CreateTransformFeedbacks(1, &feedback);
         gl->TransformFeedbackBufferBase(feedback, 0, buffer);
         draw(gl, program, feedback, framebuffer);

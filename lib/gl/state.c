@@ -121,3 +121,29 @@ void hair_gl_leave(struct hair_gl* gl)
     restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first,
                     saved->uniform_size);
 }
+
+GLuint hair_gl_blank_framebuffer(struct hair_gl* gl)
+{
+    GLuint framebuffer = 0;
+    gl->CreateFramebuffers(1, &framebuffer);
+    gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    return framebuffer;
+}
+
+void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was)
+{
+    was->discard = gl->IsEnabled(GL_RASTERIZER_DISCARD);
+    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &was->framebuffer);
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &was->feedback);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    gl->BindVertexArray(gl->vertex_array);
+    gl->Enable(GL_RASTERIZER_DISCARD);
+}
+
+void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was)
+{
+    if (!was->discard) gl->Disable(GL_RASTERIZER_DISCARD);
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, (GLuint)was->feedback);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)was->framebuffer);
+}

@@ -107,6 +107,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     }
     sim->last_substep = sim->substep;
     if (!result) result = hair_gl_need(gl, sim->rods ? HAIR_GL_RESET_ROD : HAIR_GL_RESET);
+    if (!result && sim->feedback.wanted) result = hair_feedback_make(sim, groom->guides);
     return result ? result : hair_gl_need(gl, solver_pass(sim));
 }
 
@@ -114,6 +115,7 @@ void hair_sim_destroy(struct hair_sim* sim)
 {
     if (!sim->gl) return;
     hair_solids_free(&sim->gl->host, &sim->solids);
+    hair_feedback_free(sim);
     hair_gl_free_buffer(sim->gl, &sim->guide);
     hair_gl_free_buffer(sim->gl, &sim->rest);
     hair_gl_free_buffer(sim->gl, &sim->state);
@@ -304,7 +306,10 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (blown) hair_fluid_bind(&sim->blow.fluid);
         if (blown) sim->air.box = hair_blow_box(sim);
         if (sim->air.params) write_air(sim, &params, count);
-        hair_gl_run(sim->gl, pass, groups);
+        if (sim->feedback.wanted && !hair_skin_is_on(sim))
+            hair_feedback_run(sim, &params);
+        else
+            hair_gl_run(sim->gl, pass, groups);
         if (crowd) hair_crowd_count(sim, count);
         if (blown) hair_blow_count(sim, count);
         done += count;

@@ -9,6 +9,7 @@
 #include "lib/groom/groom.h"
 #include "lib/sim/blow.h"
 #include "lib/sim/crowd.h"
+#include "lib/sim/feedback.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
 #include "lib/sim/sleep.h"
@@ -57,6 +58,7 @@ struct hair_sim {
     struct hair_skin     skin;
     struct hair_sleep    sleep;
     struct hair_blow     blow;
+    struct hair_feedback feedback;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with

@@ -84,8 +84,9 @@ static bool bring_to_life(struct bench_studio* studio, const struct bench_studio
     hair_desc          desc  = scene->settings.desc;
     desc.solver              = asked->solver;
     desc.substep             = (float)asked->substep;
-    desc.physics             = &scene->settings.physics;
-    desc.look                = &scene->settings.look;
+    if (asked->mapping) desc.mapping = asked->mapping;
+    desc.physics = &scene->settings.physics;
+    desc.look    = &scene->settings.look;
     place(studio);
     memcpy(desc.transform, studio->transform, sizeof desc.transform);
     if (hair_create(studio->bench->context, studio->groom, &desc, &studio->hair) ||

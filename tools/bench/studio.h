@@ -45,10 +45,11 @@ struct bench_studio {
 
 // What differs from the scene; 0: nothing.
 struct bench_studio_desc {
-    const char* scene; // one that is built in
-    uint32_t    size, guides, followers, segments;
-    hair_solver solver;
-    double      substep;
+    const char*  scene; // one that is built in
+    uint32_t     size, guides, followers, segments;
+    hair_solver  solver;
+    hair_mapping mapping;
+    double       substep;
 };
 
 // Hung for as long as the scene says. False: bench->sentence says why not.

@@ -23,15 +23,25 @@ static const char* const columns[] = {
 // that is the fastest here. The second
 // had no tessellator, was simulated by stream output, and had no levels of detail.
 static const struct way {
-    const char* name;
-    hair_solver solver;
-    hair_path   path;
-    double      paper[4]; // fps, by cell; 0: it has none
+    const char*  name;
+    hair_solver  solver;
+    hair_path    path;
+    double       paper[4]; // fps, by cell; 0: it has none
+    hair_mapping mapping;
 } ways[] = {
-    {"tessellation, compute", HAIR_SOLVER_REDBLACK, HAIR_PATH_TESSELLATION, {57, 77, 720, 930}},
-    {"instanced, compute", HAIR_SOLVER_REDBLACK, HAIR_PATH_INSTANCED, {44, 60, 624, 77}},
-    {"default", HAIR_SOLVER_DIRECT, HAIR_PATH_TESSELLATION, {0, 0, 0, 0}},
-    {"auto", HAIR_SOLVER_DIRECT, HAIR_PATH_AUTO, {0, 0, 0, 0}},
+    {"tessellation, compute",
+     HAIR_SOLVER_REDBLACK,
+     HAIR_PATH_TESSELLATION,
+     {57, 77, 720, 930},
+     HAIR_MAPPING_AUTO},
+    {"instanced, compute", HAIR_SOLVER_REDBLACK, HAIR_PATH_INSTANCED, {44, 60, 624, 77}, HAIR_MAPPING_AUTO},
+    {"instanced, feedback",
+     HAIR_SOLVER_REDBLACK,
+     HAIR_PATH_INSTANCED,
+     {44, 60, 624, 77},
+     HAIR_MAPPING_FEEDBACK},
+    {"default", HAIR_SOLVER_DIRECT, HAIR_PATH_TESSELLATION, {0, 0, 0, 0}, HAIR_MAPPING_AUTO},
+    {"auto", HAIR_SOLVER_DIRECT, HAIR_PATH_AUTO, {0, 0, 0, 0}, HAIR_MAPPING_AUTO},
 };
 
 // A row of the table.
@@ -62,6 +72,7 @@ static bool need(struct bench* bench, struct column* column)
                                      .size      = bench->options.size ? bench->options.size : size,
                                      .followers = bench->options.strands,
                                      .solver    = column->way->solver,
+                                     .mapping   = column->way->mapping,
                                      .substep = column->way->solver == HAIR_SOLVER_REDBLACK ? 1.0 / RATE : 0};
     column->alive                 = bench_studio_make(bench, &desc, &column->studio);
     column->refused               = !column->alive;

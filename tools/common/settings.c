@@ -46,7 +46,11 @@ static const struct row rows[] = {
 
     {"solver", "of the motion", COUNT, {AT(desc.solver)}, {"direct", "accurate", "follow", "redblack"}},
     {"substep", "length of a substep, s; 0: as the solver wants", FLOAT, {AT(desc.substep)}, {0}},
-    {"mapping", "of guides to GPU threads", COUNT, {AT(desc.mapping)}, {"auto", "group", "thread"}},
+    {"mapping",
+     "of guides to GPU threads",
+     COUNT,
+     {AT(desc.mapping)},
+     {"auto", "group", "thread", "feedback"}},
     {"first_hit",
      "how followers inside solids are found",
      COUNT,

@@ -1,0 +1,141 @@
+// feedback.vert - the solver of redblack.comp without compute shaders, as Tariq 2010 has it for Direct3D 10: every phase is a
+// draw of all vertices as points, captured into another buffer, from which the next phase reads. One shader, compiled once
+// for each HAIR_PHASE: 0 integration, 1 angular forces, 2 and 3 red and black distance constraints, 4 and 5 angular ones,
+// 6 collisions, 7 the end of the substep, which is the first of the parameters. While constraints run, what is kept
+// beside a vertex's position is where it was before.
+#version 450 core
+#include "shared.h"
+layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
+#include "rotation.glsl"
+#include "capsules.glsl"
+
+layout(binding = HAIR_UNIT_STATE) uniform samplerBuffer state_texture; // hair_state
+layout(binding = HAIR_UNIT_REST) uniform samplerBuffer rest_texture;   // hair_rest
+layout(binding = HAIR_UNIT_GUIDE) uniform usamplerBuffer guide_texture; // hair_guide
+layout(binding = HAIR_UNIT_OWNER) uniform usamplerBuffer owner_texture; // guide of each vertex
+
+out vec4 moved[2]; // hair_state
+
+uint first, count; // of the guide's vertices
+
+vec3 vertex(uint i) { return texelFetch(state_texture, 2 * int(first + i)).xyz; }
+vec3 beside(uint i) { return texelFetch(state_texture, 2 * int(first + i) + 1).xyz; }
+vec4 rest_position(uint i) { return texelFetch(rest_texture, 3 * int(first + i)); }
+vec4 rest_direction(uint i) { return texelFetch(rest_texture, 3 * int(first + i) + 1); }
+
+vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
+{
+    float k = frequency_squared * dt * dt;
+    return position + (target - position) * (k / (1.0 + k));
+}
+
+// Where the link (a, b) has its end i, as relax_link of constraints.glsl.
+vec3 relaxed(uint i, uint a, uint b, float rest_length, float stiffness)
+{
+    vec3  link = vertex(b) - vertex(a);
+    float l    = length(link);
+    if (b >= count || l < 1e-12 || b < 2u) return vertex(i);
+    vec3 correction = link * (stiffness * (l - rest_length) / l);
+    if (i == b) return vertex(b) - (a < 2u ? 1.0 : 0.5) * correction;
+    return a >= 2u ? vertex(a) + 0.5 * correction : vertex(a);
+}
+
+vec3 relax_distance(uint i, uint phase)
+{
+    if (i < phase) return vertex(i);
+    uint a = i - (i - phase) % 2u;
+    return relaxed(i, a, a + 1u, rest_position(a).w, 1.0);
+}
+
+vec3 relax_bend(uint i, uint phase)
+{
+    if (i < 2u * phase) return vertex(i);
+    uint a = i - ((i - 2u * phase) % 4u & 2u);
+    return relaxed(i, a, a + 2u, rest_direction(a).w, params.bend);
+}
+
+vec3 direction_of(uint i) { return direction_or(vertex(i + 1u) - vertex(i), vec3(0.0, 1.0, 0.0)); }
+
+// What turns the segment before segment i into it; at the root, its frame.
+vec4 turn_of(vec4 root, uint i)
+{
+    vec3 now = direction_of(i);
+    if (i == 0u) return quat_multiply(quat_between(rotate(root, vec3(0.0, 1.0, 0.0)), now), root);
+    return quat_between(direction_of(i - 1u), now);
+}
+
+// The frame of segment i, as frames.glsl: the product of all turns up to it, in the order in which the scan there multiplies
+// them, so that it is rounded alike. Blocks of 1, 2, 4, … turns wait, as the bits of a counter do, for one of their size.
+vec4 carry_frame(vec4 root, uint i)
+{
+    vec4 waiting[8];
+    int  waits = 0;
+    for (uint k = 0u; k <= i; ++k) {
+        vec4 block = turn_of(root, i - k);
+        for (uint size = k + 1u; (size & 1u) == 0u; size /= 2u) block = normalize(quat_multiply(waiting[--waits], block));
+        waiting[waits++] = block;
+    }
+    vec4 frame = waiting[--waits];
+    while (waits > 0) frame = normalize(quat_multiply(waiting[--waits], frame));
+    return frame;
+}
+
+vec3 bend_to_rest(uint i, vec4 root)
+{
+    if (i < 2u) return vertex(i);
+    vec3 aimed = vertex(i - 1u) + rest_position(i - 1u).w * rotate(carry_frame(root, i - 2u), rest_direction(i - 1u).xyz);
+    return pull(vertex(i), aimed, params.angular, params.gravity.w);
+}
+
+// Those that are too far do nothing.
+vec3 collide(uint i, float share)
+{
+    vec3 position = vertex(i);
+    for (uint k = 0u; k < params.solids && i >= 2u; ++k)
+        position = push_out(position, solid_at(params.solid[k], share, params.margin));
+    return position;
+}
+
+// By the bits: comparisons with NaN may be compiled away.
+bool is_finite(vec3 v) { return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u))); }
+
+bool is_broken(vec3 head)
+{
+    for (uint i = 0u; i < count; ++i) {
+        vec3 x = vertex(i), d = x - beside(i) + head;
+        if (!is_finite(x) || !is_finite(d) || dot(x, x) > 1e8 || dot(d, d) > 1e8) return true;
+    }
+    return false;
+}
+
+void main()
+{
+    int   guide    = 2 * int(texelFetch(owner_texture, gl_VertexID).x);
+    vec4  root     = uintBitsToFloat(texelFetch(guide_texture, guide));
+    uvec4 record   = texelFetch(guide_texture, guide + 1);
+    vec4  rotation = params.substep[0].rotation;
+    vec3  head     = params.substep[0].displacement.xyz;
+    first = record.x, count = record.y;
+    uint i = uint(gl_VertexID) - first;
+    vec3 x = vertex(i), kept = beside(i), target = rotate(rotation, rest_position(i).xyz);
+#if HAIR_PHASE == 0
+    float dt = params.gravity.w, frequency = mix(params.pull_root, params.pull_tip, float(i) / float(count - 1u));
+    vec3  p = pull(x - head + params.keep * kept + params.gravity.xyz * (dt * dt), target, frequency * frequency, dt);
+    kept = x;
+    x    = i < 2u ? target : p;
+#elif HAIR_PHASE == 1
+    x = bend_to_rest(i, quat_multiply(rotation, root));
+#elif HAIR_PHASE == 2 || HAIR_PHASE == 3
+    x = relax_distance(i, HAIR_PHASE - 2u);
+#elif HAIR_PHASE == 4 || HAIR_PHASE == 5
+    x = relax_bend(i, HAIR_PHASE - 4u);
+#elif HAIR_PHASE == 6
+    x = collide(i, params.substep[0].displacement.w);
+#else
+    bool broken = is_broken(head); // The whole strand goes back to its rest pose.
+    kept        = broken ? (dot(head, head) < 1e8 ? head : vec3(0.0)) : x - kept + head;
+    x           = broken ? target : x;
+#endif
+    moved[0] = vec4(x, 0.0);
+    moved[1] = vec4(kept, 0.0);
+}

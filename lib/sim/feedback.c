@@ -1,0 +1,108 @@
+// feedback.c - redblack by transform feedback: every phase draws all guide vertices as points, from one buffer into another.
+#include "lib/sim/sim.h"
+
+#define GUIDES 2 // of HAIR_FEEDBACK_STATES
+
+static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* guides)
+{
+    struct hair_gl*       gl       = sim->gl;
+    struct hair_feedback* feedback = &sim->feedback;
+    uint32_t*             owners   = hair_alloc(&gl->host, sim->guide_vertices, sizeof *owners);
+    if (!owners) return hair_fail_memory(&gl->host, "the guides of vertices");
+    for (uint32_t g = 0; g < sim->guides; ++g)
+        for (uint32_t i = 0; i < guides[g].count; ++i) owners[guides[g].first + i] = g;
+    hair_result result =
+        hair_gl_buffer(gl, "hair owners", sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
+    hair_free(&gl->host, owners);
+    return result ? result
+                  : hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner,
+                                           &feedback->owner_texture);
+}
+
+hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides)
+{
+    struct hair_gl*       gl       = sim->gl;
+    struct hair_feedback* feedback = &sim->feedback;
+    size_t                size     = sim->guide_vertices * sizeof(struct hair_state);
+    hair_result           result   = make_owners(sim, guides);
+    gl->CreateTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
+    for (int i = 0; i < HAIR_FEEDBACK_STATES && !result; ++i) {
+        if (i != GUIDES) result = hair_gl_buffer(gl, "hair feedback", size, NULL, &feedback->buffer[i]);
+        GLuint buffer = i == GUIDES ? sim->state : feedback->buffer[i];
+        if (!result)
+            result = hair_gl_buffer_texture(gl, "hair feedback", GL_RGBA32F, buffer, &feedback->texture[i]);
+        if (!result) gl->TransformFeedbackBufferBase(feedback->captured[i], 0, buffer);
+    }
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair rest", GL_RGBA32F, sim->rest, &feedback->rest_texture);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair guides", GL_RGBA32UI, sim->guide, &feedback->guide_texture);
+    feedback->framebuffer = hair_gl_blank_framebuffer(gl);
+    for (hair_gl_pass pass = HAIR_GL_FEEDBACK_INTEGRATE; pass <= HAIR_GL_FEEDBACK_END && !result; ++pass)
+        result = hair_gl_need(gl, pass);
+    return result;
+}
+
+void hair_feedback_free(struct hair_sim* sim)
+{
+    struct hair_gl*       gl       = sim->gl;
+    struct hair_feedback* feedback = &sim->feedback;
+    if (!feedback->wanted) return;
+    if (feedback->captured[0]) gl->DeleteTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
+    if (feedback->framebuffer) gl->DeleteFramebuffers(1, &feedback->framebuffer);
+    for (int i = 0; i < HAIR_FEEDBACK_STATES; ++i) hair_gl_free_buffer_texture(gl, &feedback->texture[i]);
+    hair_gl_free_buffer_texture(gl, &feedback->rest_texture);
+    hair_gl_free_buffer_texture(gl, &feedback->guide_texture);
+    hair_gl_free_buffer_texture(gl, &feedback->owner_texture);
+    hair_gl_free_buffer(gl, &feedback->buffer[0]);
+    hair_gl_free_buffer(gl, &feedback->buffer[1]);
+    hair_gl_free_buffer(gl, &feedback->owner);
+}
+
+// From where the last phase left vertices, *at, into the other of the two, or at a substep's end back into the guides.
+static void run_phase(struct hair_sim* sim, hair_gl_pass pass, int* at)
+{
+    struct hair_gl* gl = sim->gl;
+    int             to = pass == HAIR_GL_FEEDBACK_END ? GUIDES : *at == 0;
+    gl->BindTextureUnit(HAIR_UNIT_STATE, sim->feedback.texture[*at]);
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, sim->feedback.captured[to]);
+    hair_gl_begin(gl, pass);
+    gl->BeginTransformFeedback(GL_POINTS);
+    gl->DrawArrays(GL_POINTS, 0, (GLsizei)sim->guide_vertices);
+    gl->EndTransformFeedback();
+    hair_gl_end(gl, pass);
+    *at = to;
+}
+
+static void run_substep(struct hair_sim* sim, const struct hair_step_params* params)
+{
+    int at = GUIDES;
+    run_phase(sim, HAIR_GL_FEEDBACK_INTEGRATE, &at);
+    if (params->angular > 0) run_phase(sim, HAIR_GL_FEEDBACK_ANGULAR, &at);
+    for (uint32_t i = 0; i < params->iterations; ++i) {
+        run_phase(sim, HAIR_GL_FEEDBACK_RED, &at);
+        run_phase(sim, HAIR_GL_FEEDBACK_BLACK, &at);
+        if (params->bend > 0) run_phase(sim, HAIR_GL_FEEDBACK_BEND_RED, &at);
+        if (params->bend > 0) run_phase(sim, HAIR_GL_FEEDBACK_BEND_BLACK, &at);
+        if (params->solids > 0) run_phase(sim, HAIR_GL_FEEDBACK_COLLIDE, &at);
+    }
+    run_phase(sim, HAIR_GL_FEEDBACK_END, &at);
+}
+
+void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* params)
+{
+    struct hair_gl*         gl  = sim->gl;
+    struct hair_step_params own = *params;
+    struct hair_gl_capture  was;
+    hair_gl_begin_capture(gl, sim->feedback.framebuffer, &was);
+    gl->BindTextureUnit(HAIR_UNIT_REST, sim->feedback.rest_texture);
+    gl->BindTextureUnit(HAIR_UNIT_GUIDE, sim->feedback.guide_texture);
+    gl->BindTextureUnit(HAIR_UNIT_OWNER, sim->feedback.owner_texture);
+    for (uint32_t i = 0; i < params->substeps; ++i) {
+        own.substep[0] = params->substep[i];
+        hair_gl_write_uniform(gl, sim->step, sizeof own, &own);
+        run_substep(sim, &own);
+    }
+    hair_gl_write_uniform(gl, sim->step, sizeof *params, params); // As others read it.
+    hair_gl_end_capture(gl, &was);
+}
