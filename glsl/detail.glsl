@@ -3,6 +3,7 @@
 
 #define FEWEST_SEGMENTS 2.0
 #define GIVE 1.1     // hair may stretch, and stray from its guides
+#define WIDEST 16.0   // that taper and maps make a strand, as a multiple
 #define HIDDEN_BY 0.3 // radii of the skull between the eye and what is hidden
 
 struct hair_detail {
@@ -50,13 +51,14 @@ hair_detail find_detail(uint guide, vec4 patch_)
 {
     float most   = float(draw.segments) * draw.segment_share;
     float share  = draw.strand_share, segments = max(most, 1.0);
+    if (draw.culls == 0u && draw.pixels_per_unit == 0.0) return hair_detail(share, segments, pow(max(share, 1e-6), -draw.width_power));
+    vec3  root  = guide_at(guide, 0u);
+    float reach = WIDEST * draw.radius + GIVE * draw.strand.most_width * patch_.x + draw.strand.most_stray * patch_.y + draw.strand.most_aside;
+    if (draw.culls > 0u && !is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
     if (draw.pixels_per_unit > 0.0) {
-        vec3  root  = guide_at(guide, 0u);
-        float reach = GIVE * draw.strand.most_width * patch_.x + draw.strand.most_stray * patch_.y + draw.strand.most_aside;
         float scale = max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
                                                       pixels_per_metre(guide_at(guide, draw.smooth_vertices - 1u))));
         float size  = scale * patch_.z;
-        if (!is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
         if (draw.skull.w > 0.0) {
             vec3 eye = draw.eye.w > 0.0 ? draw.eye.xyz : draw.skull.xyz + 1000.0 * draw.skull.w * draw.eye.xyz;
             if (is_hidden(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0);

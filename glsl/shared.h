@@ -661,7 +661,7 @@ struct hair_draw_params {
     float     margin;    // m, from a solid, of what is pushed out of it
     hair_uint lights;    // how many there are
     hair_uint textured;  // 1: there is a texture of colours
-    hair_uint unused0;
+    hair_uint culls;     // 1: patches of which `sides` cut off all are left out
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m

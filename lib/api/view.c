@@ -148,14 +148,17 @@ static void make_ready(hair_instance* hair)
 }
 
 // No strand of which a guide's root is held gets farther from there than it is long. The solver redblack stretches it; what
-// is tied, or rides on a scalp that is skinned, is where that has it. Velocities want to be asked for in every frame.
+// is tied, or rides on a scalp that is skinned, is where that has it.
+static int is_held(const struct hair_sim* sim)
+{
+    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
+}
+
+// Velocities want to be asked for in every frame.
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
-    const struct hair_sim* sim = &hair->sim;
     if (view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_MOTION) return 0;
-    if (!sim->rods || sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim))
-        return 0;
-    return hair_draw_is_out_of_view(&hair->draw, &sim->at_step, view);
+    return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.at_step, view);
 }
 
 // What is asked for is written down.
@@ -193,6 +196,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
         hair->draw.bounded =
             (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
+        hair->draw.held = is_held(&hair->sim);
         if (!result)
             result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own,
                                    own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);

@@ -7,6 +7,11 @@
 #define WIDEST 16.0 // that a map and the groom make a strand, as a multiple
 #define EDGE 8.0    // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
 
+double hair_draw_edge(float pixels, float jitter)
+{
+    return 1 + 2 * (EDGE + fabs((double)jitter)) / fmax((double)pixels, 1);
+}
+
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom)
 {
     struct hair_extent* extent = &draw->extent;
@@ -72,8 +77,7 @@ int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pos
     unsigned                  outside = (1u << SIDES) - 1;
     float                     r       = (float)reach;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    for (int k = 0; k < 2; ++k)
-        edge[k] = 1 + 2 * (EDGE + fabs((double)view->jitter[k])) / fmax((double)viewport[2 + k], 1);
+    for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
         double clip[4];
         find_corner(view, head,

@@ -5,28 +5,32 @@
 
 #define EVERYWHERE 1e30f // m: a plane so far behind everything cuts nothing off
 
-// The half space { p : w(p) + sign row(p) >= 0 } of clip space, with a unit normal.
-static hair_vec4 find_side(const float clip[16], int row, float sign)
+// The half space { p : edge w(p) + sign row(p) >= 0 } of clip space, with a unit normal.
+static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
     float     p[4];
     hair_vec4 plane = {0, 0, 0, EVERYWHERE};
-    for (int i = 0; i < 4; ++i) p[i] = clip[4 * i + 3] + sign * clip[4 * i + row];
+    for (int i = 0; i < 4; ++i) p[i] = edge * clip[4 * i + 3] + sign * clip[4 * i + row];
     float length = hair_length(hair_v3(p[0], p[1], p[2]));
     if (!(length > 0 && length < EVERYWHERE)) return plane;
     plane = (hair_vec4){p[0] / length, p[1] / length, p[2] / length, p[3] / length};
     return plane;
 }
 
-// Where roots are held, no strand leaves its patch's reach; where they are free there is no saying.
-static void write_sides(int bounded, struct hair_draw_params* out)
+// Beyond the picture's edges by what strands are widened.
+static void write_sides(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
 {
-    float view[16], projection[16], clip[16];
-    memcpy(view, &out->view, sizeof view);
+    float   matrix[16], projection[16], clip[16];
+    GLfloat viewport[4] = {0};
+    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    memcpy(matrix, &out->view, sizeof matrix);
     memcpy(projection, &out->view_to_clip, sizeof projection);
-    hair_mat4_multiply(projection, view, clip);
-    for (int i = 0; i < 4; ++i)
-        out->sides.column[i] =
-            bounded ? find_side(clip, i / 2, i % 2 ? -1 : 1) : (hair_vec4){0, 0, 0, EVERYWHERE};
+    hair_mat4_multiply(projection, matrix, clip);
+    for (int i = 0; i < 4; ++i) {
+        float edge           = (float)hair_draw_edge(viewport[2 + i / 2], view->jitter[i / 2]);
+        out->sides.column[i] = find_side(clip, i / 2, i % 2 ? -1 : 1, edge);
+    }
+    out->culls = 1;
 }
 
 // How many pixels a step along the view's y axis crosses, where w of clip space is 1.
@@ -50,9 +54,15 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
     out->segment_pixels  = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
     out->least_share     = lod->least;
     out->hidden_share    = lod->hidden;
-    write_sides(draw->bounded, out);
+    // Where roots are held, no strand leaves its patch's reach; where they are free there is no saying.
+    if (draw->bounded) write_sides(draw, view, out);
     if (lod->hidden < 1 && draw->bounded) {
         hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->skull.x, draw->skull.y, draw->skull.z));
         out->skull   = (hair_vec4){at.x, at.y, at.z, draw->skull.w};
     }
+}
+
+void hair_draw_cull_patches(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
+{
+    if (draw->held && !out->culls) write_sides(draw, view, out);
 }

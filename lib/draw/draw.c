@@ -214,6 +214,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
+    if (!guides && with.path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
     params.textured = (uint32_t)is_textured(draw, view);
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);

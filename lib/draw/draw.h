@@ -48,6 +48,7 @@ struct hair_draw {
     uint32_t             driver;  // row of paths.inl
     hair_vec4            skull;   // of the groom
     int                  bounded; // roots are held: no strand leaves its patch's reach
+    int                  held;    // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
     uint32_t             seated;  // for which run of smooth.comp followers are
     struct hair_extent   extent;
     struct hair_hits     hits;

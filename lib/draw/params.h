@@ -19,6 +19,13 @@ uint32_t hair_view_maps(const hair_view* view, GLuint out[HAIR_SHADOW_MAPS]);
 // detail.c: of them what is about the level of detail. Those about the view are there.
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
+// Leave out what the view does not show, though no level of detail does: of paths that ask for each patch in each view.
+void hair_draw_cull_patches(const struct hair_draw* draw, const hair_view* view,
+                            struct hair_draw_params* out);
+
+// cull.c: where a picture of so many pixels ends with what may reach into it, as a multiple of w.
+double hair_draw_edge(float pixels, float jitter);
+
 // strand.c: of the above, what a look makes of a strand's way; and how far it takes it from there at most, in its lengths
 // and, beside that, in m.
 void  hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out);

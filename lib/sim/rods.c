@@ -61,13 +61,16 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     return result;
 }
 
-// By doubling, so that little is made anew while a level of detail changes.
+// By doubling, so that little is made anew while a level of detail changes; one doubling at a time, so that what is drawn
+// does not catch up in leaps.
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
     float    rate   = sim->physics.rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.unseen_rate);
     while (2 * (float)longer * rate <= 1) longer *= 2;
+    if (sim->longer && longer < sim->longer) return sim->longer / 2;
+    if (sim->longer && longer > sim->longer) return sim->longer * 2;
     return longer;
 }
 
@@ -105,6 +108,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->struck   = struck;
         rods->tied     = sim->ties.which;
         rods->longer   = longer;
+        sim->longer    = longer;
         rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
         rods->stiff    = is_stiff(sim, rod);
         sim->substep   = substep;

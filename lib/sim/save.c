@@ -14,7 +14,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 11 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 12 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -32,6 +32,7 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
 #define MOST_BEAT 2000  // substeps of a block of the crowd or the fluid: more than there are of the shortest
 #define MOST_CELLS 1e16 // from the world's origin to the fluid's box
 #define MOST_CALM 1e9   // s
+#define MOST_LONGER 16  // by the least hair_physics.rate
 #define MOST_BUFFERS 10 // that walk() lists
 #define SOLID_WORDS 14  // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
@@ -382,6 +383,7 @@ static void walk(struct cursor* c, struct hair_sim* sim)
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
     walk_skin(c, sim, skinned);
     walk_sleep(c, sim);
+    walk_uint(c, "how many times as long substeps are", &sim->longer, MOST_LONGER);
     walk_double(c, "time since hair was seen", &sim->unseen, 0, 1);
     walk_blow(c, &sim->blow);
 }

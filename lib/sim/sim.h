@@ -40,6 +40,7 @@ struct hair_sim {
     int                  struck; // there have been solids: the accurate solver's own substep is for impacts
     double               last_substep; // s: of the last substep done, which displacements are over
     double               next_substep; // s: of the one under way; 0: not known, as of what was loaded
+    uint32_t             longer;       // substeps, so many times as long as the solver wants them; 0: not yet
     double               unseen;       // s: since a view last showed any of it
     uint32_t             guides, guide_vertices, smooth_vertices;
     uint32_t             most_vertices; // of a guide

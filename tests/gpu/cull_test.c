@@ -226,6 +226,93 @@ static void what_has_not_changed_is_not_listed_again(void** state)
     finish(&f);
 }
 
+static uint32_t count_primitives(struct fixture* f, const hair_view* view, float* pixels)
+{
+    GLuint query = 0, count = 0;
+    glGenQueries(1, &query);
+    clear(f);
+    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
+    glDeleteQueries(1, &query);
+    hair_test_frame_read(&f->frame, pixels);
+    return count;
+}
+
+// From near by, by every kind of projection. Of hair whose roots are free no patch may be left out.
+static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(void** state)
+{
+    static float   some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
+    struct fixture f       = start(state);
+    hair_view      view    = hair_view_default();
+    hair_physics   physics = hair_physics_default(), lets_go = physics;
+    uint32_t       random = 7, drawn[2] = {0, 0};
+    hair_look      look = f.hair->draw.look;
+    look.radius         = 4e-3f;
+    lets_go.root        = HAIR_ROOT_FREE;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    for (int i = 0; i < 120; ++i) {
+        hair_vec3 eye, way;
+        float*    numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
+        for (int k = 0; k < 6; ++k) *numbers[k] = (2 * hair_random(&random) - 1) * (k < 3 ? 0.3f : 1);
+        look_along(eye, way, view.view);
+        project(i % 4, view.projection);
+        view.primitive = i % 3 ? HAIR_RIBBONS : HAIR_LINES;
+        hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+        drawn[0] += count_primitives(&f, &view, some);
+        hair_test_ok(f.test, hair_set_physics(f.hair, &lets_go));
+        drawn[1] += count_primitives(&f, &view, all);
+        assert_true(differ(some, all) == 0);
+    }
+    print_message("    %u primitives of %u\n", drawn[0], drawn[1]);
+    assert_true(drawn[0] < drawn[1]); // Strands are as long as all of the hair is wide: few can be told.
+    finish(&f);
+}
+
+static hair_memory memory_of(struct fixture* f)
+{
+    hair_memory memory = hair_memory_default();
+    hair_test_ok(f->test, hair_get_memory(f->context, &memory));
+    return memory;
+}
+
+// Beside a light with a shadow: which takes a texture and a sampler to be bound, and nothing else does.
+static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state)
+{
+    static float   pixels[4 * SIZE * SIZE];
+    struct fixture f      = start(state);
+    hair_view      view   = hair_view_default();
+    hair_light     light  = hair_light_default();
+    GLuint         shadow = 0;
+    uint32_t       binds[3], samplers[3];
+    uint64_t       bytes[3];
+    glCreateTextures(GL_TEXTURE_2D, 1, &shadow);
+    glTextureStorage2D(shadow, 1, GL_DEPTH_COMPONENT32F, 4, 4);
+    look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
+    project(0, view.projection);
+    read(&f, &view, pixels); // What is made, is.
+    for (int i = 0; i < 3; ++i) {
+        light.shadow_texture = i == 2 ? shadow : 0;
+        view.lights          = &light;
+        view.light_count     = i > 0;
+        hair_test_trace_clear();
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        binds[i]    = hair_test_trace_count("glBindTextureUnit");
+        samplers[i] = hair_test_trace_count("glBindSampler");
+        bytes[i]    = memory_of(&f).bytes;
+        assert_int_equal(hair_test_trace_count("glDispatch"), 0);
+        assert_int_equal(hair_test_trace_count("glDrawArrays"), 1);
+    }
+    assert_int_equal(binds[0], binds[1]);
+    assert_int_equal(samplers[0], samplers[1]);
+    assert_int_equal(binds[0], binds[2] - 1);
+    assert_int_equal(samplers[0], samplers[2] - 1);
+    assert_true(bytes[0] == bytes[1] && bytes[1] == bytes[2]);
+    glDeleteTextures(1, &shadow);
+    finish(&f);
+}
+
 // A frame is a step and a draw, with solids that followers come into and all passes timed.
 static void no_frame_waits_for_the_gpu(void** state)
 {
@@ -262,6 +349,8 @@ int main(void)
         HAIR_TEST(nothing_is_cut_off_near_or_far_where_depth_is_clamped),
         HAIR_TEST(hair_of_free_roots_is_drawn_wherever_its_groom_is),
         HAIR_TEST(what_has_not_changed_is_not_listed_again),
+        HAIR_TEST(patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same),
+        HAIR_TEST(without_lights_nothing_is_bound_or_run_or_kept_for_them),
         HAIR_TEST(no_frame_waits_for_the_gpu),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

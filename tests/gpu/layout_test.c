@@ -297,7 +297,7 @@ static const struct member members[] = {
     FLOAT(hair_draw_params, margin),
     UINT(hair_draw_params, lights),
     UINT(hair_draw_params, textured),
-    UINT(hair_draw_params, unused0),
+    UINT(hair_draw_params, culls),
     VEC4(hair_draw_params, map_weights),
     MAT4(hair_draw_params, sides),
     VEC4(hair_draw_params, skull),

@@ -1,10 +1,12 @@
 // need_test.c - programs, buffers and textures: made when they are first needed, kept by the host, freed when nothing needs
 // them any more, and no more of them than a limit lets.
+#define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
@@ -168,6 +170,13 @@ static int has_binaries(void)
     return formats > 0;
 }
 
+static double now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
 static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
@@ -176,10 +185,13 @@ static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** st
     if (!has_binaries()) return;
     for (int run = 0; run < 2; ++run) {
         hair_test_trace_clear();
-        struct fixture f    = start(*state, &cache);
-        hair_view      view = view_of(HAIR_PATH_TESSELLATION);
+        double         begin = now_ms();
+        struct fixture f     = start(*state, &cache);
+        hair_view      view  = view_of(HAIR_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
+        print_message("    the first picture %s the cache after %.0f ms\n", run ? "with" : "without",
+                      now_ms() - begin);
         assert_int_equal(hair_test_trace_count("glLinkProgram"), run ? 0 : cache.puts);
         assert_int_equal(hair_test_trace_count("glCompileShader") > 0, !run);
         if (!run) puts = cache.puts;

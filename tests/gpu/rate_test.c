@@ -70,13 +70,15 @@ static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUID
     for (uint32_t i = 0; i < GUIDES; ++i) tip[i] = hair_load3(at + 3 * ((i + 1) * each - 1));
 }
 
-// `rate_at`: of a frame.
-static void run(struct fixture* f, float (*rate_at)(uint32_t frame), struct run* out)
+// `rate_at`: of a frame. `is_seen`: in a frame; where it is not, a quarter is enough. NULL: always.
+static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_seen)(uint32_t frame),
+                struct run*     out)
 {
     hair_physics   physics = hair_physics_default();
     hair_desc      desc    = hair_desc_default();
     hair_instance* hair    = NULL;
     physics.rate           = rate_at(0);
+    physics.unseen_rate    = is_seen ? 0.25f : 1;
     desc.physics           = &physics;
     hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &hair));
     uint32_t before = count_runs(f->context);
@@ -88,7 +90,9 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), struct run*
         hair_test_ok(f->test, hair_set_physics(hair, &physics));
         hair_test_ok(f->test, hair_set_transform(hair, head));
         hair_test_ok(f->test, hair_step(hair, 1.0f / PER_SECOND));
+        double unseen = hair->sim.unseen; // The test's own look is none.
         read_tips(f, hair, out->tip[i]);
+        if (is_seen && !is_seen(i)) hair->sim.unseen = unseen;
         for (int g = 0; g < GUIDES; ++g) {
             hair_vec3 t = out->tip[i][g];
             out->tip[i][g] =
@@ -121,6 +125,12 @@ static float at_any(uint32_t frame)
 {
     static const float rates[] = {1, 0.5f, 0.25f, 0.5f};
     return rates[frame * 16 / FRAMES % 4];
+}
+
+// Not in the half second after the first, while the head turns: of which a quarter of a second is as if it were.
+static int is_now_and_then_seen(uint32_t frame)
+{
+    return frame < PER_SECOND || frame >= 3 * PER_SECOND / 2;
 }
 
 // How far tips are on average from where they are on average, and that.
@@ -190,25 +200,28 @@ static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
 {
     static struct run full, low;
     struct fixture    f = start(state);
-    run(&f, at_one, &full);
+    run(&f, at_one, NULL, &full);
     assert_int_equal(full.runs, FRAMES);
-    run(&f, at_half, &low);
+    run(&f, at_half, NULL, &low);
     compare("half", &full, &low, (struct bounds){0.04, 5e-4, 1e-4, 0.15});
     assert_int_equal(low.runs, FRAMES / 2);
-    run(&f, at_quarter, &low);
+    run(&f, at_quarter, NULL, &low);
     compare("quarter", &full, &low, (struct bounds){0.08, 1e-3, 2.5e-4, 0.2});
     assert_int_equal(low.runs, FRAMES / 4);
     finish(&f);
 }
 
 // While substeps become shorter, time is drawn at most twice as fast; while they become longer, at half the pace.
-static void nothing_jumps_where_the_rate_changes(void** state)
+static void nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again(void** state)
 {
     static struct run full, low;
     struct fixture    f = start(state);
-    run(&f, at_one, &full);
-    run(&f, at_any, &low);
+    run(&f, at_one, NULL, &full);
+    run(&f, at_any, NULL, &low);
     compare("changing", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});
+    run(&f, at_one, is_now_and_then_seen, &low);
+    compare("unseen", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});
+    assert_in_range(low.runs, FRAMES - PER_SECOND / 4 * 3 / 4 - 5, FRAMES - PER_SECOND / 4 * 3 / 4 + 5);
     finish(&f);
 }
 
@@ -217,7 +230,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(at_lower_rates_hair_moves_the_same_way_for_less),
-        HAIR_TEST(nothing_jumps_where_the_rate_changes),
+        HAIR_TEST(nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

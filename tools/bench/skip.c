@@ -20,17 +20,19 @@ static const char* const columns[] = {"case",       "method",         "scene", "
 struct scene {
     uint32_t heads, moving, seen;
     bool     sleeps, solids, fluid, blind; // blind: nothing is drawn
+    uint32_t lights;
 };
 
 static const struct pair {
     const char*  name;
     struct scene all, less;
 } pairs[] = {
-    {"idle head", {1, 0, 1, false, false, false, true}, {1, 0, 1, true, false, false, true}},
-    {"off screen", {1, 1, 1, true, false, false, false}, {1, 1, 0, true, false, false, false}},
-    {"no solids", {1, 1, 1, true, true, false, false}, {1, 1, 1, true, false, false, false}},
-    {"no wind", {1, 1, 1, true, false, true, false}, {1, 1, 1, true, false, false, false}},
-    {"5 of 100", {100, 5, 5, true, false, false, false}, {5, 5, 5, true, false, false, false}},
+    {"idle head", {1, 0, 1, false, false, false, true, 1}, {1, 0, 1, true, false, false, true, 1}},
+    {"off screen", {1, 1, 1, true, false, false, false, 1}, {1, 1, 0, true, false, false, false, 1}},
+    {"no solids", {1, 1, 1, true, true, false, false, 1}, {1, 1, 1, true, false, false, false, 1}},
+    {"no wind", {1, 1, 1, true, false, true, false, 1}, {1, 1, 1, true, false, false, false, 1}},
+    {"no lights", {1, 1, 1, true, false, false, false, 16}, {1, 1, 1, true, false, false, false, 0}},
+    {"5 of 100", {100, 5, 5, true, false, false, false, 1}, {5, 5, 5, true, false, false, false, 1}},
 };
 
 struct heads {
@@ -101,6 +103,7 @@ static hair_result run_frame(struct heads* heads, bool draws)
     float       angle  = 0.4f * sinf(0.15f * (float)heads->frames++);
     view.projection[0] = view.projection[5] = view.projection[10] = 2.5f;
     view.view[13]                                                 = -1.5f;
+    view.light_count                                              = heads->scene.lights;
     glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
     glViewport(0, 0, SIZE, SIZE);
     for (uint32_t i = 0; i < heads->scene.heads && !result; ++i) {
