@@ -28,6 +28,19 @@ vec3 normal_of(hair_fragment f) // of the ribbon
     return normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6);
 }
 
+vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
+{
+    if (draw.lit > 0u) return light_through_strands(number, f.strand, f.t, taken, met);
+    return light_through_depth(number, f.position, f.seed, taken, met);
+}
+
+// Of the sky's light, the share that comes through hair, where it is known. Light hair passes more on.
+vec3 sky_through(hair_fragment f, vec3 otherwise)
+{
+    if (draw.lit == 0u) return 0.25 + 0.75 * sqrt(otherwise);
+    return pow(vec3(max(light_found(0u, f.strand, f.t).x, 1e-3)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)));
+}
+
 vec3 sky_of(hair_fragment f)
 {
     vec3 normal = normal_of(f);
@@ -44,12 +57,12 @@ vec3 hair_shade(hair_fragment f)
         fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
         fibre_crowd  crowd = find_crowd(a, mu);
         float        met;
-        vec4         light = light_through(i, f.position, f.seed, 1.0 - crowd.on, met);
+        vec4         light = light_through(f, i, 1.0 - crowd.on, met);
         vec3         once  = scatter_once(a, mu, tilt, variance);
         sum += beam.irradiance * (a.light.y * scatter_often(a, crowd, once, light.x, light.yzw, met));
-        if (i == 0u) open = 0.25 + 0.75 * sqrt(light.yzw); // What shades from the first light hides the sky too.
+        if (i == 0u) open = light.yzw; // What shades from the first light hides the sky too.
     }
-    return sum + sky_of(f) * albedo * open * 0.31830989;
+    return sum + sky_of(f) * albedo * sky_through(f, open) * 0.31830989;
 }
 #else
 // Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as Scheuermann 2004 approximates them: a white
@@ -70,7 +83,7 @@ vec3 hair_shade(hair_fragment f)
     vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam beam = beam_at(i, f.position);
-        float     met, light = light_through(i, f.position, f.seed, vec3(1.0), met).x;
+        float     met, light = light_through(f, i, vec3(1.0), met).x;
         vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
         float     along   = dot(f.tangent, beam.to);
         float     diffuse = sqrt(max(1.0 - along * along, 0.0));
@@ -78,8 +91,8 @@ vec3 hair_shade(hair_fragment f)
         // Light from behind passes through the fibre but does not glint on its near side.
         float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
         sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
-        if (i == 0u) open = 0.25 + 0.75 * sqrt(light); // What shades from the first light hides the sky too.
+        if (i == 0u) open = light; // What shades from the first light hides the sky too.
     }
-    return sum + sky_of(f) * albedo * open;
+    return sum + sky_of(f) * albedo * sky_through(f, vec3(open));
 }
 #endif

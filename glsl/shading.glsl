@@ -16,7 +16,7 @@ vec3  hair_light(hair_fragment f, uint i, out vec3 to)
     to = beam.to;
     return beam.irradiance;
 }
-float hair_light_through(hair_fragment f, uint i) { float met; return light_through(i, f.position, f.seed, vec3(1.0), met).x; }
+float hair_light_through(hair_fragment f, uint i) { float met; return light_through(f, i, vec3(1.0), met).x; }
 vec3  hair_sky(hair_fragment f) { return sky_of(f); }
 
 vec4 hair_shade(hair_fragment f);

@@ -1,17 +1,37 @@
-// shadow.glsl - how much of a light comes through the hair and past the bodies in front of a point: exponential in the
-// depth of what its shadow map says lies between (Beer 1852), averaged over taps around it.
+// shadow.glsl - how much of a light comes through the hair and past the bodies in front of a point. As light.comp has found
+// it for vertices of strands; else exponential in the depth of what the light's shadow map says lies between (Beer 1852),
+// averaged over taps around it.
 #include "draw_params.glsl"
 
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
+layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
 
 #define SHADOW_TAPS 8
 #define SHADOW_RADIUS 5.0 // texels
 
 const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688); // by 2.399963 radians
 
+// Of the sky (0) or a light (from 1): the share that meets no strand, and how many are met.
+vec2 light_found(uint which, uint strand, float t)
+{
+    float at = clamp(t, 0.0, 1.0) * float(draw.segments), k = min(floor(at), float(draw.segments) - 1.0);
+    int   i  = int((strand * (draw.segments + 1u) + uint(k)) * draw.lit + which);
+    vec2  a  = unpackHalf2x16(texelFetch(light_texture, i).x);
+    return mix(a, unpackHalf2x16(texelFetch(light_texture, i + int(draw.lit)).x), at - k);
+}
+
 // x: share that meets no strand on its way; yzw: shares that come through if each strand that is met takes as much as
-// `taken` of it. met: strands that are met.
-vec4 light_through(uint number, vec3 position, uint seed, vec3 taken, out float met)
+// `taken` of it. met: strands that are met, of which a Poisson process has at least one where light meets any.
+vec4 light_through_strands(uint number, uint strand, float t, vec3 taken, out float met)
+{
+    vec2  found = light_found(number + 1u, strand, t);
+    float none  = exp(-found.y);
+    vec3  if_any = found.y > 1e-3 ? (exp(-found.y * taken) - none) / (1.0 - none) : 1.0 - taken;
+    met          = found.y;
+    return vec4(found.x, found.x + (1.0 - found.x) * if_any);
+}
+
+vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out float met)
 {
     vec4 more = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE];
     uint map  = uint(more.w);

@@ -89,6 +89,13 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
 #define HAIR_BIND_SORTED 1 // uvec2[]              per segment: the numbers of its vertices
 
+// Of the passes that find how much light hair leaves to itself:
+#define HAIR_BIND_DENSITY 0        // uint[]      per node of its grid: how much hair is there
+#define HAIR_BIND_DENSITY_BOX 1    // uint[6]     around all hair
+#define HAIR_BIND_DENSITY_LIGHT 3  // float[]     per node: share of the sky, then what each light meets
+#define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_EXPANDED, never written
+#define HAIR_BIND_LIGHT 5          // uint[]      per follower vertex: of the sky, then of each light; see light.comp
+
 // Of the passes of the fluid, which read what they do not write as textures:
 #define HAIR_BIND_VELOCITY 0 // float[]     per axis and slot: of the face along the axis, m/s; see glsl/wind/fluid.glsl
 #define HAIR_BIND_WALL 1     // float[]     likewise: of what closes it
@@ -159,6 +166,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_COLOR 16   // by these: the host's texture of colours
 #define HAIR_UNIT_PAINT 17   // vec4 per follower and place along it: colours of its own
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
+#define HAIR_UNIT_LIGHT 18   // uint per follower vertex and light, unsigned: HAIR_BIND_LIGHT
 #define HAIR_UNIT_GUST 8     // of the solvers of rods and of the fluid, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
@@ -208,6 +216,9 @@ typedef uint32_t hair_uint;
 #define HAIR_FIBRE_ROWS 16
 #define HAIR_FIBRE_LAYERS 3
 #define HAIR_FIBRE_MU 0.5 // absorption per radius in the middle of its columns
+
+#define HAIR_DENSITY_NODES 1048576u // of the grid of how much hair there is, at most
+#define HAIR_DENSITY_UNITS 65536.0  // of hair that is worth one side of a cell
 
 #define HAIR_NO_HIT 1e9
 #define HAIR_HIT_THREADS 32     // of a work group that looks at one follower
@@ -661,7 +672,9 @@ struct hair_draw_params {
     float     margin;    // m, from a solid, of what is pushed out of it
     hair_uint lights;    // how many there are
     hair_uint textured;  // 1: there is a texture of colours
+    hair_uint lit;       // numbers of a vertex at HAIR_UNIT_LIGHT; 0: there are none
     hair_uint culls;     // 1: patches of which `sides` cut off all are left out
+    hair_uint unused0, unused1, unused2;
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m
@@ -676,7 +689,8 @@ struct hair_draw_params {
     float     hidden_share; // as a multiple, of strands behind the skull
     hair_mat4 now_to_clip;    // from the head's origin, without jitter
     hair_mat4 before_to_clip; // from where the head's origin was, when hair was drawn before
-    hair_vec4 origin;         // xyz: of the head, world, m
+    hair_vec4 origin;         // xyz: of the head, world, m; w: cells of the grid of how much hair there is, m
+    hair_vec4 head;           // its unit quaternion
     // xy: pixels; z: by which ribbons are widened to each side to reach all pixels that they cover a share of; w: opacity
     hair_vec4 viewport;
     hair_vec4 sort; // x: m from the eye where the nearest bucket begins; y: buckets in a metre
@@ -686,7 +700,7 @@ struct hair_draw_params {
     hair_mat4 shadow[HAIR_SHADOW_MAPS]; // to each: xy texture coordinates, z depth, both in [0, 1]
     hair_mat4 sky[3]; // of r, g, b: irradiance on a plane with unit normal n is (n, 1) sky (n, 1)
 };
-HAIR_SIZE(hair_draw_params, 5 * 64 + 8 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
+HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
                                 HAIR_LIGHTS * HAIR_LIGHT_VECTORS * 16 + (HAIR_SHADOW_MAPS + 3) * 64)
 
 #endif

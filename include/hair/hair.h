@@ -403,6 +403,17 @@ typedef enum hair_shading {
     HAIR_SHADING_LINES ///< Kajiya and Kay 1989 with two highlights: cheaper, needs no table.
 } hair_shading;
 
+/// How light is found that hair leaves to itself.
+typedef enum hair_shadow {
+    /// At every vertex that is drawn, by how far it lies behind what its light's shadow_texture shows, times
+    /// hair_look.absorption. Needs no memory, and tells little of single strands.
+    HAIR_SHADOW_DEPTH = 0,
+    /// Once for the vertices of all strands, which takes memory for them: by what lies along their segments in front of them
+    /// in the shadow_texture, and by a grid of how much hair there is, which also knows about lights that have no
+    /// shadow_texture, about the sky, and about hair_set_solids. For views of one hair_view.frame it is found once.
+    HAIR_SHADOW_STRANDS
+} hair_shadow;
+
 /// How hair looks. What strays, kinks and curls is off where its share, curve or radius is 0, and costs nothing then. A
 /// curve that is not 0 at the root takes it off the scalp.
 typedef struct hair_look {
@@ -443,7 +454,7 @@ typedef struct hair_look {
     hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
     float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
     float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
-    float absorption; ///< Strands that light meets on its way through hair. 1/m. [0, 10000]. Default 200.
+    float absorption; ///< Strands that light meets on its way, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
     float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
@@ -467,6 +478,8 @@ typedef struct hair_look {
     /// Share of the colours that the groom has of its own, if any, in those from root_color to tip_color. Spreads, streaks and
     /// root_shade go on top.
     float groom_colors; ///< [0, 1]. Default 1.
+    hair_shadow shadow; ///< Default HAIR_SHADOW_DEPTH.
+    float       voxel;  ///< Of HAIR_SHADOW_STRANDS: cells of its grid, at least. m. [0.001, 1]. Default 0.004.
 } hair_look;
 HAIR_DESC(hair_look)
 
@@ -863,7 +876,7 @@ typedef struct hair_view {
     /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.
     /// Where there was none, after hair_reset or hair_load, or with another number of segments, hair has stood still;
     /// hair_teleport takes along where it was.
-    uint32_t frame;                 ///< Default 0.
+    uint32_t frame;                 ///< Also of HAIR_SHADOW_STRANDS. Default 0.
     float    before_view[16];       ///< View of the frame before. Default identity.
     float    before_projection[16]; ///< And its projection, without jitter. Default identity.
     /// Of OpenGL: 2D, linear colours that those of strands are multiplied by, where hair_groom_desc.scalp_uvs have their

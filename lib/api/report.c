@@ -86,6 +86,8 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
     case HAIR_GL_WORK_REPAIR: return why_not_met(hair, asked, 1);
     case HAIR_GL_WORK_EXPAND:
         return asked->expanded || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_LIGHT:
+        return hair->draw.look.shadow != HAIR_SHADOW_STRANDS ? HAIR_WHY_NOT_WANTED : shown;
     case HAIR_GL_WORK_COUNT_STRANDS:
     case HAIR_GL_WORK_LIST: return asked->listed || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
     case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
@@ -123,6 +125,8 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                     [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
                     [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
                     [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
+                    [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
+                                            draw->self_shadow.light},
                     [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
                                             draw->listed.index},
                     [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,

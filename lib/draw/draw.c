@@ -45,6 +45,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_listed(draw);
     hair_draw_free_expanded(draw);
     hair_draw_free_sorted(draw);
+    hair_draw_free_self_shadow(draw);
     hair_draw_free_uvs(draw);
     hair_seats_release(draw->seats);
     draw->seats = NULL;
@@ -71,11 +72,18 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
 // What only colour needs.
 static void bind_light(struct hair_draw* draw, const hair_view* view)
 {
+    struct hair_gl* gl = draw->gl;
+    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
+    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
+    if (hair_draw_lit(draw, view)) gl->BindTextureUnit(HAIR_UNIT_LIGHT, draw->self_shadow.texture);
+    hair_draw_bind_shadows(draw, view);
+}
+
+void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
+{
     struct hair_gl* gl                     = draw->gl;
     GLuint          maps[HAIR_SHADOW_MAPS] = {0};
     uint32_t        count                  = hair_view_maps(view, maps);
-    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
-    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
     for (GLuint i = 0; i < count; ++i) {
         gl->BindTextureUnit(HAIR_UNIT_SHADOW + i, maps[i]);
         gl->BindSampler(HAIR_UNIT_SHADOW + i, gl->shadow_sampler);
@@ -210,6 +218,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =
         guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
+    if (!result && !guides) result = hair_draw_find_light(draw, smooth, head, view);
     if (result) return result;
 
     struct hair_draw_params params;

@@ -7,6 +7,7 @@
 #include "lib/draw/hits.h"
 #include "lib/draw/listed.h"
 #include "lib/draw/motion.h"
+#include "lib/draw/self_shadow.h"
 #include "lib/draw/sorted.h"
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
@@ -32,6 +33,7 @@ enum {
     HAIR_DRAW_SORTED,
     HAIR_DRAW_FIBRES,
     HAIR_DRAW_UVS,
+    HAIR_DRAW_SELF_SHADOW,
     HAIR_DRAW_PARTS
 };
 
@@ -57,10 +59,11 @@ struct hair_draw {
     struct hair_fibres   fibres;
     struct hair_motion   motion;
     struct hair_sorted   sorted;
-    struct hair_seats*   seats;                // where roots are on the scalp; NULL: there is none
-    GLuint               uv, uv_texture;       // 0 until they are needed
-    GLuint               paint, paint_texture; // colours of the groom; 0: it has none
-    hair_vec4            reach; // where hair can be, in the head's frame: a ball, w: its radius, m
+    struct hair_self_shadow self_shadow;
+    struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
+    GLuint                  uv, uv_texture;       // 0 until they are needed
+    GLuint                  paint, paint_texture; // colours of the groom; 0: it has none
+    hair_vec4               reach; // where hair can be, in the head's frame: a ball, w: its radius, m
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
@@ -101,6 +104,14 @@ void        hair_draw_free_uvs(struct hair_draw* draw);
 // fibres.c: the table that colour needs, with the look as it is.
 hair_result hair_draw_need_fibres(struct hair_draw* draw);
 void        hair_draw_free_fibres(struct hair_draw* draw);
+
+// self_shadow.c: find what light comes to vertices, if the look wants that for `view`; and how many numbers of each vertex
+// there are then, else 0. The texture of those, and the host's shadow maps, where shaders look for them.
+hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                 const struct hair_pose* head, const hair_view* view);
+uint32_t    hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
+void        hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
+void        hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // listed.c: what draws without a tessellator. With everything bound that makes followers, list those that are drawn; draw
 // them with the program that is current.

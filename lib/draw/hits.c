@@ -86,6 +86,7 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
 {
     struct hair_hits* hits = &draw->hits;
     hits->active           = field != NULL;
+    hits->field            = field;
     if (field) {
         hair_result result = make(draw);
         if (result) return result;

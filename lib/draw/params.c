@@ -89,10 +89,12 @@ static void write_motion(const struct hair_motion* motion, const hair_view* view
 static void write_view(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_draw_params* out)
 {
-    out->view = hair_mat4_from_head(view->view, head);
-    out->eye  = find_eye(&out->view, view->projection);
-    out->origin =
-        (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2], 0};
+    out->view   = hair_mat4_from_head(view->view, head);
+    out->eye    = find_eye(&out->view, view->projection);
+    out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
+                              draw->look.voxel};
+    out->head   = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
+    out->lit    = hair_draw_lit(draw, view);
     write_clip(draw, head, view, out);
     if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
     hair_draw_write_lights(draw, head, view, out);

@@ -14,7 +14,7 @@ typedef enum hair_gl_pass {
     HAIR_GL_PASS_COUNT
 } hair_gl_pass;
 
-#define HAIR_GL_UNITS (HAIR_UNIT_PAINT + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_LIGHT + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 

@@ -31,7 +31,7 @@ static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, co
 // What a unit holds that the library binds there.
 static GLenum target_of(GLuint unit)
 {
-    if (unit == HAIR_UNIT_PAINT) return GL_TEXTURE_BUFFER;
+    if (unit == HAIR_UNIT_PAINT || unit == HAIR_UNIT_LIGHT) return GL_TEXTURE_BUFFER;
     if (unit >= HAIR_UNIT_SHADOW) return GL_TEXTURE_2D;
     return unit >= HAIR_UNIT_FIELD ? GL_TEXTURE_3D : GL_TEXTURE_BUFFER;
 }

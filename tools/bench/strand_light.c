@@ -1,4 +1,4 @@
-// strand_light.c - light past strands, by rays, by a volume and by layers.
+// strand_light.c - light past strands, by rays and by layers.
 #include "tools/bench/strand_light.h"
 
 #include <math.h>
@@ -151,98 +151,6 @@ bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t 
     free(cells.first);
     free(cells.segment);
     return ok;
-}
-
-// A volume --------------------------------------------------------------------------------------------------------
-
-struct volume {
-    float  voxel;
-    int    size[3];
-    float* area; // of strands across the light, 1/m
-};
-
-static void put(struct volume* volume, const float at[3], float area)
-{
-    int   low[3];
-    float share[3];
-    for (int k = 0; k < 3; ++k) {
-        low[k]   = (int)floorf(at[k]);
-        share[k] = at[k] - (float)low[k];
-        if (low[k] < 0 || low[k] + 1 >= volume->size[k]) return;
-    }
-    for (int c = 0; c < 8; ++c) {
-        float w = area;
-        int   p[3];
-        for (int k = 0; k < 3; ++k) {
-            int high = c >> k & 1;
-            p[k]     = low[k] + high;
-            w *= high ? share[k] : 1 - share[k];
-        }
-        volume->area[((size_t)p[2] * (size_t)volume->size[1] + (size_t)p[1]) * (size_t)volume->size[0] +
-                     (size_t)p[0]] += w;
-    }
-}
-
-static float get(const struct volume* volume, const float at[3])
-{
-    float sum = 0;
-    for (int c = 0; c < 8; ++c) {
-        float w = 1;
-        int   p[3], inside = 1;
-        for (int k = 0; k < 3; ++k) {
-            int low = (int)floorf(at[k]), high = c >> k & 1;
-            p[k] = low + high;
-            w *= high ? at[k] - (float)low : 1 - (at[k] - (float)low);
-            inside &= p[k] >= 0 && p[k] < volume->size[k];
-        }
-        if (inside)
-            sum += w * volume->area[((size_t)p[2] * (size_t)volume->size[1] + (size_t)p[1]) *
-                                        (size_t)volume->size[0] +
-                                    (size_t)p[0]];
-    }
-    return sum;
-}
-
-// Each segment at places half a voxel apart, as an area of its length by its width that is turned against the light.
-static void fill_volume(const struct bench_strands* s, struct volume* volume)
-{
-    for (size_t n = 0; n < s->count; ++n)
-        for (size_t k = 0; k + 1 < s->each; ++k) {
-            const float *a = s->seen + 3 * (n * s->each + k), *b = a + 3;
-            float        across = hypotf(b[0] - a[0], b[1] - a[1]), at[3];
-            float        area   = across * 2 * s->radius / (volume->voxel * volume->voxel * volume->voxel);
-            int          places = 1 + (int)(2 * hypotf(across, b[2] - a[2]) / volume->voxel);
-            for (int i = 0; i < places; ++i) {
-                float t = ((float)i + 0.5f) / (float)places;
-                for (int j = 0; j < 3; ++j) at[j] = (a[j] + t * (b[j] - a[j]) - s->lower[j]) / volume->voxel;
-                put(volume, at, area / (float)places);
-            }
-        }
-}
-
-bool bench_light_by_volume(const struct bench_strands* s, float voxel, float grow, float start, float factor,
-                           float* out)
-{
-    struct volume volume = {.voxel = voxel};
-    for (int k = 0; k < 3; ++k) volume.size[k] = 2 + (int)((s->upper[k] - s->lower[k]) / voxel);
-    volume.area =
-        calloc((size_t)volume.size[0] * (size_t)volume.size[1] * (size_t)volume.size[2], sizeof(float));
-    if (!volume.area) return false;
-    fill_volume(s, &volume);
-    for (size_t v = 0; v < (size_t)s->count * s->each; ++v) {
-        uint32_t random = hash((uint32_t)(v / s->each));
-        float    at[3], step = 1, sum = 0, jitter = share_of(&random);
-        float    away = start;
-        for (int k = 0; k < 3; ++k) at[k] = (s->seen[3 * v + (size_t)k] - s->lower[k]) / voxel;
-        for (float z = at[2]; z + away < (float)volume.size[2]; step *= grow) {
-            float place[3] = {at[0], at[1], z + away + jitter * step};
-            sum += step * voxel * get(&volume, place);
-            away += step;
-        }
-        out[v] = expf(-factor * sum);
-    }
-    free(volume.area);
-    return true;
 }
 
 // Layers ----------------------------------------------------------------------------------------------------------

@@ -25,11 +25,6 @@ void bench_strands_free(struct bench_strands* strands);
 // Of `rays` rays from the strand within half a segment of the vertex, the share that meet no other. `seed`: which rays.
 bool bench_light_by_rays(const struct bench_strands* strands, uint32_t rays, uint32_t seed, float* out);
 
-// By a volume of the area of strands in each voxel, marched through from `start` voxels off in steps that grow by `grow`
-// times each; `factor`: what is found counts so many times.
-bool bench_light_by_volume(const struct bench_strands* strands, float voxel, float grow, float start,
-                           float factor, float* out);
-
 // By a deep opacity map of so many layers, each `deeper` times as deep as the one before, and taps as those of shadow.glsl.
 bool bench_light_by_layers(const struct bench_strands* strands, float texel, uint32_t layers, float first,
                            float deeper, float* out);

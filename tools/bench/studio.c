@@ -251,7 +251,7 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
 {
     hair_light lit = studio->scene.settings.light;
     hair_light_clip(light, lit.shadow_matrix);
-    if (view->pass == HAIR_PASS_COLOR) lit.shadow_texture = studio->targets.shadow;
+    if (view->pass == HAIR_PASS_COLOR && !studio->shot.unmapped) lit.shadow_texture = studio->targets.shadow;
     view->lights = &lit;
     memcpy(view->view, matrices->view, sizeof view->view);
     memcpy(view->projection, matrices->projection, sizeof view->projection);

@@ -13,8 +13,9 @@
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
-    hair_view view;    // its path and primitive; matrices, lights and level of detail are set elsewhere
-    bool      has_lod; // else all is drawn
+    hair_view view;     // its path and primitive; matrices, lights and level of detail are set elsewhere
+    bool      unmapped; // its light has no shadow map
+    bool      has_lod;  // else all is drawn
     hair_lod  lod;
     uint32_t  samples;     // of a pixel, as OpenGL has them
     uint32_t  supersample; // pixels for one of the picture, in each direction

@@ -199,6 +199,8 @@ static const struct row rows[] = {
     {"curl_spread", "of radius and length of turns", FLOAT, {AT(look.curl_spread)}, {0}},
     {"curl_like", "a turn of the first strand of this file (.hair, .tfx), m", LIKE, {AT(look)}, {0}},
     {"curls", "the course of a turn", COUNT, {AT(look.curls)}, {"helix", "example"}},
+    {"shadow", "of hair on itself, is found by", COUNT, {AT(look.shadow)}, {"depth", "strands"}},
+    {"voxel", "of strands: cells of the grid of how much hair there is, m", FLOAT, {AT(look.voxel)}, {0}},
     {"absorption", "of light by hair, 1/m", FLOAT, {AT(look.absorption)}, {0}},
     {"density", "share of the followers drawn", FLOAT, {AT(look.density)}, {0}},
     {"segments", "of a drawn strand", COUNT, {AT(look.segments)}, {0}},

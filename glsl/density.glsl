@@ -1,0 +1,75 @@
+// density.glsl - the grid of how much hair there is: where it is, and what it holds at a place.
+//
+// It stands still in the head's frame, around all hair; its cells are as large as is asked for, or as they must be for
+// HAIR_DENSITY_NODES nodes to suffice. A node holds, in HAIR_DENSITY_UNITS, the area that strands around it would shade
+// of a light across them, over the side of a cell: what light meets on the way through a cell.
+#include "draw_params.glsl"
+#include "rotation.glsl"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uint density[]; };
+// Of x, y, z the least, then the least of their bits turned round, by bits that are in the order of the numbers.
+layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
+layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer { vec4 strand_vertex[]; };
+
+vec3 in_head(vec3 from_origin) { return rotate(quat_conjugate(draw.head), from_origin); }
+
+uvec3 to_ordered(vec3 x)
+{
+    uvec3 b = floatBitsToUint(x);
+    return mix(b | 0x80000000u, ~b, notEqual(b & 0x80000000u, uvec3(0u)));
+}
+
+vec3 from_ordered(uvec3 u)
+{
+    return uintBitsToFloat(mix(~u, u & 0x7fffffffu, notEqual(u & 0x80000000u, uvec3(0u))));
+}
+
+struct density_grid {
+    vec3  lower; // node 0, m
+    float cell;  // m
+    uvec3 nodes; // 0: there is no hair
+};
+
+density_grid find_grid()
+{
+    uvec3 low = uvec3(box[0], box[1], box[2]), high = ~uvec3(box[3], box[4], box[5]);
+    if (low.x > high.x) return density_grid(vec3(0.0), 1.0, uvec3(0u));
+    vec3  lower = from_ordered(low), upper = from_ordered(high), nodes;
+    float cell  = draw.origin.w;
+    for (int i = 0; i < 400; ++i) {
+        nodes = floor(upper / cell) - floor(lower / cell) + 2.0;
+        if (nodes.x * nodes.y * nodes.z <= float(HAIR_DENSITY_NODES)) break;
+        cell *= 1.1;
+    }
+    return density_grid(cell * floor(lower / cell), cell, uvec3(nodes));
+}
+
+// In cells from node 0.
+vec3 place_in(density_grid grid, vec3 from_origin) { return (in_head(from_origin) - grid.lower) / grid.cell; }
+
+// The first node around a place, if it and those beyond it are in the grid.
+bool find_node(density_grid grid, vec3 place, out uint node, out vec3 part)
+{
+    vec3 whole = floor(place);
+    part       = place - whole;
+    uvec3 at   = uvec3(max(whole, 0.0));
+    node       = at.x + grid.nodes.x * (at.y + grid.nodes.y * at.z);
+    return all(greaterThanEqual(whole, vec3(0.0))) && all(lessThan(whole, vec3(grid.nodes) - 1.0));
+}
+
+// What light meets there in a cell.
+float density_at(density_grid grid, vec3 place)
+{
+    uint node;
+    vec3 part;
+    if (!find_node(grid, place, node, part)) return 0.0;
+    uint y = grid.nodes.x, z = grid.nodes.x * grid.nodes.y;
+    vec4 near = vec4(density[node], density[node + 1u], density[node + y], density[node + y + 1u]);
+    node += z;
+    vec4 far = vec4(density[node], density[node + 1u], density[node + y], density[node + y + 1u]);
+    vec4 xy  = mix(near, far, part.z);
+    vec2 x   = mix(xy.xy, xy.zw, part.y);
+    return mix(x.x, x.y, part.x) / HAIR_DENSITY_UNITS;
+}

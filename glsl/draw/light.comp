@@ -1,0 +1,100 @@
+// light.comp - how much light comes to each vertex of a strand past all others and past solids. One thread per vertex.
+//
+// What is met is what the nodes around know, as strands that lie as this one does. Of a light with a shadow map, the share
+// that meets nothing is known better: of places along the half segments beside the vertex and across the strand, those that
+// nothing hides in the map. Written for the sky and for each light, as halves: that share; what is met.
+#version 450 core
+#include "density.glsl"
+#include "lights.glsl"
+#include "random.glsl"
+
+layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer { float light_of_node[]; };
+layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer { uint light_of_vertex[]; };
+layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
+
+#define TAPS 8
+#define OWN_DEPTH 0.35 // of a radius: what hides a strand lies so much farther in front of it
+
+struct strand_bit {
+    vec3  before, at, after; // m, from the head's origin
+    vec3  tangent;
+    float radius;
+    uint  seed;
+};
+
+// Of a place in the grid: its nodes that hold hair, and what each counts.
+uint  corner[8];
+float weight[8];
+
+void find_corners(density_grid grid, vec3 from_origin)
+{
+    uint  node;
+    vec3  part;
+    bool  there = find_node(grid, place_in(grid, from_origin), node, part);
+    float sum   = 0.0;
+    for (uint k = 0u; k < 8u; ++k) {
+        uvec3 c     = uvec3(k & 1u, k >> 1u & 1u, k >> 2u);
+        vec3  share = mix(1.0 - part, part, vec3(c));
+        corner[k]   = there ? node + c.x + grid.nodes.x * (c.y + grid.nodes.y * c.z) : 0u;
+        weight[k]   = there && density[corner[k]] > 0u ? share.x * share.y * share.z : 0.0;
+        sum += weight[k];
+    }
+    for (uint k = 0u; k < 8u; ++k) weight[k] /= max(sum, 1e-6);
+}
+
+float around(uint which)
+{
+    float sum = 0.0;
+    for (uint k = 0u; k < 8u; ++k)
+        if (weight[k] > 0.0) sum += weight[k] * light_of_node[corner[k] * draw.lit + which];
+    return sum;
+}
+
+// Of the places around, the share that nothing hides in a shadow map.
+float open_in(uint map, strand_bit s)
+{
+    mat4  m     = draw.shadow[map];
+    vec2  size  = vec2(textureSize(shadow_texture[map], 0));
+    vec3  along = mat3(m) * (s.after - s.before);
+    vec2  texels = along.xy * size;
+    float slope = along.z / max(dot(texels, texels), 1.0); // of depth along the strand
+    vec3  away  = vec3(m[0].z, m[1].z, m[2].z);           // from the light: depth per m
+    vec3  side  = cross(s.tangent, away);
+    side *= s.radius / max(length(side), 1e-12);
+    float own = OWN_DEPTH * s.radius * length(away), turn = random(s.seed + 0x3c6ef372u), open = 0.0;
+    for (int i = 0; i < TAPS; ++i) {
+        float x  = (float(i) + turn) / float(TAPS) * 2.0 - 1.0, across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
+        vec3  p  = s.at + 0.5 * abs(x) * ((x < 0.0 ? s.before : s.after) - s.at) + across * side;
+        vec3  at = (m * vec4(p, 1.0)).xyz;
+        ivec2 texel = ivec2(floor(at.xy * size));
+        // The strand's own depth is that in the texel's middle.
+        float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
+        bool  there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size)));
+        open += !there || depth - own <= texelFetch(shadow_texture[map], texel, 0).r ? 1.0 : 0.0;
+    }
+    return open / float(TAPS);
+}
+
+void main()
+{
+    uint vertex = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x, each = draw.segments + 1u;
+    if (vertex >= draw.followers * each) return;
+    uint       k  = vertex % each;
+    vec4       at = strand_vertex[vertex];
+    strand_bit s;
+    s.at      = at.xyz;
+    s.before  = k > 0u ? strand_vertex[vertex - 1u].xyz : s.at;
+    s.after   = k + 1u < each ? strand_vertex[vertex + 1u].xyz : s.at;
+    s.tangent = direction_or(s.after - s.before, vec3(0.0, 1.0, 0.0));
+    s.radius  = at.w;
+    s.seed    = vertex / each;
+    find_corners(find_grid(), s.at);
+    light_of_vertex[vertex * draw.lit] = packHalf2x16(vec2(around(0u), 0.0));
+    for (uint i = 0u; i < draw.lights; ++i) {
+        float along = dot(s.tangent, beam_at(i, s.at).to);
+        float met   = around(1u + i) * sqrt(max(1.0 - along * along, 0.0));
+        uint  map   = uint(draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE].w);
+        float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, s) : exp(-met);
+        light_of_vertex[vertex * draw.lit + 1u + i] = packHalf2x16(vec2(open, met));
+    }
+}

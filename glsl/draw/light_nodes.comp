@@ -1,0 +1,74 @@
+// light_nodes.comp - how many strands, and solids, each light meets on its way to every node of the grid that holds hair,
+// and how much of the sky is left there. One thread per node.
+//
+// Steps of a cell, from half a cell off, so that a strand does not shade itself, all of what is there lying across the
+// light.
+#version 450 core
+#include "density.glsl"
+#include "lights.glsl"
+#ifdef HAIR_SOLIDS
+#include "field.glsl"
+#endif
+
+layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer { float light_of_node[]; };
+
+#define MOST_MET 30.0 // nothing is left
+#define SKY_WAYS 6
+#define SKY_STEPS 5     // each twice as long as the one before
+#define TURNED 0.785398 // mean of a strand's width as it is seen from all sides
+
+bool is_inside(vec3 position)
+{
+#ifdef HAIR_SOLIDS
+    return field_distance(position) < -0.5 * field.lower.w;
+#else
+    return false;
+#endif
+}
+
+// From a node on towards `to`, for at most `reach`, m.
+float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float reach)
+{
+    vec3  way   = in_head(to), size = vec3(grid.nodes) - 1.0;
+    vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
+    float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
+    for (float k = 0.5; k < steps && sum < MOST_MET; k += 1.0) {
+        sum += density_at(grid, place + k * way);
+        if (is_inside(position + k * grid.cell * to)) sum = MOST_MET;
+    }
+    return min(sum, MOST_MET);
+}
+
+float sky_at_node(density_grid grid, vec3 place, vec3 position)
+{
+    float sum = 0.0;
+    for (int i = 0; i < SKY_WAYS; ++i) {
+        vec3 way   = vec3(0.0);
+        way[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+        vec3  to   = rotate(draw.head, way);
+        float met  = 0.0, from = 0.5;
+        for (int k = 0; k < SKY_STEPS && met < MOST_MET; ++k) {
+            float each = exp2(float(k)), middle = from + 0.5 * each;
+            met += TURNED * each * density_at(grid, place + middle * way);
+            if (is_inside(position + middle * grid.cell * to)) met = MOST_MET;
+            from += each;
+        }
+        sum += exp(-met);
+    }
+    return sum / float(SKY_WAYS);
+}
+
+void main()
+{
+    density_grid grid = find_grid();
+    uint         node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (node >= grid.nodes.x * grid.nodes.y * grid.nodes.z || density[node] == 0u) return;
+    vec3 place    = vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
+    vec3 position = rotate(draw.head, grid.lower + grid.cell * place);
+    light_of_node[node * draw.lit] = sky_at_node(grid, place, position);
+    for (uint i = 0u; i < draw.lights; ++i) {
+        vec4  at    = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
+        float reach = at.w > 0.0 ? length(at.xyz - position) : 1e9;
+        light_of_node[node * draw.lit + 1u + i] = met_towards(grid, place, position, beam_at(i, position).to, reach);
+    }
+}

@@ -1,0 +1,124 @@
+// self_shadow.c - how much light comes to each vertex of the strands: a grid of how much hair there is, made once for what
+// strands are; and what of each light is left on the way through it and past what shadow maps show.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+static int is_wanted(const struct hair_draw* draw, const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLOR && draw->look.shadow == HAIR_SHADOW_STRANDS;
+}
+
+uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
+{
+    return is_wanted(draw, view) ? 1 + view->light_count : 0;
+}
+
+void hair_draw_free_self_shadow(struct hair_draw* draw)
+{
+    struct hair_self_shadow* own = &draw->self_shadow;
+    hair_gl_free_buffer_texture(draw->gl, &own->texture);
+    hair_gl_free_buffer(draw->gl, &own->density);
+    hair_gl_free_buffer(draw->gl, &own->box);
+    hair_gl_free_buffer(draw->gl, &own->nodes);
+    hair_gl_free_buffer(draw->gl, &own->light);
+    memset(own, 0, sizeof *own);
+}
+
+static hair_result make_light(struct hair_draw* draw, uint32_t each)
+{
+    struct hair_gl*          gl      = draw->gl;
+    struct hair_self_shadow* own     = &draw->self_shadow;
+    size_t                   numbers = draw->expanded.vertices * each;
+    if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
+    hair_gl_free_buffer_texture(gl, &own->texture);
+    hair_gl_free_buffer(gl, &own->light);
+    hair_gl_free_buffer(gl, &own->nodes);
+    own->frame         = 0;
+    own->numbers       = numbers;
+    own->each          = each;
+    size_t      nodes  = (size_t)HAIR_DENSITY_NODES * each;
+    hair_result result = hair_gl_storage(gl, "hair light of nodes", nodes * sizeof(float), NULL, &own->nodes);
+    if (!result) result = hair_gl_storage(gl, "hair light", numbers * sizeof(uint32_t), NULL, &own->light);
+    return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
+}
+
+static hair_gl_pass nodes_pass(const struct hair_draw* draw)
+{
+    return draw->hits.field ? HAIR_GL_LIGHT_NODES_SOLIDS : HAIR_GL_LIGHT_NODES;
+}
+
+static hair_result make(struct hair_draw* draw, uint32_t each)
+{
+    struct hair_gl*          gl     = draw->gl;
+    struct hair_self_shadow* own    = &draw->self_shadow;
+    hair_result              result = HAIR_OK;
+    if (!own->density)
+        result =
+            hair_gl_storage(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t), NULL, &own->density);
+    if (!result && !own->box)
+        result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
+    if (!result) result = make_light(draw, each);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_BOX);
+    if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_FILL);
+    if (!result) result = hair_gl_need(gl, nodes_pass(draw));
+    return result ? result : hair_gl_need(gl, HAIR_GL_LIGHT);
+}
+
+static void fill(struct hair_draw* draw, uint32_t groups)
+{
+    static const GLuint      none = 0, outermost = UINT32_MAX;
+    struct hair_gl*          gl  = draw->gl;
+    struct hair_self_shadow* own = &draw->self_shadow;
+    gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+    gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
+    hair_gl_run(gl, HAIR_GL_LIGHT_BOX, groups);
+    hair_gl_run(gl, HAIR_GL_LIGHT_FILL, draw->patches);
+    own->filled = draw->expanded.writes;
+    own->frame  = 0;
+}
+
+// Views of one frame, with the same lights, have the same; what is in shadow maps is the host's.
+static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
+{
+    struct hair_self_shadow* own = &draw->self_shadow;
+    int same                     = view->frame && view->frame == own->frame && own->count == params->lights &&
+               memcmp(own->lights, params->light, sizeof own->lights) == 0 &&
+               memcmp(own->maps, params->shadow, sizeof own->maps) == 0;
+    own->frame = view->frame;
+    own->count = params->lights;
+    memcpy(own->lights, params->light, sizeof own->lights);
+    memcpy(own->maps, params->shadow, sizeof own->maps);
+    return same;
+}
+
+hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                 const struct hair_pose* head, const hair_view* view)
+{
+    struct hair_gl*          gl  = draw->gl;
+    struct hair_self_shadow* own = &draw->self_shadow;
+    if (own->density && draw->look.shadow != HAIR_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
+    if (!is_wanted(draw, view)) return HAIR_OK;
+    hair_result result = hair_draw_need_expanded(draw, smooth);
+    if (!result) result = make(draw, hair_draw_lit(draw, view));
+    if (result) return result;
+    struct hair_draw_params params;
+    hair_view               whole = *view;
+    whole.lod                     = NULL; // All views of a step share the grid.
+    hair_draw_write_params(draw, head, &whole, &params);
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    hair_draw_bind(draw, smooth);
+    hair_draw_bind_shadows(draw, view);
+    uint32_t groups    = (uint32_t)((draw->expanded.vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    GLuint   grid[]    = {own->density, own->box};
+    GLuint   strands[] = {own->nodes, draw->expanded.position, own->light};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, strands);
+    if (own->filled != draw->expanded.writes) fill(draw, groups);
+    if (is_found(draw, view, &params)) return HAIR_OK;
+    if (draw->hits.field) hair_field_bind(draw->hits.field);
+    hair_gl_run(gl, nodes_pass(draw), HAIR_DENSITY_NODES / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, HAIR_GL_LIGHT, groups);
+    return HAIR_OK;
+}

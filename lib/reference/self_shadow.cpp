@@ -1,0 +1,99 @@
+// self_shadow.cpp - light past hair by a grid of how much of it there is: Beer's law along straight ways.
+#include "lib/reference/self_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/reference/convert.h"
+
+namespace
+{
+
+const double most_met = 30;
+
+// Trilinear weight of each corner of the cell that a place, in cells, is in. False: not all of them are in the grid.
+bool corners_of(const hair_reference_grid& grid, const Vector3d& place, size_t node[8], double weight[8])
+{
+    for (int k = 0; k < 8; ++k) {
+        size_t at[3];
+        weight[k] = 1;
+        for (int i = 0; i < 3; ++i) {
+            const double low = std::floor(place[i]), share = place[i] - low;
+            const bool   high = k >> i & 1;
+            if (low < 0 || low + 1 >= grid.nodes[i]) return false;
+            at[i] = size_t(low) + high;
+            weight[k] *= high ? share : 1 - share;
+        }
+        node[k] = at[0] + grid.nodes[0] * (at[1] + grid.nodes[1] * at[2]);
+    }
+    return true;
+}
+
+Vector3d place_of(const hair_reference_grid& grid, const double position[3])
+{
+    return (vector_of(position) - vector_of(grid.lower)) / grid.cell;
+}
+
+double density_at(const hair_reference_grid& grid, const Vector3d& place)
+{
+    size_t node[8];
+    double weight[8], sum = 0;
+    if (!corners_of(grid, place, node, weight)) return 0;
+    for (int k = 0; k < 8; ++k) sum += weight[k] * grid.density[node[k]];
+    return sum;
+}
+
+} // namespace
+
+void hair_reference_fill(const struct hair_reference_grid* grid, const double a[3], const double b[3],
+                         double width, double* density)
+{
+    const Vector3d from = place_of(*grid, a), way = place_of(*grid, b) - from;
+    const int      places = 1 + int(way.norm());
+    for (int i = 0; i < places; ++i) {
+        size_t node[8];
+        double weight[8];
+        if (!corners_of(*grid, from + (i + 0.5) / places * way, node, weight)) continue;
+        for (int k = 0; k < 8; ++k) density[node[k]] += weight[k] * way.norm() * width / grid->cell / places;
+    }
+}
+
+double hair_reference_met(const struct hair_reference_grid* grid, const double from[3], const double to[3],
+                          double reach)
+{
+    const Vector3d place = place_of(*grid, from), way = vector_of(to);
+    double         sum = 0;
+    for (double k = 0.5; k * grid->cell < reach; ++k) {
+        const Vector3d at = place + k * way;
+        for (int i = 0; i < 3; ++i)
+            if (at[i] < 0 || at[i] > grid->nodes[i] - 1) return std::min(sum, most_met);
+        sum += density_at(*grid, at);
+        if (sum >= most_met) return most_met;
+    }
+    return sum;
+}
+
+double hair_reference_sky(const struct hair_reference_grid* grid, const double from[3])
+{
+    const double pi  = 3.14159265358979;
+    double       sum = 0;
+    for (int i = 0; i < 6; ++i) {
+        Vector3d way = Vector3d::Zero();
+        double   met = 0, start = 0.5;
+        way[i / 2] = i % 2 ? -1 : 1;
+        for (double each = 1; each <= 16; start += each, each *= 2)
+            met += pi / 4 * each * density_at(*grid, place_of(*grid, from) + (start + each / 2) * way);
+        sum += std::exp(-std::min(met, most_met));
+    }
+    return sum / 6;
+}
+
+double hair_reference_around(const struct hair_reference_grid* grid, const double at[3], const double* values)
+{
+    size_t node[8];
+    double weight[8], sum = 0, all = 0;
+    if (!corners_of(*grid, place_of(*grid, at), node, weight)) return 0;
+    for (int k = 0; k < 8; ++k)
+        if (grid->density[node[k]] > 0) sum += weight[k] * values[node[k]], all += weight[k];
+    return all > 0 ? sum / all : 0;
+}

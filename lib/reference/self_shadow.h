@@ -1,0 +1,40 @@
+/// self_shadow.h - light past hair by a grid of how much of it there is, in double precision.
+#ifndef HAIR_REFERENCE_SELF_SHADOW_H
+#define HAIR_REFERENCE_SELF_SHADOW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Positions are in its own axes.
+struct hair_reference_grid {
+    double        lower[3]; ///< Node 0. m.
+    double        cell;     ///< m.
+    uint32_t      nodes[3];
+    const double* density; ///< Per node: strands that light meets on the way through a cell there.
+};
+
+/// Add a segment from a to b to `density`, per node: its area over that of a side of a cell, at places in the middle of as
+/// many parts as it is cells long, rounded up.
+void hair_reference_fill(const struct hair_reference_grid* grid, const double a[3], const double b[3],
+                         double width, double* density);
+
+/// Strands met from there on, in steps of a cell from half a cell off, within the grid and for less than `reach`; 30 at most.
+double hair_reference_met(const struct hair_reference_grid* grid, const double from[3], const double to[3],
+                          double reach);
+
+/// Share of the sky that is seen along the axes, in five steps each twice as long as the one before.
+double hair_reference_sky(const struct hair_reference_grid* grid, const double from[3]);
+
+/// Of values per node, what those that hold hair have around a place.
+double hair_reference_around(const struct hair_reference_grid* grid, const double at[3],
+                             const double* values);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,333 @@
+// self_shadow_test.c - light that hair leaves to itself: the grid holds all of it, light is what a twin in double precision
+// finds there, a shadow map hides what lies behind it and no strand from itself, and without it nothing is run or kept.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/base/math.h"
+#include "lib/reference/self_shadow.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define SIZE 64
+#define SEGMENTS 8
+#define FOLLOWERS 100
+#define VERTICES (FOLLOWERS * (SEGMENTS + 1))
+#define LIGHTS 2
+#define EACH (LIGHTS + 1)
+
+struct fixture {
+    struct hair_test*      test;
+    hair_groom*            groom;
+    hair_instance*         hair;
+    struct hair_test_frame frame;
+    hair_view              view;
+    hair_light             light[LIGHTS];
+    GLuint                 map;
+    // As the GPU has them, in the head's frame:
+    struct hair_reference_grid grid;
+    double *                   density, *met; // per node, the last of the sky and of each light
+    hair_vec4*                 position;      // per vertex
+    uint32_t                   numbers[VERTICES * EACH];
+};
+
+static const float turned[16] = {0.6f, 0, -0.8f, 0, 0, 1, 0, 0, 0.8f, 0, 0.6f, 0, 0.1f, 0.2f, -0.3f, 1};
+
+static struct fixture start(void** state, uint32_t followers)
+{
+    struct fixture            f      = {.test = *state, .view = hair_view_default()};
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc                 desc   = hair_desc_default();
+    hair_look                 look   = hair_look_default();
+    wanted.followers                 = followers;
+    wanted.density                   = 1;
+    look.segments = SEGMENTS, look.radius = 0.001f, look.voxel = 0.012f;
+    look.shadow = HAIR_SHADOW_STRANDS;
+    desc.look   = &look;
+    f.groom     = hair_test_groom(&f.test->host.host, wanted);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    hair_test_ok(f.test, hair_teleport(f.hair, turned));
+    hair_test_ok(f.test, hair_step(f.hair, 0));
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    f.view.projection[0] = f.view.projection[5] = 1 / 0.6f;
+    f.view.projection[10]                       = -0.5f;
+    for (int i = 0; i < LIGHTS; ++i) f.light[i] = hair_light_default();
+    f.light[1].kind        = HAIR_LIGHT_POINT;
+    f.light[1].position[0] = 0.3f, f.light[1].position[2] = -0.3f;
+    f.view.light_count = LIGHTS;
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    if (f->map) glDeleteTextures(1, &f->map);
+    free(f->density);
+    free(f->met);
+    free(f->position);
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+static void draw(struct fixture* f)
+{
+    f->view.lights = f->light;
+    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    glFinish();
+}
+
+static float from_ordered(uint32_t u)
+{
+    uint32_t bits = u & 0x80000000u ? u & 0x7fffffffu : ~u;
+    float    x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static double half_of(uint32_t h)
+{
+    uint32_t exponent = h >> 10 & 31, fraction = h & 1023;
+    assert_true(exponent < 31); // Finite.
+    return exponent ? ldexp(1024 + fraction, (int)exponent - 25) : ldexp(fraction, -24);
+}
+
+// Positions into the head's frame, by the transpose of `turned`.
+static void into_head(const float* p, double out[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        out[i] = 0;
+        for (int k = 0; k < 3; ++k) out[i] += (double)turned[4 * i + k] * (double)p[k];
+    }
+}
+
+static void look_inside(struct fixture* f)
+{
+    const struct hair_draw* d = &f->hair->draw;
+    uint32_t                box[6];
+    size_t                  nodes = 1;
+    glGetNamedBufferSubData(d->self_shadow.box, 0, sizeof box, box);
+    f->grid.cell = (double)d->look.voxel;
+    for (int i = 0; i < 3; ++i) {
+        double low = (double)from_ordered(box[i]), high = (double)from_ordered(~box[3 + i]);
+        f->grid.lower[i] = f->grid.cell * floor(low / f->grid.cell);
+        f->grid.nodes[i] = (uint32_t)(floor(high / f->grid.cell) - floor(low / f->grid.cell) + 2);
+        nodes *= f->grid.nodes[i];
+    }
+    uint32_t* sums  = malloc(nodes * sizeof *sums);
+    float*    light = malloc(nodes * EACH * sizeof *light);
+    f->density      = calloc(nodes, sizeof *f->density);
+    f->met          = calloc(nodes * EACH, sizeof *f->met);
+    f->position     = malloc(VERTICES * sizeof *f->position);
+    glGetNamedBufferSubData(d->self_shadow.density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
+    glGetNamedBufferSubData(d->self_shadow.nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
+    glGetNamedBufferSubData(d->self_shadow.light, 0, sizeof f->numbers, f->numbers);
+    glGetNamedBufferSubData(d->expanded.position, 0, VERTICES * sizeof *f->position, f->position);
+    for (size_t n = 0; n < nodes; ++n) f->density[n] = sums[n] / HAIR_DENSITY_UNITS;
+    for (size_t n = 0; n < nodes * EACH; ++n)
+        f->met[n % EACH * nodes + n / EACH] = sums[n / EACH] ? (double)light[n] : 0;
+    f->grid.density = f->density;
+    free(sums);
+    free(light);
+}
+
+static size_t node_count(const struct fixture* f)
+{
+    return (size_t)f->grid.nodes[0] * f->grid.nodes[1] * f->grid.nodes[2];
+}
+
+static void the_grid_holds_the_area_of_all_strands(void** state)
+{
+    struct fixture f = start(state, FOLLOWERS);
+    draw(&f);
+    look_inside(&f);
+    double *twin = calloc(node_count(&f), sizeof *twin), sum = 0, area = 0;
+    for (int v = 0; v < VERTICES; ++v) {
+        const hair_vec4 *p = &f.position[v], *q = p + 1;
+        double           a[3], b[3];
+        if (v % (SEGMENTS + 1) == SEGMENTS) continue;
+        into_head(&p->x, a);
+        into_head(&q->x, b);
+        double width = (double)p->w + (double)q->w;
+        area += sqrt(pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2) + pow(b[2] - a[2], 2)) * width;
+        hair_reference_fill(&f.grid, a, b, width, twin);
+    }
+    // Rounding of positions moves places by 1e-7 m of 12 mm; each of some 30 adds rounds to half a unit.
+    for (size_t n = 0; n < node_count(&f); ++n) {
+        hair_test_near("density", n, f.density[n], twin[n], 1e-4 * (twin[n] + 1) + 30 / HAIR_DENSITY_UNITS);
+        sum += f.density[n] * f.grid.cell * f.grid.cell;
+    }
+    print_message("    %zu nodes, %g m^2\n", node_count(&f), area);
+    hair_test_near("area", 0, sum, area, 0.001 * area);
+    free(twin);
+    finish(&f);
+}
+
+static void light_is_that_of_the_twin_in_double_precision(void** state)
+{
+    struct fixture f = start(state, FOLLOWERS);
+    draw(&f);
+    look_inside(&f);
+    size_t   nodes = node_count(&f);
+    uint32_t held  = 0;
+    double   most  = 0, to[3], lamp[3], from_origin[3];
+    double   l     = sqrt(0.4 * 0.4 + 0.8 * 0.8 + 0.45 * 0.45);
+    into_head((float[]){(float)(0.4 / l), (float)(0.8 / l), (float)(0.45 / l)}, to);
+    for (int i = 0; i < 3; ++i) from_origin[i] = (double)f.light[1].position[i] - (double)turned[12 + i];
+    into_head((float[]){(float)from_origin[0], (float)from_origin[1], (float)from_origin[2]}, lamp);
+    for (size_t n = 0; n < nodes; ++n) {
+        double at[3], way[3], reach = 0;
+        if (f.density[n] <= 0) continue;
+        ++held;
+        for (int i = 0; i < 3; ++i) {
+            size_t k = i == 0   ? n % f.grid.nodes[0]
+                       : i == 1 ? n / f.grid.nodes[0] % f.grid.nodes[1]
+                                : n / f.grid.nodes[0] / f.grid.nodes[1];
+            at[i]    = f.grid.lower[i] + f.grid.cell * (double)k;
+            way[i]   = lamp[i] - at[i];
+            reach += way[i] * way[i];
+        }
+        reach = sqrt(reach);
+        for (int i = 0; i < 3; ++i) way[i] /= reach;
+        double sky = hair_reference_sky(&f.grid, at), met = hair_reference_met(&f.grid, at, to, 1e9);
+        most = fmax(most, met);
+        // A last step may or may not be within the grid, or nearer than the lamp.
+        hair_test_near("sky", n, f.met[n], sky, 1e-3);
+        hair_test_near("met", n, f.met[nodes + n], met, 1e-3 * (1 + met));
+        hair_test_near("met before the lamp", n, f.met[2 * nodes + n],
+                       hair_reference_met(&f.grid, at, way, reach), 0.02);
+    }
+    print_message("    %u nodes with hair, at most %g met\n", held, most);
+    assert_true(held > 100 && most > 0.5);
+    for (int v = 0; v < VERTICES; ++v) {
+        double       at[3], before[3], after[3], along = 0, length = 0;
+        int          k = v % (SEGMENTS + 1);
+        const float* p = &f.position[v].x;
+        into_head(p, at);
+        into_head(k > 0 ? p - 4 : p, before);
+        into_head(k < SEGMENTS ? p + 4 : p, after);
+        for (int i = 0; i < 3; ++i)
+            along += (after[i] - before[i]) * to[i], length += pow(after[i] - before[i], 2);
+        double met =
+            hair_reference_around(&f.grid, at, f.met + nodes) * sqrt(fmax(1 - along * along / length, 0));
+        double sky = hair_reference_around(&f.grid, at, f.met);
+        // Halves have 11 bits.
+        hair_test_near("sky at vertex", (size_t)v, half_of(f.numbers[v * EACH] & 0xffff), sky, 0.002);
+        hair_test_near("met at vertex", (size_t)v, half_of(f.numbers[v * EACH + 1] >> 16), met,
+                       0.002 * (1 + met));
+        hair_test_near("open at vertex", (size_t)v, half_of(f.numbers[v * EACH + 1] & 0xffff), exp(-met),
+                       0.003);
+    }
+    finish(&f);
+}
+
+// Straight down -z, 1.2 m of it, as the picture is.
+static void light_with_map(struct fixture* f, float depth)
+{
+    f->light[0].to[0] = f->light[0].to[1] = 0, f->light[0].to[2] = 1;
+    f->light[0].shadow_matrix[0] = f->light[0].shadow_matrix[5] = 1 / 0.6f;
+    f->light[0].shadow_matrix[10]                               = -0.5f;
+    if (!f->map) {
+        glCreateTextures(GL_TEXTURE_2D, 1, &f->map);
+        glTextureStorage2D(f->map, 1, GL_DEPTH_COMPONENT32F, 1024, 1024);
+    }
+    glClearTexImage(f->map, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+    f->light[0].shadow_texture = f->map;
+}
+
+static double open_on_average(struct fixture* f, uint32_t vertices)
+{
+    uint32_t* numbers = malloc(vertices * EACH * sizeof *numbers);
+    double    sum     = 0;
+    glGetNamedBufferSubData(f->hair->draw.self_shadow.light, 0,
+                            (GLsizeiptr)(vertices * EACH * sizeof *numbers), numbers);
+    for (uint32_t v = 0; v < vertices; ++v) sum += half_of(numbers[v * EACH + 1] & 0xffff);
+    free(numbers);
+    return sum / vertices;
+}
+
+static void a_map_hides_what_lies_behind_it(void** state)
+{
+    struct fixture f = start(state, FOLLOWERS);
+    light_with_map(&f, 1);
+    draw(&f);
+    hair_test_near("before it", 0, open_on_average(&f, VERTICES), 1, 0);
+    light_with_map(&f, 0);
+    draw(&f);
+    hair_test_near("behind it", 0, open_on_average(&f, VERTICES), 0, 0);
+    finish(&f);
+}
+
+static void a_strand_does_not_shade_itself(void** state)
+{
+    struct fixture f = start(state, 1);
+    GLuint         frame;
+    light_with_map(&f, 1);
+    glCreateFramebuffers(1, &frame);
+    glNamedFramebufferTexture(frame, GL_DEPTH_ATTACHMENT, f.map, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glViewport(0, 0, 1024, 1024);
+    glEnable(GL_DEPTH_TEST);
+    f.view.pass = HAIR_PASS_DEPTH;
+    memcpy(f.view.projection, f.light[0].shadow_matrix, sizeof f.view.projection);
+    draw(&f);
+    glDeleteFramebuffers(1, &frame);
+    glBindFramebuffer(GL_FRAMEBUFFER, f.frame.framebuffer);
+    glDisable(GL_DEPTH_TEST);
+    f.view.pass = HAIR_PASS_COLOR;
+    draw(&f);
+    double open = open_on_average(&f, SEGMENTS + 1);
+    print_message("    %g\n", open);
+    assert_true(open > 0.97);
+    finish(&f);
+}
+
+static hair_report_row row_of(struct fixture* f, const char* work)
+{
+    hair_report_row  rows[64] = {{0}};
+    hair_report_info info     = hair_report_info_default();
+    uint32_t         count    = 0;
+    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    for (uint32_t i = 0; i < count; ++i)
+        if (strcmp(rows[i].work, work) == 0) return rows[i];
+    fail_msg("there is no row %s", work);
+    return rows[0];
+}
+
+static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
+{
+    struct fixture f    = start(state, FOLLOWERS);
+    hair_look      look = f.hair->draw.look;
+    f.view.frame        = 7;
+    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    draw(&f);
+    draw(&f);
+    assert_int_equal(row_of(&f, "light").runs, 4);
+    assert_true(row_of(&f, "light").bytes > 4 * HAIR_DENSITY_NODES);
+    f.light[1].position[1] = 1;
+    draw(&f);
+    assert_int_equal(row_of(&f, "light").runs, 6); // The grid is the same.
+    look.shadow = HAIR_SHADOW_DEPTH;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    draw(&f);
+    assert_int_equal(row_of(&f, "light").runs, 0);
+    assert_int_equal(row_of(&f, "light").why, HAIR_WHY_NOT_WANTED);
+    assert_int_equal(row_of(&f, "light").bytes, 0);
+    finish(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(the_grid_holds_the_area_of_all_strands),
+        HAIR_TEST(light_is_that_of_the_twin_in_double_precision),
+        HAIR_TEST(a_map_hides_what_lies_behind_it),
+        HAIR_TEST(a_strand_does_not_shade_itself),
+        HAIR_TEST(views_of_a_frame_share_it_and_without_it_there_is_none),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
