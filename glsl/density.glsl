@@ -5,6 +5,9 @@
 // of a light across them, over the side of a cell: what light meets on the way through a cell.
 #include "draw_params.glsl"
 #include "rotation.glsl"
+#ifdef HAIR_SOLIDS
+#include "field.glsl"
+#endif
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
@@ -12,6 +15,18 @@ layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uin
 // Of x, y, z the least, then the least of their bits turned round, by bits that are in the order of the numbers.
 layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
 layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer { vec4 strand_vertex[]; };
+
+#define MOST_MET 30.0 // nothing is left of light that has met so many
+
+// A solid.
+bool is_inside(vec3 from_origin)
+{
+#ifdef HAIR_SOLIDS
+    return field_distance(from_origin) < -0.5 * field.lower.w;
+#else
+    return false;
+#endif
+}
 
 vec3 in_head(vec3 from_origin) { return rotate(quat_conjugate(draw.head), from_origin); }
 

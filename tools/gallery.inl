@@ -86,6 +86,11 @@ PICTURE("The lower one, zoomed in",
 PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
         "tools/scenes/near.json --set lod=on")
 
+ROW("Light that hair leaves to itself, with a lamp behind it")
+PICTURE("By depth behind a shadow map (shadow=depth)", "--scene demo --set shadow=depth")
+PICTURE("By its strands: along them, and through a grid of how much hair there is (shadow=strands)", "--scene demo")
+PICTURE("The same on blond hair", "--scene demo --set color=blond")
+
 ROW("Lights")
 PICTURE("One from far away, a blue point behind, a red spot from the side, and surroundings", "tools/scenes/lights.json")
 PICTURE("The same on blond hair", "tools/scenes/lights.json --set color=blond")

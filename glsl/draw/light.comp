@@ -1,6 +1,7 @@
 // light.comp - how much light comes to each vertex of a strand past all others and past solids. One thread per vertex.
 //
-// What is met is what the nodes around know, as strands that lie as this one does. Of a light with a shadow map, the share
+// What is met is summed in steps of a cell, their middles from a cell off, and from where after two of these there is hair
+// again taken from the nodes around; it counts as strands that lie as this one does. Of a light with a shadow map, the share
 // that meets nothing is known better: of places along the half segments beside the vertex and across the strand, those that
 // nothing hides in the map. Written for the sky and for each light, as halves: that share; what is met.
 #version 450 core
@@ -12,7 +13,8 @@ layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_
 layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer { uint light_of_vertex[]; };
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
 
-#define TAPS 8
+#define TAPS 12
+#define NEAR_STEPS 2.0
 #define OWN_DEPTH 0.35 // of a radius: what hides a strand lies so much farther in front of it
 
 struct strand_bit {
@@ -26,11 +28,12 @@ struct strand_bit {
 uint  corner[8];
 float weight[8];
 
-void find_corners(density_grid grid, vec3 from_origin)
+// False: there are none.
+bool find_corners(density_grid grid, vec3 place)
 {
     uint  node;
     vec3  part;
-    bool  there = find_node(grid, place_in(grid, from_origin), node, part);
+    bool  there = find_node(grid, place, node, part);
     float sum   = 0.0;
     for (uint k = 0u; k < 8u; ++k) {
         uvec3 c     = uvec3(k & 1u, k >> 1u & 1u, k >> 2u);
@@ -40,6 +43,7 @@ void find_corners(density_grid grid, vec3 from_origin)
         sum += weight[k];
     }
     for (uint k = 0u; k < 8u; ++k) weight[k] /= max(sum, 1e-6);
+    return sum > 1e-6;
 }
 
 float around(uint which)
@@ -48,6 +52,21 @@ float around(uint which)
     for (uint k = 0u; k < 8u; ++k)
         if (weight[k] > 0.0) sum += weight[k] * light_of_node[corner[k] * draw.lit + which];
     return sum;
+}
+
+// On the way to a light, `reach` off, m.
+float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach)
+{
+    vec3  place = place_in(grid, position), way = in_head(to), size = vec3(grid.nodes) - 1.0;
+    vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
+    float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
+    for (float k = 1.0; k < steps && sum < MOST_MET; k += 1.0) {
+        vec3 at = place + k * way;
+        sum += density_at(grid, at);
+        if (is_inside(position + k * grid.cell * to)) sum = MOST_MET;
+        if (k >= NEAR_STEPS && find_corners(grid, at)) return min(sum + around(1u + light), MOST_MET);
+    }
+    return min(sum, MOST_MET);
 }
 
 // Of the places around, the share that nothing hides in a shadow map.
@@ -88,11 +107,14 @@ void main()
     s.tangent = direction_or(s.after - s.before, vec3(0.0, 1.0, 0.0));
     s.radius  = at.w;
     s.seed    = vertex / each;
-    find_corners(find_grid(), s.at);
+    density_grid grid = find_grid();
+    find_corners(grid, place_in(grid, s.at));
     light_of_vertex[vertex * draw.lit] = packHalf2x16(vec2(around(0u), 0.0));
     for (uint i = 0u; i < draw.lights; ++i) {
-        float along = dot(s.tangent, beam_at(i, s.at).to);
-        float met   = around(1u + i) * sqrt(max(1.0 - along * along, 0.0));
+        vec4  place = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
+        vec3  to    = beam_at(i, s.at).to;
+        float along = dot(s.tangent, to), reach = place.w > 0.0 ? length(place.xyz - s.at) : 1e9;
+        float met   = met_towards(grid, s.at, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
         uint  map   = uint(draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE].w);
         float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, s) : exp(-met);
         light_of_vertex[vertex * draw.lit + 1u + i] = packHalf2x16(vec2(open, met));

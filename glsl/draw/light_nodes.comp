@@ -1,30 +1,17 @@
 // light_nodes.comp - how many strands, and solids, each light meets on its way to every node of the grid that holds hair,
 // and how much of the sky is left there. One thread per node.
 //
-// Steps of a cell, from half a cell off, so that a strand does not shade itself, all of what is there lying across the
-// light.
+// Steps of a cell, their middles from a cell off, so that a strand does not shade itself; all of what is there counts as if
+// it lay across the light.
 #version 450 core
 #include "density.glsl"
 #include "lights.glsl"
-#ifdef HAIR_SOLIDS
-#include "field.glsl"
-#endif
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer { float light_of_node[]; };
 
-#define MOST_MET 30.0 // nothing is left
 #define SKY_WAYS 6
 #define SKY_STEPS 5     // each twice as long as the one before
 #define TURNED 0.785398 // mean of a strand's width as it is seen from all sides
-
-bool is_inside(vec3 position)
-{
-#ifdef HAIR_SOLIDS
-    return field_distance(position) < -0.5 * field.lower.w;
-#else
-    return false;
-#endif
-}
 
 // From a node on towards `to`, for at most `reach`, m.
 float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float reach)
@@ -32,7 +19,7 @@ float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float r
     vec3  way   = in_head(to), size = vec3(grid.nodes) - 1.0;
     vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
     float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
-    for (float k = 0.5; k < steps && sum < MOST_MET; k += 1.0) {
+    for (float k = 1.0; k < steps && sum < MOST_MET; k += 1.0) {
         sum += density_at(grid, place + k * way);
         if (is_inside(position + k * grid.cell * to)) sum = MOST_MET;
     }

@@ -44,9 +44,10 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
     return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
 }
 
-static hair_gl_pass nodes_pass(const struct hair_draw* draw)
+// Each has a row after it for where there are solids.
+static hair_gl_pass past_solids(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    return draw->hits.field ? HAIR_GL_LIGHT_NODES_SOLIDS : HAIR_GL_LIGHT_NODES;
+    return draw->hits.field ? pass + 1 : pass;
 }
 
 static hair_result make(struct hair_draw* draw, uint32_t each)
@@ -62,8 +63,8 @@ static hair_result make(struct hair_draw* draw, uint32_t each)
     if (!result) result = make_light(draw, each);
     if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_BOX);
     if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_FILL);
-    if (!result) result = hair_gl_need(gl, nodes_pass(draw));
-    return result ? result : hair_gl_need(gl, HAIR_GL_LIGHT);
+    if (!result) result = hair_gl_need(gl, past_solids(draw, HAIR_GL_LIGHT_NODES));
+    return result ? result : hair_gl_need(gl, past_solids(draw, HAIR_GL_LIGHT));
 }
 
 static void fill(struct hair_draw* draw, uint32_t groups)
@@ -118,7 +119,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     if (own->filled != draw->expanded.writes) fill(draw, groups);
     if (is_found(draw, view, &params)) return HAIR_OK;
     if (draw->hits.field) hair_field_bind(draw->hits.field);
-    hair_gl_run(gl, nodes_pass(draw), HAIR_DENSITY_NODES / HAIR_GROUP_SIZE);
-    hair_gl_run(gl, HAIR_GL_LIGHT, groups);
+    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT_NODES), HAIR_DENSITY_NODES / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT), groups);
     return HAIR_OK;
 }

@@ -115,6 +115,7 @@ PASS(LIGHT_FILL, "draw/light_fill", "draw/light_fill.comp")
 PASS(LIGHT_NODES, "draw/light_nodes", "draw/light_nodes.comp")
 PASS(LIGHT_NODES_SOLIDS, "draw/light_nodes_solids", "HAIR_SOLIDS=1 draw/light_nodes.comp")
 PASS(LIGHT, "draw/light", "draw/light.comp")
+PASS(LIGHT_SOLIDS, "draw/light_solids", "HAIR_SOLIDS=1 draw/light.comp")
 PASS(SOLIDS, "draw/solids", "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", "draw/slice.vert draw/slice.frag")
 // The same where followers have met solids: made when they first do.

@@ -43,6 +43,18 @@ double density_at(const hair_reference_grid& grid, const Vector3d& place)
     return sum;
 }
 
+bool around(const hair_reference_grid& grid, const Vector3d& place, const double* values, double& out)
+{
+    size_t node[8];
+    double weight[8], sum = 0, all = 0;
+    if (!corners_of(grid, place, node, weight)) return false;
+    for (int k = 0; k < 8; ++k)
+        if (grid.density[node[k]] > 0) sum += weight[k] * values[node[k]], all += weight[k];
+    if (all <= 1e-6) return false;
+    out = sum / all;
+    return true;
+}
+
 } // namespace
 
 void hair_reference_fill(const struct hair_reference_grid* grid, const double a[3], const double b[3],
@@ -59,16 +71,18 @@ void hair_reference_fill(const struct hair_reference_grid* grid, const double a[
 }
 
 double hair_reference_met(const struct hair_reference_grid* grid, const double from[3], const double to[3],
-                          double reach)
+                          double reach, const double* met)
 {
     const Vector3d place = place_of(*grid, from), way = vector_of(to);
     double         sum = 0;
-    for (double k = 0.5; k * grid->cell < reach; ++k) {
+    for (double k = 1; k * grid->cell < reach; ++k) {
         const Vector3d at = place + k * way;
         for (int i = 0; i < 3; ++i)
             if (at[i] < 0 || at[i] > grid->nodes[i] - 1) return std::min(sum, most_met);
         sum += density_at(*grid, at);
         if (sum >= most_met) return most_met;
+        double known;
+        if (met && k >= 2 && around(*grid, at, met, known)) return std::min(sum + known, most_met);
     }
     return sum;
 }
@@ -90,10 +104,7 @@ double hair_reference_sky(const struct hair_reference_grid* grid, const double f
 
 double hair_reference_around(const struct hair_reference_grid* grid, const double at[3], const double* values)
 {
-    size_t node[8];
-    double weight[8], sum = 0, all = 0;
-    if (!corners_of(*grid, place_of(*grid, at), node, weight)) return 0;
-    for (int k = 0; k < 8; ++k)
-        if (grid->density[node[k]] > 0) sum += weight[k] * values[node[k]], all += weight[k];
-    return all > 0 ? sum / all : 0;
+    double out = 0;
+    around(*grid, place_of(*grid, at), values, out);
+    return out;
 }

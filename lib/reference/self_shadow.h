@@ -22,9 +22,10 @@ struct hair_reference_grid {
 void hair_reference_fill(const struct hair_reference_grid* grid, const double a[3], const double b[3],
                          double width, double* density);
 
-/// Strands met from there on, in steps of a cell from half a cell off, within the grid and for less than `reach`; 30 at most.
+/// Strands met from there on, in steps of a cell with middles from a cell off, within the grid and for less than `reach`; 30
+/// at most. met: NULL, or what nodes with hair know about it, which is taken from the second step on where there are some.
 double hair_reference_met(const struct hair_reference_grid* grid, const double from[3], const double to[3],
-                          double reach);
+                          double reach, const double* met);
 
 /// Share of the sky that is seen along the axes, in five steps each twice as long as the one before.
 double hair_reference_sky(const struct hair_reference_grid* grid, const double from[3]);

@@ -191,13 +191,13 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
         }
         reach = sqrt(reach);
         for (int i = 0; i < 3; ++i) way[i] /= reach;
-        double sky = hair_reference_sky(&f.grid, at), met = hair_reference_met(&f.grid, at, to, 1e9);
+        double sky = hair_reference_sky(&f.grid, at), met = hair_reference_met(&f.grid, at, to, 1e9, NULL);
         most = fmax(most, met);
         // A last step may or may not be within the grid, or nearer than the lamp.
         hair_test_near("sky", n, f.met[n], sky, 1e-3);
         hair_test_near("met", n, f.met[nodes + n], met, 1e-3 * (1 + met));
         hair_test_near("met before the lamp", n, f.met[2 * nodes + n],
-                       hair_reference_met(&f.grid, at, way, reach), 0.02);
+                       hair_reference_met(&f.grid, at, way, reach, NULL), 0.02);
     }
     print_message("    %u nodes with hair, at most %g met\n", held, most);
     assert_true(held > 100 && most > 0.5);
@@ -210,8 +210,8 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
         into_head(k < SEGMENTS ? p + 4 : p, after);
         for (int i = 0; i < 3; ++i)
             along += (after[i] - before[i]) * to[i], length += pow(after[i] - before[i], 2);
-        double met =
-            hair_reference_around(&f.grid, at, f.met + nodes) * sqrt(fmax(1 - along * along / length, 0));
+        double met = hair_reference_met(&f.grid, at, to, 1e9, f.met + nodes) *
+                     sqrt(fmax(1 - along * along / length, 0));
         double sky = hair_reference_around(&f.grid, at, f.met);
         // Halves have 11 bits.
         hair_test_near("sky at vertex", (size_t)v, half_of(f.numbers[v * EACH] & 0xffff), sky, 0.002);

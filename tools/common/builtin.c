@@ -6,8 +6,17 @@
 // Three-quarter front, with the angle of a 50 mm lens on 35 mm film: 27 degrees high.
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
+// A warm light from the side, where highlights run down the hair; a cool one from behind, that rims it.
+#define STUDIO                                                                                               \
+    "'light': {'to': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.3, 0.33, 0.38]}, "          \
+    "'lights': [{'to': [0.35, 0.5, -0.95], 'color': [1.7, 1.8, 2.0]}], "                                     \
+    "'settings': {'shadow': 'strands', 'voxel': 0.006, 'roughness.along': 0.2, 'roughness.round': 0.35, "    \
+    "'scattering': 0.85, 'thinning': 0.22, 'taper': '1,1,1,0.98,0.92,0.8,0.6,0.25', 'color_spread': 0.5, "   \
+    "'hue_spread': 0.12, 'roughness_spread': 0.2, 'root_shade': 0.35, 'strays': 0.14}"
+
 const struct hair_builtin hair_builtin_scenes[] = {
-    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA "}"},
+    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
+             ", " STUDIO "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
     {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
                  " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}}"},

@@ -242,6 +242,6 @@ void head_color(point p, int is_worn, float rgb[3])
     brow *= smooth(0.011f, 0.018f, p.x) * smooth(0.051f, 0.044f, p.x) * 0.6f;
     lip *= smooth(0.0255f, 0.0225f, p.x);
     // Skin that hair grows from is darkened by it, as at a shaved head.
-    float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.6f * smooth(0, 0.012f, above_hairline(p)));
+    float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.88f * smooth(0, 0.010f, above_hairline(p)));
     for (int i = 0; i < 3; ++i) rgb[i] = is_worn ? cloth[i] : mix(mix(skin[i], lips[i], lip), hair[i], dark);
 }

@@ -26,6 +26,7 @@ struct hair_render {
     GLuint                  buffer[BUFFER_COUNT];
     uint32_t                indices;
     float                   bend[2];
+    uint32_t                frames; // drawn so far
 };
 
 // Making ----------------------------------------------------------------------------------------------------
@@ -157,6 +158,7 @@ struct frame {
     const float*             transform;
     struct hair_matrices     light;
     float                    texel; // of the shadow map, m
+    uint32_t                 number;
     hair_instance*           hair;
 };
 
@@ -191,6 +193,7 @@ static hair_result draw_hair(const struct frame* frame, const struct hair_matric
     hair_view  view = frame->scene->settings.view;
     hair_light light[HAIR_SCENE_LIGHTS];
     view.pass        = pass;
+    view.frame       = frame->number; // Its tiles share what light there is.
     view.lod         = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
     view.light_count = 1 + frame->scene->lights.count;
     view.lights      = light;
@@ -351,7 +354,8 @@ int hair_render_frame(struct hair_render* render, const struct hair_scene* scene
 {
     struct frame         frame = {.scene = scene, .transform = transform, .hair = hair};
     struct hair_matrices camera;
-    frame.texel = 2 * reach / HAIR_SHADOW_SIZE;
+    frame.number = ++render->frames;
+    frame.texel  = 2 * reach / HAIR_SHADOW_SIZE;
     hair_light_matrices(scene, transform, reach, &frame.light);
     hair_camera_matrices(scene, transform, reach, &camera);
     hair_result result = draw_shadow(render, &frame);

@@ -55,7 +55,7 @@ const char hair_mesh_vert[] = HEAD
 
 const char hair_nothing_frag[] = HEAD "void main() {}\n";
 
-// Skin lets red light farther round the terminator than blue; its gloss is faint and wide. Shadows are an
+// Skin lets red light farther round the terminator than blue; its gloss, of the first light, is faint and wide. Shadows are an
 // average over Vogel's spiral, turned from pixel to pixel (interleaved gradient noise, Jimenez 2014). `tone`
 // keeps the bust darker than its paint, so that what is seen first is the hair.
 const char hair_skin_frag[] = HEAD
@@ -106,7 +106,7 @@ const char hair_skin_frag[] = HEAD
     "        vec3  halfway = normalize(to_eye + to);\n"
     "        float facing  = dot(n, to);\n"
     "        vec3  diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
-    "        float gloss   = (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
+    "        float gloss   = i > 0 ? 0.0 : (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
     "        sum += light * (i == 0 ? first : 1.0) * (tone * albedo * diffuse + gloss);\n"
     "    }\n"
     "    color         = vec4(sum, 1.0);\n"
