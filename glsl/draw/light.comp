@@ -1,7 +1,7 @@
 // light.comp - how much light comes to each vertex of a strand past all others and past solids. One thread per vertex.
 //
-// What is met is summed in steps of a cell, their middles from a cell off, and from where after two of these there is hair
-// again taken from the nodes around; it counts as strands that lie as this one does. Of a light with a shadow map, the share
+// What is met is summed in two steps of a cell, their middles from a cell off, and from where there is hair next, which is
+// looked for in ever longer steps, what nodes around know; it counts as strands that lie as this one does. Of a light with a shadow map, the share
 // that meets nothing is known better: of places along the half segments beside the vertex and across the strand, those that
 // nothing hides in the map. Written for the sky and for each light, as halves: that share; what is met.
 #version 450 core
@@ -14,7 +14,7 @@ layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
 
 #define TAPS 12
-#define NEAR_STEPS 2.0
+#define NEAR_STEPS 2
 #define OWN_DEPTH 0.35 // of a radius: what hides a strand lies so much farther in front of it
 
 struct strand_bit {
@@ -60,11 +60,16 @@ float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float r
     vec3  place = place_in(grid, position), way = in_head(to), size = vec3(grid.nodes) - 1.0;
     vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
     float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
-    for (float k = 1.0; k < steps && sum < MOST_MET; k += 1.0) {
-        vec3 at = place + k * way;
-        sum += density_at(grid, at);
-        if (is_inside(position + k * grid.cell * to)) sum = MOST_MET;
-        if (k >= NEAR_STEPS && find_corners(grid, at)) return min(sum + around(1u + light), MOST_MET);
+    float k = 0.0;
+    for (int i = 0; i < NEAR_STEPS; ++i) {
+        k += 1.0;
+        if (k >= steps) return sum;
+        sum += density_at(grid, place + k * way);
+        if (is_inside(position + k * grid.cell * to)) return MOST_MET;
+    }
+    for (float each = 1.0; k < steps; k += each, each *= 1.5) {
+        if (is_inside(position + k * grid.cell * to)) return MOST_MET;
+        if (find_corners(grid, place + k * way)) return min(sum + around(1u + light), MOST_MET);
     }
     return min(sum, MOST_MET);
 }

@@ -74,17 +74,17 @@ double hair_reference_met(const struct hair_reference_grid* grid, const double f
                           double reach, const double* met)
 {
     const Vector3d place = place_of(*grid, from), way = vector_of(to);
-    double         sum = 0;
-    for (double k = 1; k * grid->cell < reach; ++k) {
+    double         sum = 0, each = 1;
+    for (double k = 1; k * grid->cell < reach; k += each) {
         const Vector3d at = place + k * way;
+        double         known;
         for (int i = 0; i < 3; ++i)
             if (at[i] < 0 || at[i] > grid->nodes[i] - 1) return std::min(sum, most_met);
-        sum += density_at(*grid, at);
-        if (sum >= most_met) return most_met;
-        double known;
+        if (!met || k <= 2) sum += density_at(*grid, at);
         if (met && k >= 2 && around(*grid, at, met, known)) return std::min(sum + known, most_met);
+        if (met && k > 2) each *= 1.5;
     }
-    return sum;
+    return std::min(sum, most_met);
 }
 
 double hair_reference_sky(const struct hair_reference_grid* grid, const double from[3])

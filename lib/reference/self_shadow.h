@@ -23,7 +23,8 @@ void hair_reference_fill(const struct hair_reference_grid* grid, const double a[
                          double width, double* density);
 
 /// Strands met from there on, in steps of a cell with middles from a cell off, within the grid and for less than `reach`; 30
-/// at most. met: NULL, or what nodes with hair know about it, which is taken from the second step on where there are some.
+/// at most. met: NULL, or what nodes with hair know about it, which is taken from the second step on where there are some;
+/// they are looked for in steps each 1.5 times as long as the one before.
 double hair_reference_met(const struct hair_reference_grid* grid, const double from[3], const double to[3],
                           double reach, const double* met);
 
