@@ -101,7 +101,8 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     struct hair_self_shadow* own = &draw->self_shadow;
     if (own->density && draw->look.shadow != HAIR_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
     if (!is_wanted(draw, view)) return HAIR_OK;
-    hair_result result = hair_draw_need_expanded(draw, smooth);
+    draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
+    hair_result result                = hair_draw_need_expanded(draw, smooth);
     if (!result) result = make(draw, hair_draw_lit(draw, view));
     if (result) return result;
     struct hair_draw_params params;
