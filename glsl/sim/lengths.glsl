@@ -3,16 +3,25 @@
 // sides, pass its contact: that makes its inverse mass an operator.
 //
 // Where bending is taken implicitly what keeps the lengths moves the strand by A^-1 = (M + b^2 K)^-1, as all forces
-// do: by M^-1 alone the shape at rest would depend on the substep. The first steps correct them so, the others, of
-// what is left, by M^-1, which is exact sooner.
+// do: by M^-1 alone the shape at rest would depend on the substep, and a stiff strand with a kink would flail. The
+// first steps correct them so, those of a conjugate gradient (Fletcher and Reeves 1964), the others, of what is left,
+// by M^-1, which is exact sooner.
 #include "sim/contact.glsl"
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
 #endif
 
 OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
+OWN(float, course);      // of a step by A^-1: tensions that it goes by
+float descent;           // what the last of these took away, to the first order
 
-#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // steps by A^-1: the bias at rest is a tenth with each
+#ifdef KEEPS_RATES
+#define STIFFLY 4u // steps by A^-1 at most: a straight strand takes one, one with kinks of 25 degrees three
+#else
+#define STIFFLY 0u // None is that stiff.
+#endif
+#define MOST_KEPT 4.0
+#define MOST_FAR 2.0
 #define MOST_STEPS 8u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
@@ -34,11 +43,11 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
 }
 
 // The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
-// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988).
-void stiffen_solution()
+// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988): with
+// a kink of 25 degrees it is up to four times too much.
+void stiffen_solution(float b)
 {
-    uint  segments = guide_count - 1u;
-    float b        = 2.0 / 3.0 * params.gravity.w;
+    uint segments = guide_count - 1u;
     EACH(segments) { PUT(handed, vec3(own(hinge_along))); }
     MEET;
     EACH(segments) {
@@ -50,9 +59,41 @@ void stiffen_solution()
     MEET;
 }
 
-// Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on.
-void correct_lengths(bool of_start, bool stiffly)
+// What the solution would take away, and, of the steps after the first, how much of the step before goes on in it.
+void conjugate(bool first)
 {
+    float gain = 0.0;
+    EACH(guide_count - 1u) { gain -= i + 1u < guide_count ? own(excess) * own(solution) : 0.0; }
+    gain        = sum_of(gain);
+    float share = first || !(descent > 0.0) ? 0.0 : min(gain / descent, MOST_KEPT);
+    descent     = gain;
+    EACH(guide_count - 1u) {
+        own(solution) += share > 0.0 ? share * own(course) : 0.0;
+        own(course) = own(solution);
+    }
+}
+
+// By A^-1 of the forces in moved[], as far as brings the lengths nearest to right.
+void move_stiffly(bool euler)
+{
+    solve_implicit(euler);
+    MEET;
+    float against = 0.0;
+    EACH(guide_count - 1u) {
+        float longer = dot(GET(edge), AFTER_VEC3(moved) - GET(moved));
+        against += i + 1u < guide_count ? own(solution) * longer : 0.0;
+    }
+    against   = sum_of(against);
+    float far = against > 0.0 ? clamp(descent / against, 0.0, MOST_FAR) : 0.0;
+    EACH(guide_count) {
+        if (own(slack) > 0.0) own(wanted) += far * GET(moved);
+    }
+}
+
+// Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on.
+void correct_lengths(int method, uint n)
+{
+    bool of_start = method == SHAKE, stiffly = !of_start && n < STIFFLY;
     uint segments = guide_count - 1u;
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge), along_before = before, along = GET(edge);
@@ -79,7 +120,10 @@ void correct_lengths(bool of_start, bool stiffly)
         if (own(row).y == 0.0) own(row) = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
     }
     solve_rows(segments);
-    if (stiffly) stiffen_solution();
+    if (stiffly) {
+        stiffen_solution(method == BACK ? 2.0 / 3.0 * params.gravity.w : params.gravity.w);
+        conjugate(n == 0u);
+    }
     EACH(segments) { PUT(handed, -own(solution) * (HAIR_SOLVER == SHAKE && of_start ? GET(lever) : GET(edge))); }
     MEET;
     EACH(guide_count) {
@@ -87,22 +131,17 @@ void correct_lengths(bool of_start, bool stiffly)
         if (stiffly) { PUT(moved, own(slack) > 0.0 ? force : vec3(0.0)); }
         else own(wanted) += own(slack) * force;
     }
-    if (!stiffly) return;
-    solve_implicit(false);
-    EACH(guide_count) {
-        if (own(slack) > 0.0) own(wanted) += GET(moved);
-    }
+    if (stiffly) move_stiffly(method >= EULER);
 }
 
 // False: some length is broken even so.
 bool fit_lengths(int method, float tolerance, vec3 head_moved)
 {
-    bool of_start = method == SHAKE;
     find_solids(head_moved);
     for (uint n = 0u;; ++n) {
         try_wanted(head_moved, n >= KEEP_FROM, tolerance);
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
         if ((n > 0u && !loose) || n == MOST_STEPS) return !broken;
-        correct_lengths(of_start, own_method != SHAKE && method == BACK && n < STIFFLY);
+        correct_lengths(method, n);
     }
 }
