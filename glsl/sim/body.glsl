@@ -37,9 +37,15 @@ float body_distance(vec4 size, form_grid form, vec3 at, out vec3 gradient)
     return shape_distance(uint(size.w), size.xyz, at, gradient);
 }
 
+float depth_of_place(uint k, vec3 place)
+{
+    vec3 gradient, at = rotate(quat_conjugate(body_turn(k, share_now)), place - body_place(k, share_now));
+    return BODY_POSITION(k, 0).w + params.margin - body_distance(BODY_SIZE(k), form_of(k), at, gradient);
+}
+
 // As depth_in, for a vertex that goes from `start` to `end`. Where it may have gone right through, the way is walked in
 // the solid's own space by steps that are as long as the surface is far, and the vertex stopped where it goes in.
-float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, out vec3 normal, out vec3 surface)
+float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
 {
     vec4  turn_then = body_turn(k, share_then), turn_after = body_turn(k, share_now);
     vec3  place_then = body_place(k, share_then), place_after = body_place(k, share_now);
@@ -74,6 +80,5 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, out vec3 norm
     vec3 touched = b + depth * outwards;
     normal       = rotate(turn_after, outwards);
     surface      = head_moved + place_after - place_then + rotate(turn_after, touched) - rotate(turn_then, touched);
-    // What was inside already comes out no faster than this.
-    return depth - max(was - EMERGE * params.gravity.w, 0.0);
+    return depth - max(was - granted.y, granted.x);
 }

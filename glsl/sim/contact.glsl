@@ -3,6 +3,9 @@
 // The reaction of a solid is what is done minus what is wanted. Its part along the normal may only push; its part
 // along the surface is at most `friction` times that, and against the slip. Where that suffices there is no slip at
 // all: a strand at rest does not creep.
+//
+// A root that is held nearer to solids than the margin, or in one, leaves what follows it no way out that is as long
+// as it is: there a vertex may be as deep as its root, less a fifth of its distance from it.
 #include "sim/solids.glsl"
 
 #define FREE 0.0
@@ -10,12 +13,14 @@
 #define GLIDES 2.0 // between two solids, along both
 #define STICKS 3.0
 #define STICK_PASS 0.1 // see pass_on
-#define EMERGE 1.0     // m/s
+#define EMERGE 1.0     // m/s, and in a substep half a segment at most, for lengths to be found
+#define RISE 0.2       // of a vertex out of where its root is, by its distance from that
 
 OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
 OWN(uvec2, reachable); // solids, one bit each,
 OWN(uvec2, met);       // and those met in this substep
 float share_then, share_now; // of the step that is done at the substep's start and end
+float sunk;                  // how deep in solids the root is held. m
 
 struct capsule { // a solid at one moment
     vec3  start, axis;
@@ -47,9 +52,16 @@ float swept_by(uint k, capsule now)
     return max(length(start), length(start + now.axis - then.axis));
 }
 
+// How deep a vertex may be; and how far it comes out in a substep if it was deeper.
+vec2 granted_to(uint i)
+{
+    float rise = min(EMERGE * params.gravity.w, 0.5 * guide_length / float(guide_count - 1u));
+    return vec2(max(sunk - RISE * length(GET(place)), 0.0), rise);
+}
+
 // How deep in one solid the displacement d from `start`, both from the head's origin, leads; below 0: how far off it
 // stays. And the normal there, and what the surface does. A vertex that goes right through is stopped where it goes in.
-float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out vec3 surface)
+float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
 {
     capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
     vec3    end = start + d - head_moved;
@@ -62,8 +74,7 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out vec3 normal, out
         normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
         depth  = now.radius - dot(normal, out_b);
     }
-    // What was inside already comes out no faster than this.
-    depth -= max(then.radius - length(out_a) - EMERGE * params.gravity.w, 0.0);
+    depth -= max(then.radius - length(out_a) - granted.y, granted.x);
     float along = nearest_share(end, now);
     surface     = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
               cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
@@ -82,6 +93,15 @@ vec4 left_of(vec4 freedom, vec3 normal)
 #ifdef HAIR_BODIES
 #include "sim/body.glsl"
 #endif
+
+float root_depth_in(uint k, bool is_body)
+{
+#ifdef HAIR_BODIES
+    if (is_body) return depth_of_place(k, root_now);
+#endif
+    capsule solid = solid_at(k, share_now);
+    return solid.radius - length(from_axis(root_now, solid));
+}
 
 // Out of one solid by the depth, and held by its friction.
 uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,

@@ -61,6 +61,18 @@ void list_solids(uint i, vec3 middle, float far)
 #endif
 }
 
+void find_root()
+{
+    uvec2 list = cell_members(root_now);
+    sunk       = 0.0;
+    if (root_is_free) return;
+    for (uint n = list.x; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); ++n) {
+        uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
+        vec4 ball   = BALL(k);
+        if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
+    }
+}
+
 void find_solids(vec3 head_moved)
 {
     bool serves = has_lists;
@@ -72,6 +84,7 @@ void find_solids(vec3 head_moved)
             serves = serves && length(halfway(position, way, far) - own(listed_near).xyz) + 0.5 * far <= params.cells_give;
     }
     if (!any_of(bvec2(!serves, false)).x) return;
+    find_root();
     EACH(guide_count) {
         vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
         float far = length(way);
@@ -98,8 +111,9 @@ bool is_around(uint k, vec3 end, vec3 way)
 // Out of one solid after the other, capsules first; returns of how many.
 uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
-    uint contacts = 0u;
-    vec3 normal, surface;
+    uint  contacts = 0u;
+    vec2  granted  = granted_to(i);
+    vec3  normal, surface;
 #ifdef HAIR_BODIES
     uvec2 capsules = solids & ~own(walked);
 #else
@@ -109,7 +123,7 @@ uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, ino
         uint k   = member_at(own(members), at.x, at.y);
         vec3 way = d - head_moved;
         if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
-            float depth = depth_in(k, start, d, head_moved, normal, surface);
+            float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
             contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
         }
     }
@@ -118,7 +132,7 @@ uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, ino
         uint k   = member_at(own(members), at.x, at.y);
         vec3 way = d - head_moved;
         if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
-            float depth = depth_in_body(k, start, start + way, head_moved, normal, surface);
+            float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
             contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
         }
     }

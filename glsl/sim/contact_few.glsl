@@ -1,5 +1,14 @@
 // contact_few.glsl - solids that are in the step's parameters, HAIR_FEW_SOLIDS at most: which a guide can touch, and out
 // of them, one after the other.
+uvec2 bodies()
+{
+#ifdef HAIR_BODIES
+    return uvec2(params.bodies0, params.bodies1);
+#else
+    return uvec2(0u);
+#endif
+}
+
 // The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
 // again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.
 void find_solids(vec3 head_moved)
@@ -14,6 +23,11 @@ void find_solids(vec3 head_moved)
             near[k / 32u] |= 1u << (k % 32u);
     }
     near = all_bits(near);
+    sunk = 0.0;
+    if (!root_is_free)
+        for (uint word = 0u; word < 2u; ++word)
+            for (uint bits = near[word]; bits != 0u; bits &= bits - 1u)
+                sunk = max(sunk, root_depth_in(32u * word + uint(findLSB(bits)), (bits & -bits & bodies()[word]) != 0u));
     EACH(guide_count) {
         own(reachable) = own(met) = uvec2(0u);
         if (own(slack) > 0.0) {
@@ -34,23 +48,19 @@ void find_solids(vec3 head_moved)
 uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
 {
     uint  contacts = 0u;
-#ifdef HAIR_BODIES
-    uvec2 bodies = uvec2(params.bodies0, params.bodies1);
-#else
-    const uvec2 bodies = uvec2(0u);
-#endif
+    vec2  granted  = granted_to(i);
     vec3  normal, surface;
     for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & ~bodies[word]; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = solids[word] & ~bodies()[word]; bits != 0u; bits &= bits - 1u) {
             uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in(k, start, d, head_moved, normal, surface);
+            float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
             contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
         }
 #ifdef HAIR_BODIES
     for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & bodies[word]; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = solids[word] & bodies()[word]; bits != 0u; bits &= bits - 1u) {
             uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, normal, surface);
+            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, granted, normal, surface);
             contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
         }
 #endif

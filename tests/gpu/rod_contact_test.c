@@ -288,6 +288,35 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
     }
 }
 
+// Of 25 mm, that stand at 20 degrees from a head whose margin their roots are in, or whose inside.
+static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
+{
+    hair_solid   head    = sphere(0, 0, 0, 0.1);
+    hair_physics physics = hair_physics_default();
+    physics.sleep        = 0;
+    for (int any = 0; any < 2; ++any) // Of so many solids there is a grid.
+        for (int solver = 0; solver < 2; ++solver) {
+            hair_solid               solids[HAIR_FEW_SOLIDS + 1];
+            struct hair_test_living  living;
+            struct hair_test_strands strands = hair_test_strands_make(6, 32);
+            for (int k = 0; k < 6; ++k)
+                hair_test_add_straight(&strands, 32, hair_v3(0, 0.1f - 0.0002f * (float)k, 0),
+                                       hair_v3(cosf((float)k), 0.36f, sinf((float)k)), 0.025f);
+            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_test_live(*state, &strands, &desc, &living);
+            for (int i = 0; i <= HAIR_FEW_SOLIDS; ++i) solids[i] = i ? sphere(0.02 * i, -0.3, 0, 0.01) : head;
+            hair_test_set_solids(&living, solids, any ? HAIR_FEW_SOLIDS + 1 : 1);
+            hair_test_wait(&living, 60);
+            hair_test_read_guides(&living);
+            print_message("    %d solids, solver %d: %.2g m from rest\n", any ? HAIR_FEW_SOLIDS + 1 : 1,
+                          solver, hair_test_from_rest(&living));
+            assert_true(hair_test_from_rest(&living) < 2e-3);
+            hair_test_healthy(&living);
+            hair_test_strands_free(&strands);
+            hair_test_die(&living);
+        }
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -297,6 +326,7 @@ int main(void)
         HAIR_TEST(a_strand_on_a_slope_obeys_coulomb),
         HAIR_TEST(solids_that_move_and_spin_carry_hair_along),
         HAIR_TEST(what_is_swept_through_hair_takes_it_along),
+        HAIR_TEST(hair_whose_roots_are_in_the_margin_rests_without_a_fallback),
         HAIR_TEST(hair_in_a_solid_that_appears_comes_out_slowly),
         HAIR_TEST(a_free_strand_comes_to_lie_on_what_it_falls_on),
         HAIR_TEST(among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time),
