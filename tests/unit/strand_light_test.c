@@ -48,15 +48,12 @@ static void rays_meet_the_share_that_a_grating_covers(void** state)
     }
 }
 
-// They know no places within a voxel or texel, so that strands are met by chance.
-static void volumes_and_layers_meet_as_many_strands_by_chance(void** state)
+// They know no places within a texel, so that strands are met by chance.
+static void layers_meet_as_many_strands_by_chance(void** state)
 {
     (void)state;
     static float         light[(BARS + 1) * EACH];
     struct bench_strands strands = make(1.5e-4f);
-    assert_true(bench_light_by_volume(&strands, 0.004f, 1, 0.5f, 1, light));
-    for (int k = 1; k < EACH - 1; ++k)
-        hair_test_near("through a volume", (size_t)k, (double)light[BARS * EACH + k], exp(-0.3), 0.03);
     assert_true(bench_light_by_layers(&strands, 0.002f, 4, 0.02f, 2, light));
     for (int k = 1; k < EACH - 1; ++k)
         hair_test_near("through layers", (size_t)k, (double)light[BARS * EACH + k], exp(-0.3), 0.08);
@@ -67,7 +64,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_meet_the_share_that_a_grating_covers),
-        cmocka_unit_test(volumes_and_layers_meet_as_many_strands_by_chance),
+        cmocka_unit_test(layers_meet_as_many_strands_by_chance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
