@@ -14,6 +14,7 @@
 OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
 OWN(float, course);      // of a step by A^-1: tensions that it goes by
 float descent;           // what the last of these took away, to the first order
+bool  owed;              // it went another way than the strand wants: there is more to take away
 
 #ifdef KEEPS_RATES
 #define STIFFLY 4u // steps by A^-1 at most: a straight strand takes one, one with kinks of 25 degrees three
@@ -22,6 +23,7 @@ float descent;           // what the last of these took away, to the first order
 #endif
 #define MOST_KEPT 4.0
 #define MOST_FAR 2.0
+#define NEARLY_RIGHT 0.1
 #define MOST_STEPS 8u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
@@ -85,6 +87,7 @@ void move_stiffly(bool euler)
     }
     against   = sum_of(against);
     float far = against > 0.0 ? clamp(descent / against, 0.0, MOST_FAR) : 0.0;
+    owed      = abs(far - 1.0) > NEARLY_RIGHT;
     EACH(guide_count) {
         if (own(slack) > 0.0) own(wanted) += far * GET(moved);
     }
@@ -141,7 +144,8 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
     for (uint n = 0u;; ++n) {
         try_wanted(head_moved, n >= KEEP_FROM, tolerance);
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-        if ((n > 0u && !loose) || n == MOST_STEPS) return !broken;
+        if ((n > 0u && !loose && !owed) || n == MOST_STEPS) return !broken;
+        owed = false;
         correct_lengths(method, n);
     }
 }
