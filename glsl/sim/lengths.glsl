@@ -4,8 +4,8 @@
 //
 // Where bending is taken implicitly what keeps the lengths moves the strand by A^-1 = (M + b^2 K)^-1, as all forces
 // do: by M^-1 alone the shape at rest would depend on the substep, and a stiff strand with a kink would flail. The
-// first steps correct them so, those of a conjugate gradient (Fletcher and Reeves 1964), the others, of what is left,
-// by M^-1, which is exact sooner.
+// first steps correct them so, the others, of what is left, by M^-1, which is exact sooner. Of strands that are curved
+// at rest they are those of a conjugate gradient (Fletcher and Reeves 1964), and go on while that has farther to go.
 #include "sim/contact.glsl"
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
@@ -16,10 +16,12 @@ OWN(float, course);      // of a step by A^-1: tensions that it goes by
 float descent;           // what the last of these took away, to the first order
 bool  owed;              // it went another way than the strand wants: there is more to take away
 
-#ifdef KEEPS_RATES
-#define STIFFLY 4u // steps by A^-1 at most: a straight strand takes one, one with kinks of 25 degrees three
-#else
+#ifndef KEEPS_RATES
 #define STIFFLY 0u // None is that stiff.
+#elif defined(HAIR_CURVED)
+#define STIFFLY 4u // steps by A^-1 at most: with kinks of 25 degrees it takes three
+#else
+#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // The bias at rest is a tenth with each.
 #endif
 #define MOST_KEPT 4.0
 #define MOST_FAR 2.0
@@ -79,15 +81,18 @@ void conjugate(bool first)
 void move_stiffly(bool euler)
 {
     solve_implicit(euler);
-    MEET;
-    float against = 0.0;
-    EACH(guide_count - 1u) {
-        float longer = dot(GET(edge), AFTER_VEC3(moved) - GET(moved));
-        against += i + 1u < guide_count ? own(solution) * longer : 0.0;
+    float far = 1.0;
+    if (CURVED) {
+        float against = 0.0;
+        MEET;
+        EACH(guide_count - 1u) {
+            float longer = dot(GET(edge), AFTER_VEC3(moved) - GET(moved));
+            against += i + 1u < guide_count ? own(solution) * longer : 0.0;
+        }
+        against = sum_of(against);
+        far     = against > 0.0 ? clamp(descent / against, 0.0, MOST_FAR) : 0.0;
+        owed    = abs(far - 1.0) > NEARLY_RIGHT;
     }
-    against   = sum_of(against);
-    float far = against > 0.0 ? clamp(descent / against, 0.0, MOST_FAR) : 0.0;
-    owed      = abs(far - 1.0) > NEARLY_RIGHT;
     EACH(guide_count) {
         if (own(slack) > 0.0) own(wanted) += far * GET(moved);
     }
@@ -96,7 +101,7 @@ void move_stiffly(bool euler)
 // Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on.
 void correct_lengths(int method, uint n)
 {
-    bool of_start = method == SHAKE, stiffly = !of_start && n < STIFFLY;
+    bool of_start = method == SHAKE, stiffly = n < STIFFLY && (CURVED ? !of_start : method == BACK);
     uint segments = guide_count - 1u;
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge), along_before = before, along = GET(edge);
@@ -125,7 +130,7 @@ void correct_lengths(int method, uint n)
     solve_rows(segments);
     if (stiffly) {
         stiffen_solution(method == BACK ? 2.0 / 3.0 * params.gravity.w : params.gravity.w);
-        conjugate(n == 0u);
+        if (CURVED) conjugate(n == 0u);
     }
     EACH(segments) { PUT(handed, -own(solution) * (HAIR_SOLVER == SHAKE && of_start ? GET(lever) : GET(edge))); }
     MEET;
@@ -144,7 +149,7 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
     for (uint n = 0u;; ++n) {
         try_wanted(head_moved, n >= KEEP_FROM, tolerance);
         // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-        if ((n > 0u && !loose && !owed) || n == MOST_STEPS) return !broken;
+        if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS) return !broken;
         owed = false;
         correct_lengths(method, n);
     }

@@ -387,7 +387,7 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
         for (size_t k = 0; k < drawn.segments; ++k) {
             double radius = (double)drawn.vertices[2 * k].radius / 0.001;
             double own    = 1 + (double)(k / 4 < first ? k / 4 : 32 + k / 4 - first) / 65536;
-            hair_test_near("radius", k, radius, (k / 4 < first ? 1 : 1 + (double)blend) * own, 4e-5);
+            hair_test_near("radius", k, radius, (k / 4 < first ? 1 : 1 + (double)blend) * own, 1e-5);
         }
         free(drawn.vertices);
     }
@@ -427,7 +427,7 @@ static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
                     worst = fmax(worst, fabs((double)a[end].x - (double)b[end].x));
                     worst = fmax(worst, fabs((double)a[end].y - (double)b[end].y));
                     worst = fmax(worst, fabs((double)a[end].z - (double)b[end].z));
-                    hair_test_near("radius", k, a[end].radius, b[end].radius, 4e-8);
+                    hair_test_near("radius", k, a[end].radius, b[end].radius, 1e-8);
                 }
             }
             print_message("    path %d, %.2f of the segments: off by %.2g m\n", (int)path, (double)shares[i],
