@@ -278,6 +278,9 @@ static void check_ends(struct user* user, const struct subject* subject)
             float    real  = (float)value;
             uint32_t whole = (uint32_t)value;
             memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
+            if (strcmp(field->name, "hair_desc.mapping") == 0 &&
+                whole == HAIR_MAPPING_FEEDBACK) // Which one solver has.
+                ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
             hair_test_ok(user->test, subject->use(user, desc));
         }
     }
