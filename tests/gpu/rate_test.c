@@ -77,6 +77,7 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
     hair_physics   physics = hair_physics_default();
     hair_desc      desc    = hair_desc_default();
     hair_instance* hair    = NULL;
+    physics.sleep          = 0; // It would leave out runs of its own.
     physics.rate           = rate_at(0);
     physics.unseen_rate    = is_seen ? 0.25f : 1;
     desc.physics           = &physics;
