@@ -74,6 +74,7 @@ static const struct row rows[] = {
      {0}},
     {"volume", "resistance to being denser than at rest, m^2/s^2", FLOAT, {AT(physics.volume)}, {0}},
     {"rate", "share of the solver's own substeps that is made", FLOAT, {AT(physics.rate)}, {0}},
+    {"unseen_rate", "the same while no view shows the hair", FLOAT, {AT(physics.unseen_rate)}, {0}},
     {"sleep", "how near to where it comes to rest hair sleeps, m", FLOAT, {AT(physics.sleep)}, {0}},
     {"margin", "distance kept to solids, m", FLOAT, {AT(physics.margin)}, {0}},
     {"young", "Young's modulus of a hair, Pa", FLOAT, {AT(physics.young)}, {0}},
