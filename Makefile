@@ -191,22 +191,13 @@ run-tests: $(TESTS)
 	  xargs -r -n 1 -P $(JOBS) sh -c 'said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; printf "== %s\n%s\n" "$$0" "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
-# As the library compiles them, but for the smaller of the four sizes of a work group; of the solvers' programs, which are
-# made for what there is of eight things, those with at most two or nearly all of them.
-FEATURES := HAIR_(CURVED|THREAD_PER_GUIDE|CROWD|SKINNED|TIED|WIND|STIFF|SOLIDS)=1
 glsl: ## Compile every shader offline, no GPU needed
-	@{ echo '#define PASS(name, label, stages) stages;'; echo '#include "lib/gl/passes.inl"'; \
-	   echo '"gl/selftest.tesc gl/selftest.tese";'; \
-	   for v in HAIR_IDS HAIR_TINTED HAIR_PAINTED HAIR_OWN_VERTICES "HAIR_FIBRES=1 HAIR_OWN_PIXELS" "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_MOTION" \
-	     "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_FIBRES=1 HAIR_SHARES"; do \
-	     echo "\"$$v=1 draw/strand.vert draw/ribbon.geom draw/strand.frag\";"; done; } | $(CC) -E -P -I. -x c - | tr -d '"\n' | tr ';' '\n' | \
-	  grep -vE 'THREADS=(32|64|128) ' | awk '{ n = gsub(/$(FEATURES)/, "&"); if (!/rod.comp/ || n < 3 || n > 6) print }' | while read -r stages; do defines=-DHAIR_LINES_LEVEL=0; \
-	    for s in $$stages; do case $$s in *=*) defines="$$defines -D$$s";; *) \
-	      glslc --target-env=opengl4.5 -Werror -fauto-map-locations $$defines -Iglsl -o /dev/null glsl/$$s || exit 1;; esac; \
-	    case $$s in sim/rod.comp) \
-	      glslc --target-env=opengl4.5 --target-spv=spv1.3 -Werror $$(echo "$$defines" | sed s/=256/=32/) \
-	        -DHAIR_SUBGROUP=1 -Iglsl -o /dev/null glsl/$$s || exit 1;; \
-	    esac; done || exit 1; done
+	@{ { printf '#define FEATURE(name, define) @define name;\n#define TEXT(x) #x\n' ; \
+	     printf '#define PASS(name, label, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \
+	     $(CC) -E -P -I. -x c - | tr -d '\n' | tr ';' '\n' | awk -f tools/programs.awk; \
+	   printf '%s\n' glsl/gl/selftest.tesc glsl/gl/selftest.tese '-DHAIR_OWN_VERTICES=1 glsl/draw/strand.vert' \
+	     '-DHAIR_FIBRES=1 -DHAIR_OWN_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
+	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
 check: rooms symbols ## What no compiler checks: the order of rooms, the exported names
 rooms:

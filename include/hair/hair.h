@@ -936,14 +936,14 @@ HAIR_DESC(hair_field_info)
 HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
 typedef struct hair_timing {
-    const char* pass;     ///< Static text: the shader's path under glsl/.
+    const char* pass;     ///< Its label and what it was compiled with, as "sim/direct_curved_32". As long as the context.
     float       ms;       ///< GPU time of its last finished run. 0 before there is one.
     uint32_t    runs;     ///< Since the context was created.
     double      total_ms; ///< GPU time of its finished runs together, but for more than four at once.
 } hair_timing;
 
-/// GPU time of every pass, if the context was created with `timings`. Never waits. Returns how many passes
-/// there are; writes at most `capacity`.
+/// GPU time of every pass that something has needed yet, if the context was created with `timings`. Never waits. Returns how
+/// many passes there are; writes at most `capacity`. What was there once stays in its place.
 HAIR_API uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity);
 
 /// Why work was done or not.

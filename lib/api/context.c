@@ -70,11 +70,12 @@ hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity)
 {
     if (!context) return 0;
-    for (uint32_t pass = 0; out && pass < capacity && pass < HAIR_GL_PASS_COUNT; ++pass) {
-        out[pass].pass     = hair_gl_pass_label((hair_gl_pass)pass);
-        out[pass].ms       = hair_gl_pass_ms(&context->gl, (hair_gl_pass)pass);
-        out[pass].runs     = context->gl.timer[pass].begun;
-        out[pass].total_ms = context->gl.timer[pass].total;
+    for (uint32_t i = 0; out && i < capacity && i < context->gl.programs; ++i) {
+        struct hair_gl_program* of = context->gl.program[i];
+        out[i].pass                = of->label;
+        out[i].ms                  = hair_gl_pass_ms(&context->gl, of);
+        out[i].runs                = of->timer.begun;
+        out[i].total_ms            = of->timer.total;
     }
-    return HAIR_GL_PASS_COUNT;
+    return context->gl.programs;
 }

@@ -162,7 +162,7 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
     const struct hair_asked* asked = &hair->asked[frame->number % HAIR_GL_FRAMES];
     hair_report_row          row   = {
                    .work = hair_gl_work_label(work), .runs = frame->runs[work], .ms = ms, .bytes = bytes_of(hair, work)};
-    if (row.runs) row.pass = hair_gl_pass_label(frame->pass[work]);
+    if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;
     row.why = row.runs ? HAIR_WHY_DONE : why_not(hair, asked, work);
     return row;
 }

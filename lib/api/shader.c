@@ -10,7 +10,7 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
                                                   desc->at == HAIR_SHADE_PIXELS, &shader->gl);
     if (result) return result;
     hair_gl_enter(gl); // What most views draw with; what fails in another fails here.
-    result = hair_gl_need_variant(gl, &shader->gl, 0, HAIR_GL_TESSELLATED_FIBRES_RIBBONS, &program);
+    result = hair_gl_need_own(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
     hair_gl_leave(gl);
     return result;
 }

@@ -112,24 +112,16 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// Of the rows of a DRAW_PASS, two each.
-static hair_gl_pass pass_of(const struct hair_draw* draw, const hair_view* view, hair_path path)
-{
-    int depth  = view->pass == HAIR_PASS_DEPTH;
-    int fibres = view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES;
-    int row    = (view->primitive == HAIR_LINES && !hair_draw_is_shared(view)) + 2 * depth + 4 * fibres;
-    static const hair_gl_pass first[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED_RIBBONS,
-                                         [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED_RIBBONS,
-                                         [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED_RIBBONS};
-    return first[path] + (hair_gl_pass)(2 * row);
-}
-
 // What is drawn with: a program, and the pass that it counts as.
 struct drawn {
     hair_gl_pass pass;
     hair_path    path;
     GLuint       program;
 };
+
+static const hair_gl_pass row_of_path[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
+                                           [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED,
+                                           [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED};
 
 static int is_textured(const struct hair_draw* draw, const hair_view* view)
 {
@@ -147,22 +139,33 @@ static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const 
     return is_textured(draw, view) || (shader && hair_draw_has_uvs(draw));
 }
 
+static uint32_t features_of(const struct hair_draw* draw, const hair_view* view,
+                            const struct hair_gl_shader* shader)
+{
+    uint32_t features = 0;
+    if (view->pass == HAIR_PASS_DEPTH) features |= HAIR_GL_WITH(DEPTH);
+    if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
+    if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
+    if (view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
+        features |= HAIR_GL_WITH(FIBRES);
+    if (hair_draw_is_shared(view))
+        features |= HAIR_GL_WITH(SHARES);
+    else if (view->primitive == HAIR_LINES)
+        features |= HAIR_GL_WITH(LINES);
+    if (wants_uvs(draw, view, shader)) features |= HAIR_GL_WITH(TINTED);
+    if (is_painted(draw, view)) features |= HAIR_GL_WITH(PAINTED);
+    return features;
+}
+
 static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
                                 struct drawn* out)
 {
-    struct hair_gl* gl   = draw->gl;
-    uint32_t        bits = view->pass == HAIR_PASS_ID       ? HAIR_GL_IDS
-                           : view->pass == HAIR_PASS_MOTION ? HAIR_GL_MOTION
-                           : hair_draw_is_shared(view)      ? HAIR_GL_SHARES
-                                                            : 0;
-    if (wants_uvs(draw, view, shader)) bits |= HAIR_GL_TINTED;
-    if (is_painted(draw, view)) bits |= HAIR_GL_PAINTED;
-    out->path = hair_draw_path(draw, view);
-    out->pass = hair_draw_choose(draw, pass_of(draw, view, out->path));
-    if (bits || shader)
-        return hair_gl_need_variant(gl, shader ? shader : &gl->ours, bits, out->pass, &out->program);
+    struct hair_gl* gl = draw->gl;
+    out->path          = hair_draw_path(draw, view);
+    out->pass          = hair_draw_choose(draw, row_of_path[out->path] | features_of(draw, view, shader));
+    if (shader) return hair_gl_need_own(gl, shader, out->pass, &out->program);
     hair_result result = hair_gl_need(gl, out->pass);
-    out->program       = gl->program[out->pass];
+    if (!result) out->program = hair_gl_find(gl, out->pass)->program;
     return result;
 }
 

@@ -98,28 +98,14 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
     return HAIR_OK;
 }
 
-// Of a FOLLOWER_PASS.
 hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    return hair_look_is_styled(&draw->look) ? pass + 1 : pass;
+    return hair_look_is_styled(&draw->look) ? hair_gl_with(pass, HAIR_GL_WITH(STYLED)) : pass;
 }
 
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    static const struct {
-        hair_gl_pass first, last, with_hits;
-    } rows[] = {
-        {HAIR_GL_EXPAND, HAIR_GL_EXPAND, HAIR_GL_EXPAND_HITS},
-        {HAIR_GL_TESSELLATED_RIBBONS, HAIR_GL_TESSELLATED_FIBRES_LINES_STYLED,
-         HAIR_GL_TESSELLATED_HITS_RIBBONS},
-        {HAIR_GL_INSTANCED_RIBBONS, HAIR_GL_INSTANCED_FIBRES_LINES_STYLED, HAIR_GL_INSTANCED_HITS_RIBBONS},
-    };
-    if (draw->hits.active)
-        for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-            if (pass >= rows[i].first && pass <= rows[i].last) {
-                pass = rows[i].with_hits + (pass - rows[i].first);
-                break;
-            }
+    if (draw->hits.active) pass = hair_gl_with(pass, HAIR_GL_WITH(HITS));
     return hair_draw_styled(draw, pass);
 }
 

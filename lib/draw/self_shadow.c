@@ -44,10 +44,9 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
     return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
 }
 
-// Each has a row after it for where there are solids.
 static hair_gl_pass past_solids(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    return draw->hits.field ? pass + 1 : pass;
+    return draw->hits.field ? pass | HAIR_GL_WITH(SOLIDS) : pass;
 }
 
 static hair_result make(struct hair_draw* draw, uint32_t each)

@@ -105,11 +105,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 
 void hair_gl_destroy(struct hair_gl* gl)
 {
-    if (gl->DeleteProgram) // Else loading failed, and nothing was made.
-        for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass)
-            if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
-    if (gl->DeleteProgram) hair_gl_free_shader(gl, &gl->ours);
-    hair_gl_free_timers(gl);
+    hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
     hair_free(&gl->host, gl->glsl_dir);

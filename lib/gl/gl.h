@@ -7,12 +7,25 @@
 #include "lib/base/host.h"
 #include "glsl/shared.h"
 
-typedef enum hair_gl_pass {
-#define PASS(name, label, stages) HAIR_GL_##name,
+// The rows of passes.inl, which are passes that are compiled with nothing beside.
+enum hair_gl_row {
+#define PASS(name, label, features, stages) HAIR_GL_##name,
 #include "lib/gl/passes.inl"
-#undef PASS
-    HAIR_GL_PASS_COUNT
-} hair_gl_pass;
+    HAIR_GL_ROWS
+};
+
+enum hair_gl_feature {
+#define FEATURE(name, define) HAIR_GL_FEATURE_##name,
+#include "lib/gl/passes.inl"
+    HAIR_GL_FEATURES
+};
+
+// A pass: its row in the lowest bits, the size of its work groups, and a bit for each feature that it is compiled with.
+typedef uint32_t hair_gl_pass;
+#define HAIR_GL_ROW_BITS 8
+#define HAIR_GL_SIZE(n) ((uint32_t)(n) << HAIR_GL_ROW_BITS) // 0 to 3: 32, 64, 128 or 256 threads
+#define HAIR_GL_SIZES HAIR_GL_SIZE(3)
+#define HAIR_GL_WITH(feature) (1u << (HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURE_##feature))
 
 #define HAIR_GL_UNITS (HAIR_UNIT_LIGHT + 1)
 
@@ -35,24 +48,27 @@ struct hair_gl_saved {
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
-// What is added to passes that draw, in any mixture: bits.
-#define HAIR_GL_TINTED 1u   // strands have colours or places on the scalp of their own
-#define HAIR_GL_IDS 2u      // numbers in place of colour
-#define HAIR_GL_MOTION 4u   // velocities in place of colour
-#define HAIR_GL_SHARES 8u   // strands cover shares of pixels
-#define HAIR_GL_PAINTED 16u // strands have colours of the groom
-#define HAIR_GL_VARIANTS 32
+// What has been needed of a pass.
+struct hair_gl_program {
+    hair_gl_pass         pass;
+    GLuint               program; // 0: none of ours
+    struct hair_gl_timer timer;
+    char                 label[128];
+};
 
-// The rows of passes that draw strands.
-#define HAIR_GL_DRAWN (HAIR_GL_INSTANCED_HITS_FIBRES_LINES_STYLED - HAIR_GL_TESSELLATED_RIBBONS + 1)
+// The host's own shading, and the programs that it has been needed in.
+struct hair_gl_own {
+    hair_gl_pass pass;
+    GLuint       program;
+};
 
-// The host's own shading; without text ours. What has been needed of it so far.
 struct hair_gl_shader {
-    char*    label;
-    char*    text;
-    int      pixels; // shades pixels, not vertices
-    uint32_t made;   // as hair_gl.made was
-    GLuint   program[HAIR_GL_VARIANTS][HAIR_GL_DRAWN];
+    char*               label;
+    char*               text;
+    int                 pixels; // shades pixels, not vertices
+    uint32_t            made;   // as hair_gl.made was
+    struct hair_gl_own* own;
+    uint32_t            count, room;
 };
 
 struct hair_gl_ledger;
@@ -63,21 +79,20 @@ struct hair_gl_memory {
 };
 
 struct hair_gl {
-    hair_host              host;
-    hair_gl_state          promise;
-    char*                  glsl_dir; // NULL: the text built in
-    hair_cache             cache;    // get NULL: there is none
-    struct hair_gl_memory  memory;
-    int                    timings;
-    int                    software; // the driver is a software rasteriser
-    int                    subgroup; // work groups of 32 threads are one
-    uint32_t               made;     // how often all programs have been compiled
-    GLuint                 program[HAIR_GL_PASS_COUNT];
-    struct hair_gl_shader  ours; // variants of the same
-    struct hair_gl_timer   timer[HAIR_GL_PASS_COUNT];
-    struct hair_gl_ledger* ledger;       // of the instance that is at work; NULL: nobody asks
-    GLuint                 vertex_array; // empty: every vertex comes from its number
-    GLuint                 shadow_sampler;
+    hair_host                host;
+    hair_gl_state            promise;
+    char*                    glsl_dir; // NULL: the text built in
+    hair_cache               cache;    // get NULL: there is none
+    struct hair_gl_memory    memory;
+    int                      timings;
+    int                      software; // the driver is a software rasteriser
+    int                      subgroup; // work groups of 32 threads are one
+    uint32_t                 made;     // how often all programs have been compiled
+    struct hair_gl_program** program;  // what has been needed
+    uint32_t                 programs, room;
+    struct hair_gl_ledger*   ledger;       // of the instance that is at work; NULL: nobody asks
+    GLuint                   vertex_array; // empty: every vertex comes from its number
+    GLuint                   shadow_sampler;
     uint32_t max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
     int      lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
     struct hair_gl_saved saved;
@@ -102,19 +117,17 @@ hair_result hair_gl_compile(struct hair_gl* gl);
 // One program of stages such as "NAME=1 draw/patch.vert draw/patch.tesc", definitions first; `captured`: outputs for transform feedback, or NULL.
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
                          GLuint* out);
+// One of a pass, with the host's shading unless `shader` is NULL.
+hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
+                              GLuint* out);
 hair_result hair_gl_selftest(struct hair_gl* gl);
 
-// variant.c: a shader of the host's, whose members are zero; programs of it, or of gl->ours, made when first needed.
+// shading.c: a shader of the host's, whose members are zero; programs of it, made when first needed.
 hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
                                 struct hair_gl_shader* out);
 void        hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
-hair_result hair_gl_need_variant(struct hair_gl* gl, struct hair_gl_shader* shader, uint32_t bits,
-                                 hair_gl_pass pass, GLuint* out);
-// Its definitions.
-void hair_gl_write_variant(const struct hair_gl_shader* shader, uint32_t bits, char* out, size_t size);
-// program.c: compile and link one.
-hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
-                                 hair_gl_pass pass, GLuint* out);
+hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
+                             GLuint* out);
 
 // cache.c: a program as the driver compiled it before, kept by the host. `key`: of all that it is made of, twice hashed.
 struct hair_gl_key {
@@ -200,17 +213,26 @@ void     hair_gl_free_texture(struct hair_gl* gl, GLuint* texture); // of two or
 
 // pass.c ----------------------------------------------------------------------------------------------------
 
+// What has been needed of a pass; NULL: nothing yet.
+struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
+// The same, without a program where there was nothing. NULL: out of memory, which is told.
+struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
+void                    hair_gl_free_programs(struct hair_gl* gl);
+
+// The label of a pass's row, which is static; the whole one stands in what hair_gl_find gives.
+const char* hair_gl_row_label(hair_gl_pass pass);
+const char* hair_gl_row_stages(hair_gl_pass pass);
+// `pass` with those of `features` that its row may be compiled with.
+hair_gl_pass hair_gl_with(hair_gl_pass pass, uint32_t features);
+// `pass` in the smallest work groups that guides of up to `vertices` fit into.
+hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices);
+
 // Bracket the commands of a pass: its program, its debug group, its timer.
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass);
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 
 // Run a compute pass over `groups` work groups, numbered by hair_group() in GLSL, and make what it wrote visible.
-void        hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
-const char* hair_gl_pass_label(hair_gl_pass pass);
-
-// Of the four rows of a GUIDE_PASS, the first of which is `smallest`, that for guides of up to `vertices`.
-hair_gl_pass hair_gl_pass_for(hair_gl_pass smallest, uint32_t vertices);
-float        hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass);
-void         hair_gl_free_timers(struct hair_gl* gl);
+void  hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);
 
 #endif

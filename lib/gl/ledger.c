@@ -19,8 +19,8 @@ const char* hair_gl_work_label(hair_gl_work work)
 
 static hair_gl_work work_of(hair_gl_pass pass)
 {
-    const char* label = hair_gl_pass_label(pass);
-    if (strncmp(label, "draw/", 5) == 0 && strstr(label, "_depth_")) return HAIR_GL_WORK_DEPTH;
+    const char* label = hair_gl_row_label(pass);
+    if (pass & HAIR_GL_WITH(DEPTH)) return HAIR_GL_WORK_DEPTH;
     int work = 0;
     while (work < HAIR_GL_WORK_COLOR && strncmp(label, works[work].begins, strlen(works[work].begins)) != 0)
         ++work;

@@ -1,25 +1,132 @@
-// pass.c - running a pass: its program, a debug group with its name, its timer, its barrier.
+// pass.c - the rows of passes.inl, what has been needed of them, and running one: its program, a debug group with its name,
+// its timer, its barrier.
 #include "lib/gl/ledger.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
 
 #define MAX_GROUPS 65535 // In one dimension: what OpenGL promises.
 
+static const struct {
+    const char* label;
+    uint32_t    features;
+    const char* stages;
+} rows[] = {
+#define PASS(name, label, features, stages) {label, features, stages},
+#include "lib/gl/passes.inl"
+};
+
+static const char* const features[] = {
+#define FEATURE(name, define) #name,
+#include "lib/gl/passes.inl"
+};
+
+_Static_assert(HAIR_GL_ROWS <= 1 << HAIR_GL_ROW_BITS, "a row is a number of HAIR_GL_ROW_BITS");
+_Static_assert(HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURES <= 32, "every feature is a bit of a pass");
+
+static uint32_t row_of(hair_gl_pass pass)
+{
+    return pass & ((1u << HAIR_GL_ROW_BITS) - 1);
+}
+
+const char* hair_gl_row_label(hair_gl_pass pass)
+{
+    return rows[row_of(pass)].label;
+}
+
+const char* hair_gl_row_stages(hair_gl_pass pass)
+{
+    return rows[row_of(pass)].stages;
+}
+
+hair_gl_pass hair_gl_with(hair_gl_pass pass, uint32_t wanted)
+{
+    return pass | (wanted & rows[row_of(pass)].features);
+}
+
+hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices)
+{
+    int size = (vertices > 32) + (vertices > 64) + (vertices > 128);
+    return (pass & ~HAIR_GL_SIZES) | HAIR_GL_SIZE(size);
+}
+
+// "sim/direct_wind_curved_32"
+static void write_label(hair_gl_pass pass, char* out, size_t size)
+{
+    size_t used = (size_t)snprintf(out, size, "%s", hair_gl_row_label(pass));
+    for (uint32_t i = 0; i < HAIR_GL_FEATURES && used < size; ++i) {
+        if (!(pass >> (HAIR_GL_ROW_BITS + 2 + i) & 1)) continue;
+        size_t start = used + 1;
+        used += (size_t)snprintf(out + used, size - used, "_%s", features[i]);
+        for (size_t k = start; k < used && k < size; ++k) out[k] = (char)tolower(out[k]);
+    }
+    if (rows[row_of(pass)].features & HAIR_GL_SIZES && used < size)
+        snprintf(out + used, size - used, "_%u", 32u << ((pass & HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS));
+}
+
+struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass)
+{
+    for (uint32_t i = 0; i < gl->programs; ++i)
+        if (gl->program[i]->pass == pass) return gl->program[i];
+    return NULL;
+}
+
+static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
+{
+    if (gl->programs == gl->room) {
+        uint32_t                 room = gl->room ? 2 * gl->room : 16;
+        struct hair_gl_program** more = hair_alloc(&gl->host, room, sizeof *more);
+        if (!more) return NULL;
+        if (gl->programs) memcpy(more, gl->program, gl->programs * sizeof *more);
+        hair_free(&gl->host, gl->program);
+        gl->program = more;
+        gl->room    = room;
+    }
+    struct hair_gl_program* own = hair_alloc(&gl->host, 1, sizeof *own);
+    if (!own) return NULL;
+    own->pass = pass;
+    write_label(pass, own->label, sizeof own->label);
+    return gl->program[gl->programs++] = own;
+}
+
+struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass)
+{
+    struct hair_gl_program* known = hair_gl_find(gl, pass);
+    if (!known) known = add(gl, pass);
+    if (!known) hair_fail_memory(&gl->host, "a pass");
+    return known;
+}
+
+void hair_gl_free_programs(struct hair_gl* gl)
+{
+    for (uint32_t i = 0; i < gl->programs; ++i) {
+        struct hair_gl_program* own = gl->program[i];
+        if (own->program) gl->DeleteProgram(own->program);
+        if (own->timer.query[0][0]) gl->DeleteQueries(2 * HAIR_GL_TIMER_DEPTH, own->timer.query[0]);
+        hair_free(&gl->host, own);
+    }
+    hair_free(&gl->host, gl->program);
+}
+
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
-    gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, hair_gl_pass_label(pass));
-    struct hair_gl_timer* timer = &gl->timer[pass];
+    struct hair_gl_program* own   = hair_gl_find(gl, pass);
+    struct hair_gl_timer*   timer = &own->timer;
+    gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Time stamps rather than an elapsed-time query, of which the host may have one under way.
     if (gl->timings) {
         if (!timer->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_TIMER_DEPTH, timer->query[0]);
-        hair_gl_pass_ms(gl, pass); // Before the slot is used again.
+        hair_gl_pass_ms(gl, own); // Before the slot is used again.
         gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0], GL_TIMESTAMP);
     }
     hair_gl_ledger_begin(gl, pass);
-    gl->UseProgram(gl->program[pass]);
+    gl->UseProgram(own->program);
 }
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
-    struct hair_gl_timer* timer = &gl->timer[pass];
+    struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
     hair_gl_ledger_end(gl, pass);
     if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
     ++timer->begun;
@@ -29,17 +136,12 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
     if (groups == 0) return;
-    uint32_t rows = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
+    uint32_t count = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
     hair_gl_begin(gl, pass);
-    gl->DispatchCompute(rows > 1 ? MAX_GROUPS : groups, rows, 1);
+    gl->DispatchCompute(count > 1 ? MAX_GROUPS : groups, count, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                       GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
     hair_gl_end(gl, pass);
-}
-
-hair_gl_pass hair_gl_pass_for(hair_gl_pass smallest, uint32_t vertices)
-{
-    return smallest + (vertices > 32) + (vertices > 64) + (vertices > 128);
 }
 
 static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
@@ -57,20 +159,13 @@ static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
     }
 }
 
-float hair_gl_pass_ms(struct hair_gl* gl, hair_gl_pass pass)
+float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of)
 {
-    struct hair_gl_timer* timer = &gl->timer[pass];
-    if (!timer->query[0][0]) return 0;
+    if (!of->timer.query[0][0]) return 0;
     GLint buffer = 0; // While the host has one bound, results go there instead.
     gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
     if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
-    read_timer(gl, timer);
+    read_timer(gl, &of->timer);
     if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
-    return timer->ms;
-}
-
-void hair_gl_free_timers(struct hair_gl* gl)
-{
-    for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass)
-        if (gl->timer[pass].query[0][0]) gl->DeleteQueries(2 * HAIR_GL_TIMER_DEPTH, gl->timer[pass].query[0]);
+    return of->timer.ms;
 }

@@ -5,19 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-    const char* label;
-    const char* stages;
-} passes[] = {
-#define PASS(name, label, stages) {label, stages},
+static const char* const features[] = {
+#define FEATURE(name, define) define,
 #include "lib/gl/passes.inl"
-#undef PASS
 };
-
-const char* hair_gl_pass_label(hair_gl_pass pass)
-{
-    return passes[pass].label;
-}
 
 static GLenum stage_of(const char* name)
 {
@@ -69,9 +60,12 @@ static hair_result report(struct hair_gl* gl, const struct hair_gl_source* sourc
 #define MOST_STAGES 5
 struct recipe {
     struct hair_gl*              gl;
-    const struct hair_gl_shader* of;
+    const struct hair_gl_shader* shader; // NULL: none of the host's
+    hair_gl_pass                 pass;   // of which the features are defined
     const char*                  label;
     const char*                  captured; // NULL: nothing is
+    char                         prefix[1024];
+    size_t                       used;
     uint32_t                     stages;
     struct stage {
         char                  name[64];
@@ -96,41 +90,86 @@ static hair_result compile_stage(const struct recipe* recipe, const struct stage
     } else {
         char message[1024] = "";
         gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
-        result = report(gl, &stage->source, recipe->of->label, stage->name, message);
+        result =
+            report(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL, stage->name, message);
     }
     gl->DeleteShader(shader); // Lives on while it is attached.
     return result;
 }
 
-// Stages and definitions, as in "NAME=1 draw/patch.vert".
-static hair_result read_stages(struct recipe* recipe, uint32_t bits, const char* stages)
+static hair_result define(struct recipe* recipe, const char* name)
 {
-    struct hair_gl* gl          = recipe->gl;
-    char            prefix[512] = "";
-    size_t used = (size_t)snprintf(prefix, sizeof prefix, "#define HAIR_LINES_LEVEL %d\n", gl->lines_level);
-    if (gl->subgroup)
-        used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define HAIR_SUBGROUP 1\n");
-    hair_gl_write_variant(recipe->of, bits, prefix + used, sizeof prefix - used);
-    used += strlen(prefix + used);
-    for (const char* at = stages; *at && recipe->stages < MOST_STAGES;) {
+    size_t left = sizeof recipe->prefix - recipe->used;
+    int    size = snprintf(recipe->prefix + recipe->used, left, "#define %s\n", name);
+    if ((size_t)size >= left)
+        return hair_fail(&recipe->gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", recipe->label);
+    recipe->used += (size_t)size;
+    return HAIR_OK;
+}
+
+static int has_feature(const struct recipe* recipe, uint32_t feature)
+{
+    return (int)(recipe->pass >> (HAIR_GL_ROW_BITS + 2 + feature) & 1);
+}
+
+// What no stage says: what the driver is, the features of the pass, whose shading it is.
+static hair_result define_all(struct recipe* recipe)
+{
+    char threads[32];
+    snprintf(threads, sizeof threads, "HAIR_GUIDE_THREADS %u",
+             32u << ((recipe->pass & HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS));
+    hair_result result =
+        define(recipe, recipe->gl->lines_level ? "HAIR_LINES_LEVEL 1" : "HAIR_LINES_LEVEL 0");
+    if (!result && recipe->gl->subgroup) result = define(recipe, "HAIR_SUBGROUP 1");
+    if (!result) result = define(recipe, threads);
+    for (uint32_t i = 0; i < HAIR_GL_FEATURES && !result; ++i)
+        if (has_feature(recipe, i)) {
+            char name[64];
+            snprintf(name, sizeof name, "%s 1", features[i]);
+            result = define(recipe, name);
+        }
+    if (!result && recipe->shader)
+        result = define(recipe, recipe->shader->pixels ? "HAIR_OWN_PIXELS 1" : "HAIR_OWN_VERTICES 1");
+    return result;
+}
+
+// A stage's name after "NAME?", or NULL where the pass has not that feature; after "!NAME?", where it has.
+static const char* wanted_stage(const struct recipe* recipe, const char* word)
+{
+    const char* name = strchr(word, '?');
+    if (!name) return word;
+    int    without = *word == '!';
+    size_t length  = (size_t)(name - word) - (size_t)without;
+    for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
+        if (strlen(features[i]) == length && strncmp(features[i], word + without, length) == 0)
+            return has_feature(recipe, i) != without ? name + 1 : NULL;
+    return NULL;
+}
+
+// Definitions and stages, as in "NAME=1 draw/patch.vert".
+static hair_result read_stages(struct recipe* recipe, const char* stages)
+{
+    struct hair_gl* gl     = recipe->gl;
+    hair_result     result = define_all(recipe);
+    for (const char* at = stages; *at && recipe->stages < MOST_STAGES && !result;) {
         struct stage* stage  = &recipe->stage[recipe->stages];
         size_t        length = strcspn(at, " ");
-        snprintf(stage->name, sizeof stage->name, "%.*s", (int)length, at);
-        char* value = strchr(stage->name, '=');
+        char          word[64];
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        char*       value  = strchr(word, '=');
+        const char* wanted = value ? NULL : wanted_stage(recipe, word);
         if (value) {
             *value = ' ';
-            used += (size_t)snprintf(prefix + used, sizeof prefix - used, "#define %s\n", stage->name);
-            if (used >= sizeof prefix)
-                return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", recipe->label);
-        } else {
-            hair_result result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, prefix,
-                                                          recipe->of->text, &stage->source);
-            if (result) return result;
-            ++recipe->stages;
+            result = define(recipe, word);
+        } else if (wanted) {
+            snprintf(stage->name, sizeof stage->name, "%s", wanted);
+            result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, recipe->prefix,
+                                              recipe->shader ? recipe->shader->text : NULL, &stage->source);
+            if (!result) ++recipe->stages;
         }
         at += length + strspn(at + length, " ");
     }
-    return HAIR_OK;
+    return result;
 }
 
 static struct hair_gl_key key_of(const struct recipe* recipe)
@@ -161,7 +200,7 @@ static hair_result compile(const struct recipe* recipe, GLuint program)
     char message[512] = "";
     gl->GetProgramInfoLog(program, sizeof message, NULL, message);
     return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
-                     recipe->of->text ? recipe->of->label : "", recipe->of->text ? ": " : "", recipe->label,
+                     recipe->shader ? recipe->shader->label : "", recipe->shader ? ": " : "", recipe->label,
                      (int)strcspn(message, "\n"), message);
 }
 
@@ -186,16 +225,17 @@ static hair_result make(const struct recipe* recipe, GLuint* out)
     return HAIR_OK;
 }
 
-static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
+static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
                         const char* label, const char* stages, const char* captured, GLuint* out)
 {
     struct recipe* recipe = hair_alloc(&gl->host, 1, sizeof *recipe);
     if (!recipe) return hair_fail_memory(&gl->host, "a program's text");
     recipe->gl         = gl;
-    recipe->of         = shader;
+    recipe->shader     = shader;
+    recipe->pass       = pass;
     recipe->label      = label;
     recipe->captured   = captured;
-    hair_result result = read_stages(recipe, bits, stages);
+    hair_result result = read_stages(recipe, stages);
     if (!result) result = make(recipe, out);
     for (uint32_t i = 0; i < recipe->stages; ++i) hair_free(&gl->host, recipe->stage[i].source.text);
     hair_free(&gl->host, recipe);
@@ -205,38 +245,42 @@ static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader,
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
                          GLuint* out)
 {
-    return link(gl, &gl->ours, 0, label, stages, captured, out);
+    return link(gl, NULL, 0, label, stages, captured, out);
 }
 
-hair_result hair_gl_link_variant(struct hair_gl* gl, const struct hair_gl_shader* shader, uint32_t bits,
-                                 hair_gl_pass pass, GLuint* out)
+hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
+                              GLuint* out)
 {
-    return link(gl, shader, bits, passes[pass].label, passes[pass].stages, NULL, out);
+    const struct hair_gl_program* known  = hair_gl_know(gl, pass);
+    const char*                   stages = hair_gl_row_stages(pass);
+    if (!known) return HAIR_ERROR_MEMORY;
+    return link(gl, shader, pass, known->label, stages, strstr(stages, "sim/feedback.") ? "moved" : NULL,
+                out);
 }
 
-static hair_result compile_pass(struct hair_gl* gl, hair_gl_pass pass)
+static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint      program = 0;
-    const char* stages  = passes[pass].stages;
-    hair_result result  = hair_gl_link(gl, passes[pass].label, stages,
-                                      strstr(stages, "sim/feedback.") ? "moved" : NULL, &program);
+    hair_result result  = hair_gl_link_pass(gl, NULL, own->pass, &program);
     if (result) return result;
-    if (gl->program[pass]) gl->DeleteProgram(gl->program[pass]);
-    gl->program[pass] = program;
+    if (own->program) gl->DeleteProgram(own->program);
+    own->program = program;
     return HAIR_OK;
 }
 
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
 {
-    return gl->program[pass] ? HAIR_OK : compile_pass(gl, pass);
+    struct hair_gl_program* own = hair_gl_know(gl, pass);
+    if (!own) return HAIR_ERROR_MEMORY;
+    return own->program ? HAIR_OK : compile_again(gl, own);
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
 {
     hair_result first = HAIR_OK;
     ++gl->made;
-    for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) {
-        hair_result result = gl->program[pass] ? compile_pass(gl, (hair_gl_pass)pass) : HAIR_OK;
+    for (uint32_t i = 0; i < gl->programs; ++i) {
+        hair_result result = gl->program[i]->program ? compile_again(gl, gl->program[i]) : HAIR_OK;
         if (!first) first = result;
     }
     return first;

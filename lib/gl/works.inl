@@ -1,5 +1,5 @@
 // works.inl - what an instance does, in order: its name in code, its name in reports, and how the labels of its passes
-// begin. The first row that fits is a pass's own; depth is told from colour by its label.
+// begin. The first row that fits is a pass's own; what draws depth is compiled to.
 WORK(PLACE, "place", "sim/reset")
 WORK(TURN, "turn", "sim/turn")
 WORK(SCALP, "scalp", "sim/scalp")

@@ -6,7 +6,7 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
     smooth->gl                     = gl;
     smooth->vertices               = sim->guides * sim->smooth_vertices;
-    smooth->pass                   = hair_gl_pass_for(HAIR_GL_SMOOTH_32, sim->most_vertices);
+    smooth->pass                   = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->most_vertices);
     hair_result result             = hair_gl_need(gl, smooth->pass);
     for (int i = 0; i < 3 && !result; ++i) {
         result =
@@ -31,7 +31,7 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
     hair_gl_pass pass = smooth->pass;
-    if (hair_skin_is_on(sim)) pass = hair_gl_pass_for(HAIR_GL_SMOOTH_SKINNED_32, sim->most_vertices);
+    if (hair_skin_is_on(sim)) pass |= HAIR_GL_WITH(SKINNED);
     hair_gl_run(smooth->gl, pass, sim->guides);
     ++smooth->runs;
     smooth->done = 1;

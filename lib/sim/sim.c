@@ -46,25 +46,42 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// In the order of passes.inl: four sizes, what of solids there is, curved, by thread, in a crowd, tied, skinned, in wind.
+// Compiled with what there is, and with nothing else.
 static hair_gl_pass solver_pass(const struct hair_sim* sim)
 {
-    static const hair_gl_pass smallest[] = {
-        [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT_32,
-        [HAIR_SOLVER_ACCURATE] = HAIR_GL_ACCURATE_32,
-        [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW_32,
-        [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK_32,
+    static const hair_gl_pass row[] = {
+        [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT,
+        [HAIR_SOLVER_ACCURATE] = HAIR_GL_ACCURATE,
+        [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW,
+        [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
-    hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF_32 : smallest[sim->solver];
-    int          met  = (hair_sim_contacts(sim) > 0) + (hair_sim_contacts(sim) > sim->solids.capsules);
-    if (sim->contacts.any) met = sim->contacts.cells.bodies ? 4 : 3;
-    int kind = met + 5 * hair_sim_is_curved(sim) + 10 * is_by_thread(sim) + 20 * hair_crowd_is_on(sim) +
-               40 * (sim->ties.count > 0) + 80 * hair_skin_is_on(sim) + 160 * hair_wind_is_on(&sim->wind);
-    if (sim->rods)
-        pass += 4 * (hair_gl_pass)kind;
-    else if (hair_skin_is_on(sim))
-        pass = HAIR_GL_REDBLACK_SKINNED_32;
-    return hair_gl_pass_for(pass, sim->most_vertices);
+    int      any      = sim->contacts.any;
+    int      bodies   = any ? sim->contacts.cells.bodies > 0 : hair_sim_contacts(sim) > sim->solids.capsules;
+    uint32_t features = 0;
+    if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(SOLIDS);
+    if (any) features |= HAIR_GL_WITH(ANY);
+    if (bodies) features |= HAIR_GL_WITH(BODIES);
+    if (hair_sim_is_curved(sim)) features |= HAIR_GL_WITH(CURVED);
+    if (is_by_thread(sim)) features |= HAIR_GL_WITH(THREAD);
+    if (hair_crowd_is_on(sim)) features |= HAIR_GL_WITH(CROWD);
+    if (sim->ties.count > 0) features |= HAIR_GL_WITH(TIED);
+    if (hair_skin_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
+    if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
+    hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF : row[sim->solver];
+    return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
+}
+
+hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
+{
+    hair_gl_pass pass = HAIR_GL_RESET;
+    if (sim->rods) pass |= HAIR_GL_WITH(ROD);
+    if (skinned) pass |= HAIR_GL_WITH(SKINNED);
+    return pass;
+}
+
+static hair_gl_pass turn_pass(const struct hair_sim* sim)
+{
+    return sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
 }
 
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
@@ -106,7 +123,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_sim_make_rods(sim, groom);
     }
     sim->last_substep = sim->substep;
-    if (!result) result = hair_gl_need(gl, sim->rods ? HAIR_GL_RESET_ROD : HAIR_GL_RESET);
+    if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 0));
     if (!result && sim->feedback.wanted) result = hair_feedback_make(sim, groom->guides);
     return result ? result : hair_gl_need(gl, solver_pass(sim));
 }
@@ -386,14 +403,12 @@ static void settle(struct hair_sim* sim)
     hair_solids_settle(&sim->solids);
 }
 
-static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, hair_gl_pass rod_pass,
-                              const struct hair_step_params* params)
+static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
 {
     upload(sim, params);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
-    hair_gl_run(sim->gl, sim->rods ? rod_pass : pass,
-                (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(sim->gl, pass, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
 void hair_sim_reset(struct hair_sim* sim)
@@ -405,18 +420,14 @@ void hair_sim_reset(struct hair_sim* sim)
     for (int k = 0; k < 3; ++k) sim->air.moved[k] = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
-    if (hair_skin_is_on(sim)) {
-        hair_skin_reset(sim);
-        run_over_vertices(sim, HAIR_GL_RESET_SKINNED, HAIR_GL_RESET_ROD_SKINNED, &params);
-    } else {
-        run_over_vertices(sim, HAIR_GL_RESET, HAIR_GL_RESET_ROD, &params);
-    }
+    if (hair_skin_is_on(sim)) hair_skin_reset(sim);
+    run_over_vertices(sim, hair_sim_reset_pass(sim, hair_skin_is_on(sim)), &params);
 }
 
 // The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
-    hair_result result = hair_gl_need(sim->gl, sim->rods ? HAIR_GL_TURN_ROD : HAIR_GL_TURN);
+    hair_result result = hair_gl_need(sim->gl, turn_pass(sim));
     if (result) return result;
     struct hair_step_params params  = {0};
     struct hair_pose        from    = sim->head;
@@ -436,7 +447,7 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now    = vec4_of_quat(to->rotation);
-    run_over_vertices(sim, HAIR_GL_TURN, HAIR_GL_TURN_ROD, &params);
+    run_over_vertices(sim, turn_pass(sim), &params);
     hair_sim_show(sim);
     return HAIR_OK;
 }

@@ -71,9 +71,10 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt);
 void        hair_sim_pass_time(struct hair_sim* sim, double dt); // as if it had, at rest
 void        hair_sim_reset(struct hair_sim* sim);                // rest pose under sim->head
 // sim->head and the hair with it
-hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
-void        hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
-void        hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+hair_result  hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
+hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
+void         hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
+void         hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
 
 // contacts.c: solids where they may be anything. `find` is for a step of dt that has been done up to a share of it, which
 // may be below 0; `write` fills in what it found of the parameters.

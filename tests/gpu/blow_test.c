@@ -1,6 +1,7 @@
 // blow_test.c - hair in air that flows round solids: sheltered behind a ball, alike at any frame rate, and with nothing of
 // it left where it is off.
 #include "tests/support/living.h"
+#include "tests/support/passes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,7 +43,8 @@ static uint32_t runs(const struct hair_test_living* living)
 {
     const struct hair_gl* gl  = &living->test->context->gl;
     uint32_t              sum = 0;
-    for (int pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH; ++pass) sum += gl->timer[pass].begun;
+    for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH; ++pass)
+        sum += hair_test_runs(gl, pass);
     return sum;
 }
 

@@ -8,6 +8,7 @@
 #include "lib/api/api.h"
 #include "lib/collide/distance.h"
 #include "tests/support/handmade.h"
+#include "tests/support/passes.h"
 
 #define VOXEL 0.008f
 #define MANY 20
@@ -47,7 +48,7 @@ static void update(struct fixture* f, uint32_t count)
 
 static uint32_t runs(struct fixture* f)
 {
-    return f->test->context->gl.timer[HAIR_GL_VOXELISE].begun;
+    return hair_test_runs(&f->test->context->gl, HAIR_GL_VOXELISE);
 }
 
 // What voxels hold --------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // hits_test.c - followers that meet solids are found, and led round them, as the double-precision reference has it;
 // where nothing can be met, nothing is done.
+#include "tests/support/passes.h"
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -398,20 +399,12 @@ static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
     finish(&f);
 }
 
-static uint32_t runs_of(struct hair_test* test, const char* words)
-{
-    hair_timing timings[HAIR_GL_PASS_COUNT];
-    uint32_t    count = hair_timings(test->context, timings, HAIR_GL_PASS_COUNT), runs = 0;
-    for (uint32_t i = 0; i < count; ++i)
-        if (strstr(timings[i].pass, words)) runs += timings[i].runs;
-    return runs;
-}
-
 static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** state)
 {
     struct fixture f    = start(state, 0);
-    uint32_t       hits = runs_of(f.test, "hit"), repairs = runs_of(f.test, "repair");
-    float*         without = read_followers(&f, HAIR_COLLISION_NONE);
+    uint32_t       hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit"),
+             repairs    = hair_test_runs_of(&f.test->context->gl, "repair");
+    float* without      = read_followers(&f, HAIR_COLLISION_NONE);
     hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, 0));
     float* none = read_followers(&f, HAIR_COLLISION_PUSH);
     for (int i = 0; i < SOLIDS; ++i) f.solids[i].position[1] += 3;
@@ -420,8 +413,8 @@ static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** sta
     size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.segments + 1);
     assert_memory_equal(none, without, size);
     assert_memory_equal(far, without, size);
-    assert_int_equal(runs_of(f.test, "hit"), hits);
-    assert_int_equal(runs_of(f.test, "repair"), repairs);
+    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits);
+    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "repair"), repairs);
     assert_int_equal(f.hair->draw.hits.hit + f.hair->draw.hits.repair + f.hair->draw.hits.list, 0);
     free(far);
     free(none);
@@ -434,13 +427,13 @@ static void nothing_is_looked_for_twice(void** state)
 {
     struct fixture f = start(state, 0);
     free(read_followers(&f, HAIR_COLLISION_PUSH));
-    uint32_t count, hits = runs_of(f.test, "interpolate/hit");
+    uint32_t count, hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit");
     float    some[3];
     for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
-    assert_int_equal(runs_of(f.test, "interpolate/hit"), hits);
+    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits);
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));
     for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
-    assert_int_equal(runs_of(f.test, "interpolate/hit"), hits + 1);
+    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits + 1);
     finish(&f);
 }
 

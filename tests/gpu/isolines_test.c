@@ -3,7 +3,7 @@
 // Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits and repeats earlier strands in place
 // of later ones, without an error and with the right count of primitives. So what is drawn is captured and
 // looked at.
-#include "tests/support/support.h"
+#include "tests/support/passes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +12,7 @@
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
+#include "tests/support/passes.h"
 
 struct vertex {
     float x, y, z, radius; // strand_position of strand.tese
@@ -77,17 +78,21 @@ struct drawn {
     uint64_t       generated, draws;
 };
 
+#define FIBRES_LINES (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(LINES))
+#define HITS HAIR_GL_WITH(HITS)
+
 // What makes lines, and the same without pixels: without and with solids in reach.
 static const struct {
     hair_gl_pass pass[2];
     const char*  stages[2];
 } paths[] = {
-    [HAIR_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED_FIBRES_LINES, HAIR_GL_TESSELLATED_HITS_FIBRES_LINES},
+    [HAIR_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
+                                 HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
                                 {"draw/patch.vert draw/patch.tesc draw/strand.tese",
                                  "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
-    [HAIR_PATH_INSTANCED]    = {{HAIR_GL_INSTANCED_FIBRES_LINES, HAIR_GL_INSTANCED_HITS_FIBRES_LINES},
+    [HAIR_PATH_INSTANCED]    = {{HAIR_GL_INSTANCED | FIBRES_LINES, HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
                                 {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED_FIBRES_LINES, HAIR_GL_EXPANDED_FIBRES_LINES},
+    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED | FIBRES_LINES, HAIR_GL_EXPANDED | FIBRES_LINES},
                                 {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
 };
 
@@ -98,10 +103,11 @@ static const struct {
 static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_path path,
                              size_t most_segments, int hits, const hair_lod* lod)
 {
-    struct hair_gl* gl    = &test->context->gl;
-    hair_path       other = lod && path == HAIR_PATH_EXPANDED ? HAIR_PATH_INSTANCED : path;
-    hair_gl_pass    pass  = paths[other].pass[hits];
-    GLuint          whole = gl->program[pass], program = 0;
+    struct hair_gl*         gl    = &test->context->gl;
+    hair_path               other = lod && path == HAIR_PATH_EXPANDED ? HAIR_PATH_INSTANCED : path;
+    hair_gl_pass            pass  = paths[other].pass[hits];
+    struct hair_gl_program* own   = hair_gl_know(gl, pass);
+    GLuint                  whole = own->program, program = 0;
     hair_test_ok(test, hair_gl_link(gl, "capture", paths[other].stages[hits], "strand_position", &program));
     memset(&capture, 0, sizeof capture);
     capture.patches = gl->DrawArraysInstanced;
@@ -114,7 +120,7 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
 
     struct hair_test_frame frame; // Without one every draw fails.
     hair_test_frame_make(&frame, 4, 4, GL_RGBA8, 0);
-    gl->program[pass]             = program;
+    own->program                  = program;
     gl->DrawArraysInstanced       = capture_patches;
     gl->MultiDrawElementsIndirect = capture_listed;
     hair_view view                = hair_view_default();
@@ -122,7 +128,7 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
     view.lod                      = lod;
     view.primitive                = HAIR_LINES;
     hair_result result            = hair_draw(hair, &view);
-    gl->program[pass]             = whole;
+    own->program                  = whole;
     gl->DrawArraysInstanced       = capture.patches;
     gl->MultiDrawElementsIndirect = capture.listed;
     hair_test_frame_free(&frame);

@@ -1,5 +1,5 @@
 // layout_test.c - C and GLSL lay out every struct of glsl/shared.h alike, in storage and in uniform buffers.
-#include "tests/support/support.h"
+#include "tests/support/passes.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -472,6 +472,10 @@ static void no_member_is_forgotten(void** state)
     }
 }
 
+#define CURVED HAIR_GL_WITH(CURVED)
+#define SOLIDS HAIR_GL_WITH(SOLIDS)
+#define THREAD HAIR_GL_WITH(THREAD)
+
 // Of a storage buffer the size is that of one element.
 static void the_passes_have_the_buffers_of_shared_h(void** state)
 {
@@ -482,15 +486,14 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         const char*  block;
         GLint        binding, size;
     } uses[] = {
-#define STEP(pass)                                                                                           \
-    {HAIR_GL_##pass, GL_UNIFORM_BLOCK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)}
+#define STEP(pass) {pass, GL_UNIFORM_BLOCK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)}
 #define DRAW(pass)                                                                                           \
     {                                                                                                        \
-        HAIR_GL_##pass, GL_UNIFORM_BLOCK, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)     \
+        pass, GL_UNIFORM_BLOCK, "draw_buffer", HAIR_BIND_DRAW, sizeof(struct hair_draw_params)               \
     }
 #define STORAGE(pass, block, slot, size)                                                                     \
     {                                                                                                        \
-        HAIR_GL_##pass, GL_SHADER_STORAGE_BLOCK, block, HAIR_BIND_##slot, size                               \
+        pass, GL_SHADER_STORAGE_BLOCK, block, HAIR_BIND_##slot, size                                         \
     }
 #define ROD(pass)                                                                                            \
     STEP(pass), STORAGE(pass, "guide_buffer", GUIDE, sizeof(struct hair_guide)),                             \
@@ -500,47 +503,47 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(pass, "history_buffer", HISTORY, sizeof(struct hair_history)),                               \
         STORAGE(pass, "material_buffer", MATERIAL, sizeof(hair_vec4)),                                       \
         STORAGE(pass, "health_buffer", HEALTH, sizeof(hair_uint))
-        STEP(REDBLACK_32),
-        STEP(REDBLACK_64),
-        STEP(REDBLACK_128),
-        STEP(REDBLACK_256),
-        STORAGE(SCALP, "given_buffer", GIVEN, sizeof(float)),
-        STORAGE(SCALP, "scalp_buffer", SCALP, sizeof(float)),
-        STORAGE(RIDE, "ride_buffer", RIDE, sizeof(struct hair_ride)),
-        STORAGE(RIDE, "scalp_rest_buffer", SCALP_REST, sizeof(float)),
-        STORAGE(RIDE, "seat_buffer", SEAT, sizeof(struct hair_seat)),
-        STORAGE(SEAT, "follower_buffer", FOLLOWER, sizeof(struct hair_follower)),
-        STEP(SEAT),
-        ROD(DIRECT_CURVED_32),
-        ROD(DIRECT_CURVED_SOLIDS_256),
-        STORAGE(DIRECT_CURVED_32, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
-        ROD(DIRECT_THREAD_CURVED_64),
-        ROD(FOLLOW_CURVED_128),
-        STEP(ACCURATE_32),
-        STEP(ACCURATE_THREAD_SOLIDS_32),
-        STEP(SMOOTH_32),
-        STEP(SMOOTH_256),
+        STEP(HAIR_GL_REDBLACK),
+        STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(1)),
+        STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(2)),
+        STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(3)),
+        STORAGE(HAIR_GL_SCALP, "given_buffer", GIVEN, sizeof(float)),
+        STORAGE(HAIR_GL_SCALP, "scalp_buffer", SCALP, sizeof(float)),
+        STORAGE(HAIR_GL_RIDE, "ride_buffer", RIDE, sizeof(struct hair_ride)),
+        STORAGE(HAIR_GL_RIDE, "scalp_rest_buffer", SCALP_REST, sizeof(float)),
+        STORAGE(HAIR_GL_RIDE, "seat_buffer", SEAT, sizeof(struct hair_seat)),
+        STORAGE(HAIR_GL_SEAT, "follower_buffer", FOLLOWER, sizeof(struct hair_follower)),
+        STEP(HAIR_GL_SEAT),
+        ROD(HAIR_GL_DIRECT | CURVED),
+        ROD(HAIR_GL_DIRECT | CURVED | SOLIDS | HAIR_GL_SIZE(3)),
+        STORAGE(HAIR_GL_DIRECT | CURVED, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
+        ROD(HAIR_GL_DIRECT | THREAD | CURVED | HAIR_GL_SIZE(1)),
+        ROD(HAIR_GL_FOLLOW | CURVED | HAIR_GL_SIZE(2)),
+        STEP(HAIR_GL_ACCURATE),
+        STEP(HAIR_GL_ACCURATE | THREAD | SOLIDS),
+        STEP(HAIR_GL_SMOOTH),
+        STEP(HAIR_GL_SMOOTH | HAIR_GL_SIZE(3)),
         {HAIR_GL_VOXELISE, GL_UNIFORM_BLOCK, "field_buffer", HAIR_BIND_FIELD,
          sizeof(struct hair_field_params)},
-        STORAGE(VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
-        STORAGE(VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
-        DRAW(EXPAND),
-        STORAGE(EXPAND, "expanded_buffer", EXPANDED, sizeof(hair_vec4)),
-        STORAGE(EXPAND, "expanded_tangent_buffer", EXPANDED_TANGENT, 2 * sizeof(hair_uint)),
-        DRAW(COUNT),
-        STORAGE(COUNT, "start_buffer", START, sizeof(hair_uint)),
-        STORAGE(COUNT, "command_buffer", COMMAND, sizeof(struct hair_draw_command)),
-        STORAGE(LIST, "start_buffer", START, sizeof(hair_uint)),
-        STORAGE(LIST, "strand_buffer", STRAND, sizeof(struct hair_strand)),
-        DRAW(INSTANCED_FIBRES_RIBBONS),
-        DRAW(EXPANDED_FIBRES_RIBBONS),
-        DRAW(TESSELLATED_FIBRES_RIBBONS)};
+        STORAGE(HAIR_GL_VOXELISE, "brick_buffer", BRICK, sizeof(struct hair_field_brick)),
+        STORAGE(HAIR_GL_VOXELISE, "member_buffer", MEMBER, sizeof(hair_uint)),
+        DRAW(HAIR_GL_EXPAND),
+        STORAGE(HAIR_GL_EXPAND, "expanded_buffer", EXPANDED, sizeof(hair_vec4)),
+        STORAGE(HAIR_GL_EXPAND, "expanded_tangent_buffer", EXPANDED_TANGENT, 2 * sizeof(hair_uint)),
+        DRAW(HAIR_GL_COUNT),
+        STORAGE(HAIR_GL_COUNT, "start_buffer", START, sizeof(hair_uint)),
+        STORAGE(HAIR_GL_COUNT, "command_buffer", COMMAND, sizeof(struct hair_draw_command)),
+        STORAGE(HAIR_GL_LIST, "start_buffer", START, sizeof(hair_uint)),
+        STORAGE(HAIR_GL_LIST, "strand_buffer", STRAND, sizeof(struct hair_strand)),
+        DRAW(HAIR_GL_INSTANCED | HAIR_GL_WITH(FIBRES)),
+        DRAW(HAIR_GL_EXPANDED | HAIR_GL_WITH(FIBRES)),
+        DRAW(HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES))};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));
-        GLuint program = test->context->gl.program[uses[i].pass];
+        GLuint program = hair_test_program(&test->context->gl, uses[i].pass);
         GLuint block   = glGetProgramResourceIndex(program, uses[i].interface, uses[i].block);
         if (block == GL_INVALID_INDEX)
-            fail_msg("%s has no %s", hair_gl_pass_label(uses[i].pass), uses[i].block);
+            fail_msg("%s has no %s", hair_gl_row_label(uses[i].pass), uses[i].block);
         assert_int_equal(ask(program, uses[i].interface, block, GL_BUFFER_BINDING), uses[i].binding);
         // Some drivers round up to a vec4.
         assert_in_range(ask(program, uses[i].interface, block, GL_BUFFER_DATA_SIZE), uses[i].size,
@@ -552,7 +555,7 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 {
     GLint size[3] = {0};
     hair_test_ok(test, hair_gl_need(&test->context->gl, pass));
-    glGetProgramiv(test->context->gl.program[pass], GL_COMPUTE_WORK_GROUP_SIZE, size);
+    glGetProgramiv(hair_test_program(&test->context->gl, pass), GL_COMPUTE_WORK_GROUP_SIZE, size);
     assert_int_equal(size[1] * size[2], 1);
     return size[0];
 }
@@ -560,26 +563,26 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 // A guide's work group has a thread for each of its vertices, in the smallest group of the four that has.
 static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 {
-    static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK_32,      HAIR_GL_SMOOTH_32,
-                                          HAIR_GL_DIRECT_32,        HAIR_GL_ACCURATE_CURVED_32,
-                                          HAIR_GL_FOLLOW_SOLIDS_32, HAIR_GL_DIRECT_CURVED_SOLIDS_32};
+    static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,        HAIR_GL_SMOOTH,
+                                          HAIR_GL_DIRECT,          HAIR_GL_ACCURATE | CURVED,
+                                          HAIR_GL_FOLLOW | SOLIDS, HAIR_GL_DIRECT | CURVED | SOLIDS};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (uint32_t vertices = 2; vertices <= HAIR_MAX_GUIDE_VERTICES; ++vertices) {
             hair_gl_pass pass = hair_gl_pass_for(groups[i], vertices);
             assert_in_range(threads_of(*state, pass), vertices, vertices <= 32 ? 32 : 2 * vertices - 2);
-            assert_in_range(pass, groups[i], groups[i] + 3);
+            assert_int_equal(pass & ~HAIR_GL_SIZES, groups[i]);
         }
 }
 
 // As many in a work group as sim.c counts on, whatever their length.
 static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
 {
-    static const hair_gl_pass groups[] = {HAIR_GL_DIRECT_THREAD_32, HAIR_GL_ACCURATE_THREAD_CURVED_32,
-                                          HAIR_GL_FOLLOW_THREAD_SOLIDS_32,
-                                          HAIR_GL_DIRECT_THREAD_CURVED_SOLIDS_32};
+    static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD | CURVED,
+                                          HAIR_GL_FOLLOW | THREAD | SOLIDS,
+                                          HAIR_GL_DIRECT | THREAD | CURVED | SOLIDS};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (int size = 0; size < 4; ++size)
-            assert_int_equal(threads_of(*state, groups[i] + (hair_gl_pass)size), 8);
+            assert_int_equal(threads_of(*state, groups[i] | HAIR_GL_SIZE(size)), 8);
 }
 
 int main(void)

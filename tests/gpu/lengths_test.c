@@ -1,4 +1,5 @@
 // lengths_test.c - from strands to pixels with guides of any number of vertices, as an application asks for it.
+#include "tests/support/passes.h"
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -113,23 +114,27 @@ static void followers_at_rest_are_where_they_were_fitted(void** state)
 }
 
 // Of accurate also in the programs for stiff guides, which the shorter ones here are.
-static uint32_t runs_of(hair_context* context, const hair_timing* timings, hair_gl_pass pass, int* there)
+static uint32_t runs_of(const struct hair_gl* gl, hair_gl_pass pass, int* there)
 {
-    hair_gl_pass stiff = pass + (HAIR_GL_ACCURATE_STIFF_32 - HAIR_GL_ACCURATE_32);
-    int          two   = pass >= HAIR_GL_ACCURATE_32 && pass < HAIR_GL_ACCURATE_STIFF_32;
-    *there             = context->gl.program[pass] || (two && context->gl.program[stiff]);
-    return timings[pass].runs + (two ? timings[stiff].runs : 0);
+    hair_gl_pass stiff = pass + (HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE);
+    int          two   = hair_gl_row_label(pass) == hair_gl_row_label(HAIR_GL_ACCURATE);
+    *there             = hair_test_program(gl, pass) || (two && hair_test_program(gl, stiff));
+    return hair_test_runs(gl, pass) + (two ? hair_test_runs(gl, stiff) : 0);
 }
+
+#define CURVED HAIR_GL_WITH(CURVED)
+#define THREAD HAIR_GL_WITH(THREAD)
 
 // Of the solver and of smoothing only the size that the longest guide needs is compiled and run.
 static void check_sizes(void** state, hair_context* context, int way)
 {
     static const hair_gl_pass solvers[HAIR_TEST_WAYS] = {
-        HAIR_GL_DIRECT_CURVED_32,   HAIR_GL_DIRECT_THREAD_CURVED_32,
-        HAIR_GL_ACCURATE_CURVED_32, HAIR_GL_ACCURATE_THREAD_CURVED_32,
-        HAIR_GL_FOLLOW_CURVED_32,   HAIR_GL_FOLLOW_THREAD_CURVED_32,
-        HAIR_GL_REDBLACK_32};
-    uint32_t runs[4] = {0}, smoothed[4] = {0};
+        HAIR_GL_DIRECT | CURVED,   HAIR_GL_DIRECT | THREAD | CURVED,
+        HAIR_GL_ACCURATE | CURVED, HAIR_GL_ACCURATE | THREAD | CURVED,
+        HAIR_GL_FOLLOW | CURVED,   HAIR_GL_FOLLOW | THREAD | CURVED,
+        HAIR_GL_REDBLACK};
+    const struct hair_gl* gl      = &context->gl;
+    uint32_t              runs[4] = {0}, smoothed[4] = {0};
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start_in(state, context, lengths[i], way);
         for (int k = 0; k < 5; ++k) hair_test_ok(f.test, hair_step(f.hair, (float)f.hair->sim.substep));
@@ -137,17 +142,15 @@ static void check_sizes(void** state, hair_context* context, int way)
         read(&f, HAIR_READ_SMOOTH, &smooth);
         free(smooth);
         glFinish();
-        hair_timing timings[HAIR_GL_PASS_COUNT];
-        hair_timings(context, timings, HAIR_GL_PASS_COUNT);
         uint32_t own = (lengths[i] > 32) + (lengths[i] > 64) + (lengths[i] > 128);
         runs[own] += 5;
         smoothed[own] += 1;
         for (uint32_t size = 0; size < 4; ++size) {
             int there;
-            assert_int_equal(runs_of(context, timings, solvers[way] + size, &there), runs[size]);
-            assert_int_equal(timings[HAIR_GL_SMOOTH_32 + size].runs, smoothed[size]);
+            assert_int_equal(runs_of(gl, solvers[way] | HAIR_GL_SIZE(size), &there), runs[size]);
+            assert_int_equal(hair_test_runs(gl, HAIR_GL_SMOOTH | HAIR_GL_SIZE(size)), smoothed[size]);
             assert_int_equal(there, size <= own);
-            assert_int_equal(context->gl.program[HAIR_GL_SMOOTH_32 + size] != 0, size <= own);
+            assert_int_equal(hair_test_program(gl, HAIR_GL_SMOOTH | HAIR_GL_SIZE(size)) != 0, size <= own);
         }
         finish(&f);
     }

@@ -1,4 +1,5 @@
 // look_test.c - what a look asks of followers is what they do: shares, radii and lengths; what is off changes no bit.
+#include "tests/support/passes.h"
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -191,19 +192,11 @@ static void modes_are_the_ends_of_the_mixture(void** state)
     finish(&f);
 }
 
-static uint32_t styled_runs(const struct hair_gl* gl)
-{
-    uint32_t runs = 0;
-    for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass)
-        if (strstr(hair_gl_pass_label((hair_gl_pass)pass), "_styled")) runs += gl->timer[pass].begun;
-    return runs;
-}
-
 static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** state)
 {
     struct fixture f    = start(state);
     hair_look      look = plain_look(), off = look;
-    uint32_t       styled = styled_runs(&f.test->context->gl);
+    uint32_t       styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t         size   = 3 * sizeof(float) * FOLLOWERS * EACH;
     float*         plain  = read_with(&f, &look);
     off.tip_stray = off.stray = hair_curve_line(0.1f, 0.2f); // Of no strand.
@@ -221,12 +214,12 @@ static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** sta
     free(same);
     same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
-    assert_int_equal(styled_runs(&f.test->context->gl), styled);
+    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "_styled"), styled);
     off.curl_profile = hair_curve_line(0, 0.1f);
     free(same);
     same = read_with(&f, &off);
     assert_memory_not_equal(plain, same, size);
-    assert_true(styled_runs(&f.test->context->gl) == styled + 1);
+    assert_true(hair_test_runs_of(&f.test->context->gl, "_styled") == styled + 1);
     free(plain), free(same);
     finish(&f);
 }

@@ -1,6 +1,7 @@
 // need_test.c - programs, buffers and textures: made when they are first needed, kept by the host, freed when nothing needs
 // them any more, and no more of them than a limit lets.
 #define _POSIX_C_SOURCE 200809L
+#include "tests/support/passes.h"
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -132,7 +133,7 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
 static uint32_t count_programs(const hair_context* context)
 {
     uint32_t count = 0;
-    for (int pass = 0; pass < HAIR_GL_PASS_COUNT; ++pass) count += context->gl.program[pass] != 0;
+    for (uint32_t i = 0; i < context->gl.programs; ++i) count += context->gl.program[i]->program != 0;
     return count;
 }
 

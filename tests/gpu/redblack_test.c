@@ -1,4 +1,5 @@
 // redblack_test.c - the solver on the GPU moves every guide as the double-precision reference does.
+#include "tests/support/passes.h"
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -147,7 +148,7 @@ static void run_pass(struct fixture* f, hair_gl_pass pass)
 
 static void run(struct fixture* f)
 {
-    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK_32, f->groom->most_vertices));
+    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK, f->groom->most_vertices));
 }
 
 static double largest(const hair_vec4* a, const double* b)
@@ -395,7 +396,7 @@ static void guides_move_the_same_in_a_larger_work_group(void** state)
     for (int larger = 0; larger < 4; ++larger) {
         f.random = 12345;
         scatter(&f, 0.002f, 0.001f);
-        run_pass(&f, HAIR_GL_REDBLACK_32 + larger);
+        run_pass(&f, HAIR_GL_REDBLACK | HAIR_GL_SIZE(larger));
         if (!larger) memcpy(smallest, f.state, sizeof smallest);
         assert_memory_equal(smallest, f.state, f.groom->info.guide_vertex_count * sizeof *smallest);
     }

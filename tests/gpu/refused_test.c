@@ -170,13 +170,13 @@ struct refusal {
 static void torture(struct user* user, hair_result (*call)(struct user*), struct refusal of, uint32_t stride)
 {
     struct hair_test* test    = user->test;
-    uint32_t          objects = count_objects(), blocks = test->host.blocks;
+    uint32_t          objects = count_objects(), blocks = hair_test_blocks(test);
     for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
         *of.done           = 0;
         *of.refuse         = n;
         hair_result result = call(user);
         *of.refuse         = 0;
-        assert_int_equal(test->host.blocks, blocks);
+        assert_int_equal(hair_test_blocks(test), blocks);
         assert_int_equal(count_objects(), objects);
         if (*of.done < n) {
             hair_test_ok(test, result);
@@ -189,7 +189,7 @@ static void torture(struct user* user, hair_result (*call)(struct user*), struct
         assert_true(hair_test_forgive(test) >= 1);
         if (of.done != &creations) assert_non_null(strstr(test->host.sentence, "out of memory for "));
         if (n % 32 == 1) hair_test_ok(test, call(user));
-        assert_int_equal(test->host.blocks, blocks);
+        assert_int_equal(hair_test_blocks(test), blocks);
     }
     fail_msg("there is no end of %s", of.what);
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/api/api.h"
+
 int hair_test_skips(void)
 {
     hair_egl* egl = NULL;
@@ -56,12 +58,18 @@ int hair_test_finish(void** state)
     return blocks ? -1 : 0;
 }
 
+uint32_t hair_test_blocks(const struct hair_test* test)
+{
+    const struct hair_gl* gl = &test->context->gl;
+    return test->host.blocks - gl->programs - (gl->program != NULL);
+}
+
 int hair_test_begin(void** state)
 {
     struct hair_test* test = *state;
     hair_egl_make_current(test->egl);
     while (glGetError()) {}
-    test->blocks         = test->host.blocks;
+    test->blocks         = hair_test_blocks(test);
     test->host.errors    = 0;
     test->host.refuse    = 0;
     *test->host.sentence = 0;
@@ -74,9 +82,9 @@ int hair_test_end(void** state)
     GLenum            error = glGetError();
     if (error) fprintf(stderr, "OpenGL error 0x%x\n", error);
     if (test->host.errors) fprintf(stderr, "the log has: %s\n", test->host.sentence);
-    if (test->host.blocks != test->blocks)
-        fprintf(stderr, "%d blocks of memory were not freed\n", (int)(test->host.blocks - test->blocks));
-    return error || test->host.errors || test->host.blocks != test->blocks ? -1 : 0;
+    int left = (int)(hair_test_blocks(test) - test->blocks);
+    if (left) fprintf(stderr, "%d blocks of memory were not freed\n", left);
+    return error || test->host.errors || left ? -1 : 0;
 }
 
 uint32_t hair_test_forgive(struct hair_test* test)

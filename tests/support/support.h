@@ -18,7 +18,7 @@ struct hair_test {
     struct hair_test_host host;
     hair_egl*             egl;
     hair_context*         context;
-    uint32_t              blocks; // that host has lent when a test begins
+    uint32_t              blocks; // hair_test_blocks when a test begins
 };
 
 // Whether there is no OpenGL and that is no failure. With HAIR_TEST=required, as `make test` sets it, the
@@ -33,6 +33,8 @@ int hair_test_finish(void** state); // fails when memory is left
 #define HAIR_TEST(function) cmocka_unit_test_setup_teardown(function, hair_test_begin, hair_test_end)
 int hair_test_begin(void** state);
 int hair_test_end(void** state);
+// That the host has lent, but for what the context keeps: passes that have been needed.
+uint32_t hair_test_blocks(const struct hair_test* test);
 
 // The errors so far were meant. Returns how many there were; the last one's sentence stays in host.sentence.
 uint32_t hair_test_forgive(struct hair_test* test);

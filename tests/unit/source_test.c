@@ -139,9 +139,8 @@ static void refused_memory_leaks_nothing(void** state)
 // The passes ---------------------------------------------------------------------------------------------
 
 static const char* const stages[] = {
-#define PASS(name, label, stages) stages,
+#define PASS(name, label, features, stages) stages,
 #include "lib/gl/passes.inl"
-#undef PASS
 };
 
 // Line `number` (from 1) of glsl/`name`.
@@ -187,7 +186,8 @@ static void for_every_shader(void (*check)(const char* name))
         char list[256];
         snprintf(list, sizeof list, "%s", stages[i]);
         for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
-            if (strchr(name, '=')) continue; // a definition
+            if (strchr(name, '=')) continue;                     // a definition
+            if (strchr(name, '?')) name = strchr(name, '?') + 1; // what it is there with
             size_t k = 0;
             while (k < count && strcmp(seen[k], name)) ++k;
             if (k < count) continue;
