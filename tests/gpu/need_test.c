@@ -384,7 +384,11 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
             assert_int_equal(memory_of(&f).bytes, least);
             look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         }
-        assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+        // Shares of segments that are as far away as each other are blended in any order.
+        double most = 0;
+        for (int i = 0; i < 4 * SIZE * SIZE; ++i)
+            most = fmax(most, fabs((double)pixels[0][i] - (double)pixels[1][i]));
+        assert_true(most <= (kind == 1 ? 0.05 : 0));
     }
     finish(&f);
 }
