@@ -885,6 +885,13 @@ typedef struct hair_view {
 } hair_view;
 HAIR_DESC(hair_view)
 
+/// Have all programs compiled that hair_step and a hair_draw of `view` would run with what is set now, so that no frame waits for
+/// them: call it while something else is shown until *ready is 1, also before solids, wind or another look are first set on hair
+/// that is on the screen. Drivers with KHR_parallel_shader_compile compile all at once beside what you do, and no call
+/// waits; others compile one program a call, as a shader of yours is anywhere. view NULL: only what steps run. On
+/// failure *ready is as it was.
+HAIR_API hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* ready);
+
 /// Draw into the bound framebuffer and viewport, with the depth function that is set. An incomplete framebuffer
 /// is HAIR_ERROR_OPENGL.
 HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);

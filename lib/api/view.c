@@ -206,6 +206,42 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     return result;
 }
 
+static hair_result need_programs(hair_instance* hair, const hair_view* view)
+{
+    struct hair_gl* gl     = &hair->context->gl;
+    uint32_t        solids = hair->sim.solids.now.count;
+    int             shows = view->pass == HAIR_PASS_SOLIDS, guides = view->pass == HAIR_PASS_GUIDES;
+    hair_result     result = HAIR_OK;
+    if (solids && !guides && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
+    if (!result && hair->sim.solids.forms && !guides) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
+    if (!result && guides) result = hair_gl_need(gl, HAIR_GL_GUIDES);
+    if (!result && shows) result = hair_gl_need(gl, HAIR_GL_SOLIDS);
+    if (!result && shows && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
+    if (result || shows || guides) return result;
+    return hair_draw_need_programs(&hair->draw, view,
+                                   view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL,
+                                   solids > 0);
+}
+
+hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* ready)
+{
+    if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
+    struct hair_gl* gl = &hair->context->gl;
+    hair_view       own;
+    struct loan     loan;
+    hair_result     result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
+    if (!result) result = hair_check_current(hair->context);
+    if (result) return result;
+    hair_gl_enter(gl);
+    hair_gl_begin_ahead(gl);
+    result = hair_sim_need_programs(&hair->sim);
+    if (!result && view) result = need_programs(hair, &own);
+    uint32_t unready = hair_gl_end_ahead(gl);
+    hair_gl_leave(gl);
+    if (!result) *ready = unready == 0;
+    return result;
+}
+
 // `from`: xyz from the head's origin in the first three floats of every `stride`.
 static void copy_to_world(const float* from, size_t stride, uint32_t count, const struct hair_pose* head,
                           float* out)

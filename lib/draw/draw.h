@@ -132,6 +132,10 @@ void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groo
 int  hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
                               const hair_view* view);
 
+// All programs that drawing so runs, also once followers have met solids where there `may_meet` any.
+hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
+                                    struct hair_gl_shader* shader, int may_meet);
+
 // Draw as `view` asks, with the head's origin at `head`. `view` has been checked. shader: of the host; NULL: ours.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader);

@@ -48,10 +48,17 @@ struct hair_gl_saved {
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
+// Of all that a program is made of, twice hashed.
+struct hair_gl_key {
+    uint64_t hash, check;
+};
+
 // What has been needed of a pass.
 struct hair_gl_program {
     hair_gl_pass         pass;
     GLuint               program; // 0: none of ours
+    GLuint               begun;   // that the driver compiles beside what we do; 0: none
+    struct hair_gl_key   key;     // of what is begun, for the host's cache
     struct hair_gl_timer timer;
     char                 label[128];
 };
@@ -88,6 +95,9 @@ struct hair_gl {
     int                      software; // the driver is a software rasteriser
     int                      subgroup; // work groups of 32 threads are one
     uint32_t                 made;     // how often all programs have been compiled
+    int                      ahead;    // programs that are needed are begun, not waited for
+    uint32_t                 unready;  // of those
+    int                      parallel; // the driver compiles in threads of its own
     struct hair_gl_program** program;  // what has been needed
     uint32_t                 programs, room;
     struct hair_gl_ledger*   ledger;       // of the instance that is at work; NULL: nobody asks
@@ -111,6 +121,11 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 // The program of a pass, compiled when first needed. Whoever runs one has needed it.
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
 
+// From one to the other hair_gl_need has programs begun that are not there, all at once where the driver compiles beside what we
+// do, else one. The second returns how many are not ready.
+void     hair_gl_begin_ahead(struct hair_gl* gl);
+uint32_t hair_gl_end_ahead(struct hair_gl* gl);
+
 // Compile all that have been needed again; those that fail keep the program they had, and the first failure is returned.
 hair_result hair_gl_compile(struct hair_gl* gl);
 
@@ -129,10 +144,7 @@ void        hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shade
 hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
                              GLuint* out);
 
-// cache.c: a program as the driver compiled it before, kept by the host. `key`: of all that it is made of, twice hashed.
-struct hair_gl_key {
-    uint64_t hash, check;
-};
+// cache.c: a program as the driver compiled it before, kept by the host.
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
 void               hair_gl_key_add(struct hair_gl_key* key, const char* text); // NULL: nothing
 // 1: it was there, and `program` is what it was. 0: it is to be compiled, as if nothing had been.

@@ -103,6 +103,7 @@ void hair_gl_free_programs(struct hair_gl* gl)
     for (uint32_t i = 0; i < gl->programs; ++i) {
         struct hair_gl_program* own = gl->program[i];
         if (own->program) gl->DeleteProgram(own->program);
+        if (own->begun) gl->DeleteProgram(own->begun);
         if (own->timer.query[0][0]) gl->DeleteQueries(2 * HAIR_GL_TIMER_DEPTH, own->timer.query[0]);
         hair_free(&gl->host, own);
     }

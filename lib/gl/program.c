@@ -64,37 +64,40 @@ struct recipe {
     hair_gl_pass                 pass;   // of which the features are defined
     const char*                  label;
     const char*                  captured; // NULL: nothing is
+    hair_result                  result;   // of reading it
     char                         prefix[1024];
     size_t                       used;
     uint32_t                     stages;
     struct stage {
         char                  name[64];
         struct hair_gl_source source;
+        GLuint                shader;
     } stage[MOST_STAGES];
 };
 
-static hair_result compile_stage(const struct recipe* recipe, const struct stage* stage, GLuint program)
+static hair_result start_stage(const struct recipe* recipe, struct stage* stage, GLuint program)
 {
-    struct hair_gl* gl     = recipe->gl;
-    hair_result     result = HAIR_OK;
-    GLuint          shader = gl->CreateShader(stage_of(stage->name));
-    GLint           done   = 0;
-    if (!shader)
+    struct hair_gl* gl = recipe->gl;
+    stage->shader      = gl->CreateShader(stage_of(stage->name));
+    if (!stage->shader)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", stage->name);
     const char* text = stage->source.text;
-    gl->ShaderSource(shader, 1, &text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
-    if (done) {
-        gl->AttachShader(program, shader);
-    } else {
-        char message[1024] = "";
-        gl->GetShaderInfoLog(shader, sizeof message, NULL, message);
-        result =
-            report(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL, stage->name, message);
-    }
-    gl->DeleteShader(shader); // Lives on while it is attached.
-    return result;
+    gl->ShaderSource(stage->shader, 1, &text, NULL);
+    gl->CompileShader(stage->shader);
+    gl->AttachShader(program, stage->shader);
+    gl->DeleteShader(stage->shader); // Lives on while it is attached.
+    return HAIR_OK;
+}
+
+static hair_result check_stage(const struct recipe* recipe, const struct stage* stage)
+{
+    struct hair_gl* gl            = recipe->gl;
+    GLint           done          = 0;
+    char            message[1024] = "";
+    gl->GetShaderiv(stage->shader, GL_COMPILE_STATUS, &done);
+    if (done) return HAIR_OK;
+    gl->GetShaderInfoLog(stage->shader, sizeof message, NULL, message);
+    return report(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL, stage->name, message);
 }
 
 static hair_result define(struct recipe* recipe, const char* name)
@@ -183,20 +186,36 @@ static struct hair_gl_key key_of(const struct recipe* recipe)
     return key;
 }
 
-static hair_result compile(const struct recipe* recipe, GLuint program)
+// The driver is given all that it needs, and asked for nothing: it may compile beside what we do.
+static hair_result start(struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl     = recipe->gl;
     hair_result     result = HAIR_OK;
-    GLint           done   = 0;
     for (uint32_t i = 0; i < recipe->stages && !result; ++i)
-        result = compile_stage(recipe, &recipe->stage[i], program);
+        result = start_stage(recipe, &recipe->stage[i], program);
     if (result) return result;
     if (recipe->captured)
         gl->TransformFeedbackVaryings(program, 1, &recipe->captured, GL_INTERLEAVED_ATTRIBS);
     if (gl->cache.put) gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     gl->LinkProgram(program);
+    return HAIR_OK;
+}
+
+static int is_linked(const struct hair_gl* gl, GLuint program)
+{
+    GLint done = 0;
     gl->GetProgramiv(program, GL_LINK_STATUS, &done);
-    if (done) return HAIR_OK;
+    return done != 0;
+}
+
+// Of a program that is not linked.
+static hair_result tell_why(const struct recipe* recipe, GLuint program)
+{
+    struct hair_gl* gl = recipe->gl;
+    for (uint32_t i = 0; i < recipe->stages; ++i) {
+        hair_result result = check_stage(recipe, &recipe->stage[i]);
+        if (result) return result;
+    }
     char message[512] = "";
     gl->GetProgramInfoLog(program, sizeof message, NULL, message);
     return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
@@ -204,59 +223,90 @@ static hair_result compile(const struct recipe* recipe, GLuint program)
                      (int)strcspn(message, "\n"), message);
 }
 
-static hair_result make(const struct recipe* recipe, GLuint* out)
+// A program that is started, or as the host's cache has it: *kept.
+static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* kept, GLuint* out)
+{
+    struct hair_gl* gl      = recipe->gl;
+    GLuint          program = gl->CreateProgram();
+    if (!program)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
+    gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
+    if (gl->cache.get) *key = key_of(recipe);
+    *kept              = gl->cache.get && hair_gl_cached(gl, *key, program);
+    hair_result result = *kept ? HAIR_OK : start(recipe, program);
+    if (result)
+        gl->DeleteProgram(program);
+    else
+        *out = program;
+    return result;
+}
+
+static hair_result make(struct recipe* recipe, GLuint* out)
 {
     struct hair_gl*    gl      = recipe->gl;
     struct hair_gl_key key     = {0, 0};
-    GLuint             program = gl->CreateProgram();
-    if (!program)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
-    if (gl->cache.get) key = key_of(recipe);
-    if (!gl->cache.get || !hair_gl_cached(gl, key, program)) {
-        hair_result result = compile(recipe, program);
-        if (result) {
-            gl->DeleteProgram(program);
-            return result;
-        }
-        hair_gl_keep(gl, key, program);
+    GLuint             program = 0;
+    int                kept    = 0;
+    hair_result        result  = begin(recipe, &key, &kept, &program);
+    if (!result && !kept && !is_linked(gl, program)) {
+        result = tell_why(recipe, program);
+        gl->DeleteProgram(program);
     }
-    gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
+    if (result) return result;
+    if (!kept) hair_gl_keep(gl, key, program);
     *out = program;
     return HAIR_OK;
 }
 
-static hair_result link(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
-                        const char* label, const char* stages, const char* captured, GLuint* out)
+// NULL: an error, which is told.
+static struct recipe* open_recipe(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
+                                  const char* label, const char* stages)
 {
     struct recipe* recipe = hair_alloc(&gl->host, 1, sizeof *recipe);
-    if (!recipe) return hair_fail_memory(&gl->host, "a program's text");
-    recipe->gl         = gl;
-    recipe->shader     = shader;
-    recipe->pass       = pass;
-    recipe->label      = label;
-    recipe->captured   = captured;
-    hair_result result = read_stages(recipe, stages);
-    if (!result) result = make(recipe, out);
+    if (!recipe) {
+        hair_fail_memory(&gl->host, "a program's text");
+        return NULL;
+    }
+    recipe->gl     = gl;
+    recipe->shader = shader;
+    recipe->pass   = pass;
+    recipe->label  = label;
+    recipe->result = read_stages(recipe, stages);
+    if (strstr(stages, "sim/feedback.")) recipe->captured = "moved";
+    return recipe;
+}
+
+static void close_recipe(struct recipe* recipe)
+{
+    struct hair_gl* gl = recipe->gl;
     for (uint32_t i = 0; i < recipe->stages; ++i) hair_free(&gl->host, recipe->stage[i].source.text);
     hair_free(&gl->host, recipe);
-    return result;
 }
 
 hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stages, const char* captured,
                          GLuint* out)
 {
-    return link(gl, NULL, 0, label, stages, captured, out);
+    struct recipe* recipe = open_recipe(gl, NULL, 0, label, stages);
+    if (!recipe) return HAIR_ERROR_MEMORY;
+    recipe->captured   = captured;
+    hair_result result = recipe->result ? recipe->result : make(recipe, out);
+    close_recipe(recipe);
+    return result;
 }
 
 hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
                               GLuint* out)
 {
-    const struct hair_gl_program* known  = hair_gl_know(gl, pass);
-    const char*                   stages = hair_gl_row_stages(pass);
+    const struct hair_gl_program* known = hair_gl_know(gl, pass);
     if (!known) return HAIR_ERROR_MEMORY;
-    return link(gl, shader, pass, known->label, stages, strstr(stages, "sim/feedback.") ? "moved" : NULL,
-                out);
+    struct recipe* recipe = open_recipe(gl, shader, pass, known->label, hair_gl_row_stages(pass));
+    if (!recipe) return HAIR_ERROR_MEMORY;
+    hair_result result = recipe->result ? recipe->result : make(recipe, out);
+    close_recipe(recipe);
+    return result;
 }
+
+// What is needed, now or ahead --------------------------------------------------------------------------------
 
 static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own)
 {
@@ -268,11 +318,63 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
     return HAIR_OK;
 }
 
+// What was begun becomes the program, waiting for it; unless it fails, which is told when it is compiled again.
+static void finish(struct hair_gl* gl, struct hair_gl_program* own)
+{
+    if (is_linked(gl, own->begun)) {
+        hair_gl_keep(gl, own->key, own->begun);
+        own->program = own->begun;
+    } else {
+        gl->DeleteProgram(own->begun);
+    }
+    own->begun = 0;
+}
+
+static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
+{
+    GLuint program = 0;
+    int    kept    = 0;
+    if (!gl->parallel && gl->unready++) return HAIR_OK; // The first of them is compiled now.
+    struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
+    if (!recipe) return HAIR_ERROR_MEMORY;
+    hair_result result = recipe->result ? recipe->result : begin(recipe, &own->key, &kept, &program);
+    close_recipe(recipe);
+    if (result) return result;
+    *(kept ? &own->program : &own->begun) = program;
+    if (!kept && !gl->parallel) finish(gl, own);
+    if (!kept && gl->parallel) ++gl->unready;
+    return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
+}
+
+static hair_result look_after(struct hair_gl* gl, struct hair_gl_program* own)
+{
+    GLint there = 0;
+    gl->GetProgramiv(own->begun, GL_COMPLETION_STATUS_KHR, &there);
+    gl->unready += !there;
+    if (there) finish(gl, own);
+    return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
+}
+
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_know(gl, pass);
     if (!own) return HAIR_ERROR_MEMORY;
+    if (own->program) return HAIR_OK;
+    if (gl->ahead) return own->begun ? look_after(gl, own) : begin_ahead(gl, own);
+    if (own->begun) finish(gl, own);
     return own->program ? HAIR_OK : compile_again(gl, own);
+}
+
+void hair_gl_begin_ahead(struct hair_gl* gl)
+{
+    gl->ahead   = 1;
+    gl->unready = 0;
+}
+
+uint32_t hair_gl_end_ahead(struct hair_gl* gl)
+{
+    gl->ahead = 0;
+    return gl->unready;
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
@@ -280,6 +382,7 @@ hair_result hair_gl_compile(struct hair_gl* gl)
     hair_result first = HAIR_OK;
     ++gl->made;
     for (uint32_t i = 0; i < gl->programs; ++i) {
+        if (gl->program[i]->begun) finish(gl, gl->program[i]);
         hair_result result = gl->program[i]->program ? compile_again(gl, gl->program[i]) : HAIR_OK;
         if (!first) first = result;
     }

@@ -43,16 +43,27 @@ static void free_hair(struct hair_blow* blow, struct hair_gl* gl)
     hair_gl_free_buffer(gl, &blow->params);
 }
 
+static int is_porous(const struct hair_sim* sim)
+{
+    return sim->wind.strands > 0 && sim->physics.drag > 0;
+}
+
 static hair_result need_hair(struct hair_sim* sim)
 {
     struct hair_blow* blow   = &sim->blow;
-    int               wanted = sim->wind.strands > 0 && sim->physics.drag > 0;
+    int               wanted = is_porous(sim);
     if (!wanted) free_hair(blow, sim->gl);
     hair_result result = hair_fluid_need_hair(&blow->fluid, wanted);
     if (!result && wanted && !blow->share) result = hair_crowd_weigh(sim, &blow->share, &blow->metres);
     if (!result && wanted && !blow->params)
         result = hair_gl_uniform(sim->gl, "hair thicket", sizeof(struct hair_crowd_params), &blow->params);
     return result;
+}
+
+hair_result hair_blow_need_programs(struct hair_sim* sim)
+{
+    if (!hair_blow_is_on(sim)) return HAIR_OK;
+    return hair_fluid_need_programs(sim->gl, (hair_fluid_method)sim->wind.projection, is_porous(sim));
 }
 
 hair_result hair_blow_need(struct hair_sim* sim)

@@ -19,6 +19,7 @@ struct hair_blow {
 struct hair_sim;
 
 int         hair_blow_is_on(const struct hair_sim* sim);
+hair_result hair_blow_need_programs(struct hair_sim* sim);
 hair_result hair_blow_need(struct hair_sim* sim); // what the wind takes; what it no longer does is let go
 void        hair_blow_free(struct hair_sim* sim);
 void        hair_blow_forget(struct hair_sim* sim); // the air's past: it is the wind again

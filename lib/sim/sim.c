@@ -46,8 +46,8 @@ static uint32_t substeps_at_once(const struct hair_sim* sim)
     return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// Compiled with what there is, and with nothing else.
-static hair_gl_pass solver_pass(const struct hair_sim* sim)
+// Compiled with what there is, and with nothing else. `any` number of solids, among them `bodies`.
+static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bodies)
 {
     static const hair_gl_pass row[] = {
         [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT,
@@ -55,8 +55,6 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
         [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
-    int      any      = sim->contacts.any;
-    int      bodies   = any ? sim->contacts.cells.bodies > 0 : hair_sim_contacts(sim) > sim->solids.capsules;
     uint32_t features = 0;
     if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(SOLIDS);
     if (any) features |= HAIR_GL_WITH(ANY);
@@ -69,6 +67,17 @@ static hair_gl_pass solver_pass(const struct hair_sim* sim)
     if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
     hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF : row[sim->solver];
     return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
+}
+
+static int has_bodies(const struct hair_sim* sim)
+{
+    return hair_sim_contacts(sim) > sim->solids.capsules;
+}
+
+static hair_gl_pass solver_pass(const struct hair_sim* sim)
+{
+    int any = sim->contacts.any;
+    return solver_pass_for(sim, any, any ? sim->contacts.cells.bodies > 0 : has_bodies(sim));
 }
 
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
@@ -259,6 +268,18 @@ static void write_solids(const struct hair_sim* sim, struct hair_step_params* pa
 static float share_of(double from, double dt)
 {
     return (float)fmin(fmax(from / dt, -1), 1);
+}
+
+hair_result hair_sim_need_programs(struct hair_sim* sim)
+{
+    struct hair_gl* gl     = sim->gl;
+    int             any    = hair_contacts_are_any(sim);
+    hair_gl_pass    smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
+    hair_result     result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim)));
+    if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
+    if (!result && sim->physics.sleep > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
+    if (!result && hair_crowd_is_on(sim)) result = hair_crowd_need_programs(gl);
+    return result ? result : hair_blow_need_programs(sim);
 }
 
 static hair_result need(struct hair_sim* sim, double from, double dt)

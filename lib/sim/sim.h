@@ -68,6 +68,7 @@ void        hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
 hair_result hair_sim_step(struct hair_sim* sim, double dt);
+hair_result hair_sim_need_programs(struct hair_sim* sim); // all that a step with what is set now runs
 void        hair_sim_pass_time(struct hair_sim* sim, double dt); // as if it had, at rest
 void        hair_sim_reset(struct hair_sim* sim);                // rest pose under sim->head
 // sim->head and the hair with it

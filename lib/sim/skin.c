@@ -80,7 +80,9 @@ hair_result hair_skin_make(struct hair_sim* sim)
     if (hair_skin_is_on(sim)) return HAIR_OK;
     for (int i = 0; i < 3 && !result; ++i) result = hair_gl_need(gl, passes[i]);
     if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 1));
-    if (!result) result = hair_gl_need(gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->most_vertices));
+    if (!result)
+        result =
+            hair_gl_need(gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->most_vertices));
     if (!result) result = make_buffers(sim, &ride);
     if (result) {
         hair_gl_free_buffer(gl, &ride);

@@ -64,14 +64,24 @@ static hair_result make_levels(struct hair_fluid* fluid)
     return result;
 }
 
-static int takes(const struct hair_fluid* fluid, hair_gl_pass pass)
+static int takes(hair_fluid_method method, hair_gl_pass pass)
 {
     int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
                  pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
-    if (coarse) return fluid->desc.method == HAIR_FLUID_MULTIGRID;
+    if (coarse) return method == HAIR_FLUID_MULTIGRID;
     if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return 0;
-    if (pass == HAIR_GL_FLUID_SMOOTH) return fluid->desc.method != HAIR_FLUID_JACOBI;
-    return pass != HAIR_GL_FLUID_JACOBI || fluid->desc.method == HAIR_FLUID_JACOBI;
+    if (pass == HAIR_GL_FLUID_SMOOTH) return method != HAIR_FLUID_JACOBI;
+    return pass != HAIR_GL_FLUID_JACOBI || method == HAIR_FLUID_JACOBI;
+}
+
+hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous)
+{
+    hair_result result = HAIR_OK;
+    for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
+        if (takes(method, pass)) result = hair_gl_need(gl, pass);
+    for (hair_gl_pass pass = HAIR_GL_FLUID_CLEAR; porous && pass <= HAIR_GL_FLUID_POROUS && !result; ++pass)
+        result = hair_gl_need(gl, pass);
+    return result;
 }
 
 static hair_result make_all(struct hair_fluid* fluid)
@@ -80,12 +90,10 @@ static hair_result make_all(struct hair_fluid* fluid)
     hair_fluid_method method  = fluid->desc.method;
     uint32_t          n       = fluid->desc.cells, slots, cells;
     const uint32_t    size[3] = {n, n, n};
-    hair_result       result  = HAIR_OK;
+    hair_result       result  = hair_fluid_need_programs(gl, method, 0);
     slots                     = find_levels(fluid);
     cells                     = fluid->level[fluid->levels].cell;
     size_t faces              = 3 * hair_fluid_slots(fluid);
-    for (int pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
-        if (takes(fluid, (hair_gl_pass)pass)) result = hair_gl_need(gl, (hair_gl_pass)pass);
     for (int i = 0; i < 3 && !result; ++i)
         result = hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
     if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);

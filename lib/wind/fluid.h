@@ -92,6 +92,8 @@ struct hair_fluid_now {
     double                         solids_dt; // in this time, s
 };
 
+hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous);
+
 // On failure nothing is left.
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc);

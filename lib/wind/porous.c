@@ -9,8 +9,7 @@ hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
     fluid->made_for.cells = 0; // Coarser faces go by hair, or no longer.
     hair_fluid_free_hair(fluid);
     hair_result result = HAIR_OK;
-    for (int pass = HAIR_GL_FLUID_CLEAR; wanted && pass <= HAIR_GL_FLUID_POROUS && !result; ++pass)
-        result = hair_gl_need(fluid->gl, (hair_gl_pass)pass);
+    if (wanted) result = hair_fluid_need_programs(fluid->gl, fluid->desc.method, 1);
     if (!wanted || result) return result;
     result =
         hair_fluid_make_buffer(fluid, "hair thicket", 4 * nodes * nodes * nodes, GL_RGBA32I, &hair->grid);

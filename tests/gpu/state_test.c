@@ -170,6 +170,13 @@ static hair_result read_all(struct fixture* f)
         result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
     return result;
 }
+static hair_result prepare(struct fixture* f)
+{
+    hair_view view  = hair_view_default();
+    uint32_t  ready = 0;
+    view.path       = HAIR_PATH_EXPANDED;
+    return hair_prepare(f->hair, &view, &ready);
+}
 static hair_result ask_field(struct fixture* f)
 {
     hair_field_info info   = hair_field_info_default();
@@ -213,6 +220,7 @@ static const struct {
     {"hair_step", step},
     {"hair_step without a substep", step_without_substep},
     {"setters", set_all},
+    {"hair_prepare", prepare},
     {"hair_step with a solid", step},
     {"hair_get_field", ask_field},
     {"hair_draw", draw},

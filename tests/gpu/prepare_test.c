@@ -1,0 +1,235 @@
+// prepare_test.c - what a frame runs is compiled before it, in the driver's threads or one program a call.
+#include "tests/support/passes.h"
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define MOST_CALLS 200
+
+struct fixture {
+    struct hair_test*      test;
+    hair_context*          context;
+    hair_groom*            groom;
+    hair_instance*         hair;
+    struct hair_test_frame frame;
+};
+
+static struct fixture start(struct hair_test* test)
+{
+    struct fixture    f       = {.test = test};
+    hair_context_desc context = hair_context_desc_default();
+    hair_desc         desc    = hair_desc_default();
+    context.host              = &test->host.host;
+    context.get_proc          = hair_egl_get_proc;
+    hair_test_ok(test, hair_context_create(&context, &f.context));
+    f.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_test_ok(test, hair_create(f.context, f.groom, &desc, &f.hair));
+    hair_test_frame_make(&f.frame, 32, 32, GL_RGBA8, 0);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+    hair_context_destroy(f->context);
+}
+
+static hair_view view_of(hair_path path)
+{
+    hair_view view     = hair_view_default();
+    view.path          = path;
+    view.projection[0] = view.projection[5] = view.projection[10] = 3;
+    return view;
+}
+
+static uint32_t count_programs(const struct hair_gl* gl)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < gl->programs; ++i) count += gl->program[i]->program != 0;
+    return count;
+}
+
+// Returns how many calls it took.
+static uint32_t prepare(struct fixture* f, const hair_view* view)
+{
+    uint32_t ready = 0, calls = 0;
+    for (; !ready && calls < MOST_CALLS; ++calls) hair_test_ok(f->test, hair_prepare(f->hair, view, &ready));
+    assert_int_equal(ready, 1);
+    return calls;
+}
+
+static void live(struct fixture* f, const hair_view* view)
+{
+    for (int i = 0; i < 3; ++i) {
+        hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+        hair_test_ok(f->test, hair_draw(f->hair, view));
+    }
+}
+
+// Ways of living, in which frames run other programs -----------------------------------------------------------
+
+static void put_a_ball_into(struct fixture* f, hair_view* view)
+{
+    (void)view;
+    hair_solid ball = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_test_ok(f->test, hair_set_solids(f->hair, &ball, 1, sizeof ball));
+}
+
+static void put_boxes_into(struct fixture* f, hair_view* view)
+{
+    (void)view;
+    hair_solid box[40];
+    for (int i = 0; i < 40; ++i)
+        box[i] = (hair_solid){HAIR_SHAPE_BOX,        {0.01 * i, 0, 0}, {0, 0, 0, 1},
+                              {0.05f, 0.02f, 0.03f}, .scale = 1,       .friction = 1};
+    hair_test_ok(f->test, hair_set_solids(f->hair, box, 40, sizeof *box));
+}
+
+static void blow_at(struct fixture* f, hair_view* view)
+{
+    (void)view;
+    hair_wind wind   = hair_wind_default();
+    wind.model       = HAIR_WIND_FLUID;
+    wind.velocity[0] = 3;
+    wind.strands     = 1;
+    wind.resolution  = 16;
+    hair_test_ok(f->test, hair_set_wind(f->hair, &wind));
+}
+
+static void crowd(struct fixture* f, hair_view* view)
+{
+    (void)view;
+    hair_physics physics = f->hair->sim.physics;
+    physics.cohesion     = 5;
+    hair_test_ok(f->test, hair_set_physics(f->hair, &physics));
+}
+
+static void shade_strands(struct fixture* f, hair_view* view)
+{
+    hair_look look = f->hair->draw.look;
+    look.shadow    = HAIR_SHADOW_STRANDS;
+    look.shading   = HAIR_SHADING_FIBRES;
+    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    put_a_ball_into(f, view);
+}
+
+static void share_pixels(struct fixture* f, hair_view* view)
+{
+    (void)f;
+    view->coverage = HAIR_COVERAGE_SHARES;
+}
+
+static void curl(struct fixture* f, hair_view* view)
+{
+    hair_look look   = f->hair->draw.look;
+    look.curl_radius = 0.01f;
+    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    put_a_ball_into(f, view);
+}
+
+static void show_motion(struct fixture* f, hair_view* view)
+{
+    (void)f;
+    view->pass = HAIR_PASS_MOTION;
+}
+
+static void show_solids(struct fixture* f, hair_view* view)
+{
+    put_a_ball_into(f, view);
+    view->pass  = HAIR_PASS_SOLIDS;
+    view->slice = HAIR_SLICE_X;
+}
+
+static const struct {
+    const char* name;
+    hair_path   path;
+    void (*set)(struct fixture* f, hair_view* view);
+} ways[] = {
+    {"a ball", HAIR_PATH_TESSELLATION, put_a_ball_into},
+    {"a ball, instanced", HAIR_PATH_INSTANCED, put_a_ball_into},
+    {"a ball, expanded", HAIR_PATH_EXPANDED, put_a_ball_into},
+    {"boxes", HAIR_PATH_TESSELLATION, put_boxes_into},
+    {"a fluid", HAIR_PATH_TESSELLATION, blow_at},
+    {"a crowd", HAIR_PATH_TESSELLATION, crowd},
+    {"shadows by strands", HAIR_PATH_TESSELLATION, shade_strands},
+    {"shares of pixels", HAIR_PATH_EXPANDED, share_pixels},
+    {"curls", HAIR_PATH_TESSELLATION, curl},
+    {"velocities", HAIR_PATH_TESSELLATION, show_motion},
+    {"solids", HAIR_PATH_TESSELLATION, show_solids},
+};
+
+static void frames_compile_nothing_once_they_are_prepared(void** state)
+{
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
+        struct fixture f    = start(*state);
+        hair_view      view = view_of(ways[i].path);
+        ways[i].set(&f, &view);
+        prepare(&f, &view);
+        uint32_t before = count_programs(&f.context->gl);
+        live(&f, &view);
+        if (count_programs(&f.context->gl) != before)
+            fail_msg("%s: of %u programs %u were prepared", ways[i].name, count_programs(&f.context->gl),
+                     before);
+        finish(&f);
+    }
+}
+
+static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(void** state)
+{
+    struct fixture f       = start(*state);
+    hair_view      view    = view_of(HAIR_PATH_INSTANCED);
+    f.context->gl.parallel = 0;
+    uint32_t before = count_programs(&f.context->gl), ready = 0;
+    put_a_ball_into(&f, &view);
+    hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
+    assert_int_equal(ready, 0);
+    assert_int_equal(count_programs(&f.context->gl), before + 1);
+    uint32_t calls = 1 + prepare(&f, &view);
+    assert_int_equal(calls, count_programs(&f.context->gl) - before + 1); // the last finds nothing left
+    live(&f, &view);
+    finish(&f);
+}
+
+// What is begun and not asked for again is waited for where it is run, and freed where it is not.
+static void a_frame_may_come_before_all_is_ready(void** state)
+{
+    for (int lives = 0; lives < 2; ++lives) {
+        struct fixture f       = start(*state);
+        hair_view      view    = view_of(HAIR_PATH_TESSELLATION);
+        uint32_t       ready   = 0;
+        f.context->gl.parallel = 1;
+        put_a_ball_into(&f, &view);
+        hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
+        if (lives) live(&f, &view);
+        finish(&f);
+    }
+}
+
+static void nulls_and_wrong_views_are_refused(void** state)
+{
+    struct fixture f     = start(*state);
+    hair_view      view  = view_of(HAIR_PATH_TESSELLATION);
+    uint32_t       ready = 7;
+    assert_int_equal(hair_prepare(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_prepare(f.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
+    view.opacity = 2;
+    hair_test_refused(f.test, hair_prepare(f.hair, &view, &ready), HAIR_ERROR_ARGUMENT, "hair_view.opacity");
+    assert_int_equal(ready, 7);
+    assert_int_equal(prepare(&f, NULL) <= MOST_CALLS, 1);
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(frames_compile_nothing_once_they_are_prepared),
+        HAIR_TEST(a_driver_that_compiles_nothing_beside_is_given_one_program_a_call),
+        HAIR_TEST(a_frame_may_come_before_all_is_ready),
+        HAIR_TEST(nulls_and_wrong_views_are_refused),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
