@@ -2,6 +2,7 @@
 // walk away from it, and the rate far away.
 #include "tools/bench/picture.h"
 #include "tools/bench/studio.h"
+#include "tools/bench/turn.h"
 #include "tools/common/file.h"
 
 #include <epoxy/gl.h>
@@ -13,10 +14,11 @@
 #define FAR 16     // where it ends, in distances of where it starts
 #define AWAY 8     // of the case far
 
-static const char* const columns[] = {"case",         "method",    "scene",         "strands",  "size",
-                                      "samples",      "away",      "frames",        "coverage", "flip",
-                                      "flip_without", "flip_more", "segments_from", "segments", "fewer_times",
-                                      "ms_near",      "ms",        "rate",          NULL};
+static const char* const columns[] = {
+    "case",          "method",    "scene",       "strands", "size",          "samples",
+    "away",          "frames",    "coverage",    "flip",    "flip_without",  "flip_more",
+    "segments_from", "segments",  "fewer_times", "between", "between_truth", "between_halves",
+    "calm",          "calm_most", "ms_near",     "ms",      "rate",          NULL};
 
 static const char* const scenes[] = {"still", "short", "afro"};
 static const float       shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
@@ -218,6 +220,7 @@ static void run_suite(struct bench* bench)
     measure_coverage(bench);
     measure(&scene, "walk", walk_away);
     measure(&scene, "far", look_from_far);
+    bench_measure_turn(bench);
     if (scene.alive) bench_studio_free(&scene.studio);
 }
 

@@ -4,17 +4,15 @@
 // parts of a pixel. Half of them make one picture, half another: what is not five times as far from the reference as
 // those are from each other has no error.
 #include "tools/bench/picture.h"
-#include "tools/bench/studio.h"
+#include "tools/bench/truth.h"
 #include "tools/common/file.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define REFERENCE_SAMPLES 1024
 #define REFERENCE_SEGMENTS 64
-#define REFERENCE_PIXELS 2048 // to each side of what is drawn at once
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 4500 // As wide on its pixels as 18,000 are on 1,024.
@@ -91,7 +89,7 @@ struct scene {
     struct bench_studio   studio;
     bool                  alive, refused;
     uint32_t              most_samples; // of OpenGL
-    struct bench_picture  truth;
+    struct bench_truth    truth;
     double                halves_differ;
     size_t                first_row;
 };
@@ -116,65 +114,17 @@ static struct bench_shot shot_of(const struct scene* scene)
     return shot;
 }
 
-// The reference -------------------------------------------------------------------------------------------------
-
-// Even over the square, any number of them (Roberts 2018: multiples of powers of the plastic number), each followed by
-// its opposite: a picture that is shifted as a whole differs more than one that is a little noisy.
-static void jitter(uint32_t i, uint32_t supersample, float out[2])
-{
-    const double step[2] = {0.7548776662466927, 0.5698402909980532};
-    for (int k = 0; k < 2; ++k) {
-        double at = fmod(0.5 + step[k] * (i / 2 + 1), 1) - 0.5;
-        out[k]    = (float)((i % 2 ? -at : at) / supersample);
-    }
-}
-
-// Every second pair of the pictures.
-static bool take_half(struct scene* scene, uint32_t half, struct bench_shot* shot, uint32_t pictures,
-                      struct bench_picture* out)
-{
-    for (uint32_t i = 0; i < pictures; ++i) {
-        if (i / 2 % 2 != half) continue;
-        jitter(i, shot->supersample, shot->jitter);
-        if (!bench_studio_set(&scene->studio, shot) || !bench_studio_draw(&scene->studio, NULL) ||
-            !bench_studio_add(&scene->studio, out->rgba))
-            return false;
-    }
-    bench_picture_finish(out, pictures / 2, (double)scene->studio.scene.exposure);
-    return true;
-}
-
-static bool take_reference(struct scene* scene, struct bench_picture halves[2])
-{
-    struct bench_shot shot = shot_of(scene);
-    uint32_t          size = scene->studio.size, side = 1;
-    while (2 * side * size <= REFERENCE_PIXELS && side < 8) side *= 2;
-    shot.look.segments = REFERENCE_SEGMENTS;
-    shot.samples       = scene->most_samples < 8 ? scene->most_samples : 8;
-    shot.supersample   = side;
-    uint32_t each = shot.samples * side * side, pictures = (REFERENCE_SAMPLES + each - 1) / each;
-    pictures = (pictures + 3) / 4 * 4;
-    return take_half(scene, 0, &shot, pictures, &halves[0]) &&
-           take_half(scene, 1, &shot, pictures, &halves[1]);
-}
-
 static bool find_truth(struct scene* scene)
 {
-    struct bench_picture    halves[2] = {{0}};
     struct hair_image_error error;
-    uint32_t                size = scene->studio.size;
-    bool ok = bench_picture_make(size, &halves[0]) && bench_picture_make(size, &halves[1]) &&
-              bench_picture_make(size, &scene->truth) && take_reference(scene, halves);
-    if (ok) {
-        for (size_t i = 0; i < 4 * (size_t)size * size; ++i)
-            scene->truth.rgba[i] = halves[0].rgba[i] + halves[1].rgba[i];
-        bench_picture_finish(&scene->truth, 2, (double)scene->studio.scene.exposure);
-        ok = bench_picture_cover(&scene->truth) &&
-             bench_picture_compare(&scene->truth, &halves[0], &halves[1], &error);
-    }
+    struct bench_truth*     truth = &scene->truth;
+    struct bench_shot       shot  = shot_of(scene);
+    shot.look.segments            = REFERENCE_SEGMENTS;
+    bool ok                       = bench_truth_make(scene->studio.size, truth) &&
+              bench_truth_take(&scene->studio, &shot, REFERENCE_SAMPLES, 0, truth) &&
+              bench_picture_cover(&truth->whole) &&
+              bench_picture_compare(&truth->whole, &truth->half[0], &truth->half[1], &error);
     if (ok) scene->halves_differ = error.flip;
-    bench_picture_free(&halves[0]);
-    bench_picture_free(&halves[1]);
     return ok;
 }
 
@@ -187,11 +137,9 @@ static bool need(struct scene* scene)
     struct bench_studio_desc desc = {.scene     = scene->subject->scene,
                                      .size      = size,
                                      .followers = strands_of(scene->bench, scene->subject, size)};
-    GLint                    most = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &most);
-    scene->most_samples = (uint32_t)most;
-    scene->alive        = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
-    scene->refused      = !scene->alive;
+    scene->most_samples           = bench_most_samples();
+    scene->alive   = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
+    scene->refused = !scene->alive;
     return scene->alive;
 }
 
@@ -236,10 +184,11 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
 
 static bool look(struct scene* scene, const struct setting* setting)
 {
-    struct bench_shot       shot = shot_of(scene);
-    struct bench_picture    picture;
-    struct bench_times      times;
-    struct hair_image_error error;
+    struct bench_shot           shot  = shot_of(scene);
+    const struct bench_picture* truth = &scene->truth.whole;
+    struct bench_picture        picture;
+    struct bench_times          times;
+    struct hair_image_error     error;
     shot.view.path      = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
     shot.view.coverage  = setting->primitive->coverage;
@@ -254,8 +203,8 @@ static bool look(struct scene* scene, const struct setting* setting)
     bool ok = bench_studio_set(&scene->studio, &shot) && bench_studio_time(&scene->studio, enough, &times) &&
               bench_studio_add(&scene->studio, picture.rgba);
     if (ok) bench_picture_finish(&picture, 1, (double)scene->studio.scene.exposure);
-    ok = ok && bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);
-    if (ok) add_row(scene, setting, &times, &error, picture.coverage / scene->truth.coverage - 1);
+    ok = ok && bench_picture_compare(truth, truth, &picture, &error);
+    if (ok) add_row(scene, setting, &times, &error, picture.coverage / truth->coverage - 1);
     bench_picture_free(&picture);
     return ok;
 }
@@ -297,7 +246,7 @@ static void measure_subject(struct bench* bench, const struct subject* subject)
                                                   &samples[n]};
                         measure(&scene, &setting);
                     }
-    bench_picture_free(&scene.truth);
+    bench_truth_free(&scene.truth);
     if (scene.alive) bench_studio_free(&scene.studio);
 }
 

@@ -315,16 +315,21 @@ static void average(struct bench_studio* studio)
     if (studio->timed) bench_timer_stop(&studio->timer);
 }
 
+static void shift(struct hair_matrices* matrices, const float by[2], uint32_t size)
+{
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 2; ++i)
+            matrices->projection[4 * column + i] +=
+                2 * by[i] / (float)size * matrices->projection[4 * column + 3];
+}
+
 static void aim(const struct bench_studio* studio, struct hair_matrices* out)
 {
     struct hair_scene scene = studio->scene;
     for (int i = 0; i < 3; ++i)
         scene.eye[i] = scene.target[i] + studio->shot.away * (scene.eye[i] - scene.target[i]);
     hair_camera_matrices(&scene, studio->transform, studio->reach, out);
-    for (int column = 0; column < 4; ++column)
-        for (int i = 0; i < 2; ++i)
-            out->projection[4 * column + i] +=
-                2 * studio->shot.jitter[i] / (float)studio->size * out->projection[4 * column + 3];
+    shift(out, studio->shot.jitter, studio->size);
 }
 
 bool bench_studio_draw(struct bench_studio* studio, double* ms)
@@ -335,6 +340,7 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
     studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
+    shift(&light, studio->shot.shadow_jitter, HAIR_SHADOW_SIZE);
     aim(studio, &camera);
     if (!draw_shadow(studio, &camera, &light)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -17,10 +17,11 @@ struct bench_shot {
     bool      unmapped; // its light has no shadow map
     bool      has_lod;  // else all is drawn
     hair_lod  lod;
-    uint32_t  samples;     // of a pixel, as OpenGL has them
-    uint32_t  supersample; // pixels for one of the picture, in each direction
-    float     jitter[2];   // pixels by which the picture moves
-    float     away;        // from what the scene's camera looks at, in its distance
+    uint32_t  samples;          // of a pixel, as OpenGL has them
+    uint32_t  supersample;      // pixels for one of the picture, in each direction
+    float     jitter[2];        // pixels by which the picture moves
+    float     shadow_jitter[2]; // texels by which its shadow map does
+    float     away;             // from what the scene's camera looks at, in its distance
 };
 
 struct bench_studio {

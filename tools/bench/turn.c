@@ -1,0 +1,233 @@
+// turn.c - rows of the suite `lod`: how calm hair is while its head turns slowly. What successive pictures differ by is
+// compared with what those of the truth do, whose samples are so many that only motion is left.
+#include "tools/bench/truth.h"
+#include "tools/bench/turn.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE 256
+#define STRANDS_OF_720                                                                                       \
+    18000         // of the scene, in a picture so high; fewer in a smaller one, as wide on its pixels
+#define SPEED 30  // degrees a second: half of one a frame
+#define RUN_UP 60 // frames until hair follows
+#define FRAMES 9
+#define FRAMES_OF_QUICK 3
+#define SAMPLES 1024
+#define TEXELS 1 // by which the truth's shadow maps are shifted
+
+// As pictures are drawn. Those of one shadow have one truth.
+static const struct way {
+    const char*   method;
+    hair_shadow   shadow;
+    hair_coverage coverage;
+    uint32_t      msaa, supersample;
+    bool          has_lod, quick;
+} ways[] = {{"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 1, 1, false, false},
+            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 4, 1, false, false},
+            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 8, 1, false, false},
+            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 4, 2, false, false},
+            {"depth shares", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SHARES, 1, 1, false, false},
+            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 1, 1, false, true},
+            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 1, false, true},
+            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 8, 1, false, true},
+            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 2, false, true},
+            {"strands lod", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 1, true, false},
+            {"strands shares", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SHARES, 1, 1, false, true},
+            {"strands shares", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SHARES, 4, 1, false, false}};
+
+#define WAYS (sizeof ways / sizeof *ways)
+
+// A frame and the one before, and sums over all pairs of them.
+struct record {
+    struct bench_picture picture[2];
+    double               flip, most, off, ms; // most: of the ratio to the truth's; off: from the truth itself
+};
+
+struct turn {
+    struct bench*       bench;
+    struct bench_studio studio;
+    bool                wanted[WAYS];
+    struct record       record[WAYS];
+    struct bench_truth  truth[2][2];        // of a shadow: a frame and the one before
+    double              flip[2], halves[2]; // of a shadow, sums: the truth's, and the mean of its halves'
+    uint32_t            pairs;
+};
+
+static bool is_wanted(struct turn* turn, hair_shadow shadow)
+{
+    for (size_t i = 0; i < WAYS; ++i)
+        if (turn->wanted[i] && ways[i].shadow == shadow) return true;
+    return false;
+}
+
+// At an even speed from the second key to the third, facing the camera's way in the middle of that.
+static bool make(struct turn* turn)
+{
+    uint32_t                 size  = turn->bench->options.size ? turn->bench->options.size : SIZE;
+    uint32_t                 asked = turn->bench->options.strands;
+    struct bench_studio_desc desc  = {
+         .scene = "demo", .size = size, .followers = asked ? asked : (uint32_t)(STRANDS_OF_720 * size / 720)};
+    if (!bench_studio_make(turn->bench, &desc, &turn->studio)) return false;
+    struct hair_motion* motion = &turn->studio.scene.motion;
+    motion->count              = 4;
+    for (uint32_t i = 0; i < 4; ++i)
+        motion->key[i] = (struct hair_key){.time = (float)i, .rotation = {SPEED * ((float)i - 1), 0, 0}};
+    for (uint32_t i = 0; i < RUN_UP; ++i)
+        if (!bench_studio_step(&turn->studio, NULL)) return false;
+    for (int i = 0; i < 4; ++i)
+        if (!bench_truth_make(size, &turn->truth[i / 2][i % 2])) return false;
+    for (size_t i = 0; i < 2 * WAYS; ++i)
+        if (!bench_picture_make(size, &turn->record[i / 2].picture[i % 2])) return false;
+    return true;
+}
+
+static struct bench_shot shot_of(const struct turn* turn, const struct way* way)
+{
+    struct bench_shot shot = bench_studio_shot(&turn->studio);
+    shot.look.radius *= turn->studio.fewer;
+    shot.look.shadow   = way->shadow;
+    shot.view.coverage = way->coverage;
+    shot.view.path     = HAIR_PATH_EXPANDED;
+    shot.samples       = way->msaa;
+    shot.supersample   = way->supersample;
+    shot.has_lod       = way->has_lod;
+    return shot;
+}
+
+static bool take(struct turn* turn, const struct way* way, struct record* record)
+{
+    struct bench_shot     shot = shot_of(turn, way);
+    struct bench_picture* out  = &record->picture[0];
+    double                ms   = 0;
+    memset(out->rgba, 0, 4 * sizeof *out->rgba * out->size * out->size);
+    if (!bench_studio_set(&turn->studio, &shot) || !bench_studio_draw(&turn->studio, &ms) ||
+        !bench_studio_add(&turn->studio, out->rgba))
+        return false;
+    record->ms = turn->pairs && record->ms > 0 ? fmin(record->ms, ms) : ms;
+    bench_picture_finish(out, 1, (double)turn->studio.scene.exposure);
+    return true;
+}
+
+static bool differ(const struct bench_picture* where, const struct bench_picture* a,
+                   const struct bench_picture* b, double* flip)
+{
+    struct hair_image_error error;
+    if (!bench_picture_compare(where, a, b, &error)) return false;
+    *flip = error.flip;
+    return true;
+}
+
+// Where hair is in either of two frames.
+static bool cover_both(struct bench_picture* now, const struct bench_picture* before)
+{
+    size_t pixels = (size_t)now->size * now->size;
+    if (!bench_picture_cover(now)) return false;
+    for (size_t i = 0; i < pixels && before->mask; ++i) now->mask[i] |= before->mask[i];
+    return true;
+}
+
+static bool compare(struct turn* turn, hair_shadow shadow)
+{
+    const struct bench_truth *  now = &turn->truth[shadow][0], *before = &turn->truth[shadow][1];
+    const struct bench_picture* where = &now->whole;
+    double                      truth, half[2], flip, off;
+    if (!differ(where, &before->whole, &now->whole, &truth)) return false;
+    for (int i = 0; i < 2; ++i)
+        if (!differ(where, &before->half[i], &now->half[i], &half[i])) return false;
+    turn->flip[shadow] += truth;
+    turn->halves[shadow] += 0.5 * (half[0] + half[1]);
+    for (size_t i = 0; i < WAYS; ++i) {
+        struct record* record = &turn->record[i];
+        if (!turn->wanted[i] || ways[i].shadow != shadow) continue;
+        if (!differ(where, &record->picture[1], &record->picture[0], &flip) ||
+            !differ(where, where, &record->picture[0], &off))
+            return false;
+        record->flip += flip;
+        record->off += off;
+        record->most = fmax(record->most, flip / truth);
+    }
+    return true;
+}
+
+static void pass_on(struct turn* turn)
+{
+    for (int s = 0; s < 2; ++s) {
+        struct bench_truth last = turn->truth[s][1];
+        turn->truth[s][1]       = turn->truth[s][0];
+        turn->truth[s][0]       = last;
+    }
+    for (size_t i = 0; i < WAYS; ++i) {
+        struct bench_picture last  = turn->record[i].picture[1];
+        turn->record[i].picture[1] = turn->record[i].picture[0];
+        turn->record[i].picture[0] = last;
+    }
+}
+
+static bool take_frame(struct turn* turn, bool is_first)
+{
+    pass_on(turn);
+    for (size_t i = 0; i < WAYS; ++i)
+        if (turn->wanted[i] && !take(turn, &ways[i], &turn->record[i])) return false;
+    for (hair_shadow s = HAIR_SHADOW_DEPTH; s <= HAIR_SHADOW_STRANDS; ++s) {
+        struct way          way   = {.shadow = s, .msaa = 1, .supersample = 1};
+        struct bench_truth* truth = turn->truth[s];
+        if (!is_wanted(turn, s)) continue;
+        struct bench_shot shot = shot_of(turn, &way);
+        if (!bench_truth_take(&turn->studio, &shot, SAMPLES, TEXELS, &truth[0]) ||
+            !cover_both(&truth[0].whole, &truth[1].whole) || (!is_first && !compare(turn, s)))
+            return false;
+    }
+    turn->pairs += !is_first;
+    return true;
+}
+
+static void add_row(struct turn* turn, const struct way* way, const struct record* record)
+{
+    json_t* row   = bench_rows_add(&turn->bench->rows);
+    double  pairs = turn->pairs, truth = turn->flip[way->shadow];
+    bench_set_text(row, "case", "turn");
+    bench_set_text(row, "method", way->method);
+    bench_set_text(row, "scene", "demo");
+    bench_set_count(row, "strands", turn->studio.info.follower_count);
+    bench_set_count(row, "size", turn->studio.size);
+    bench_set_count(row, "samples", way->msaa * way->supersample * way->supersample);
+    bench_set_count(row, "frames", turn->pairs + 1);
+    bench_set_number(row, "ms", record->ms);
+    bench_set_number(row, "flip", record->off / pairs);
+    bench_set_number(row, "between", record->flip / pairs);
+    bench_set_number(row, "between_truth", truth / pairs);
+    bench_set_number(row, "between_halves", turn->halves[way->shadow] / pairs);
+    bench_set_number(row, "calm", record->flip / truth);
+    bench_set_number(row, "calm_most", record->most);
+}
+
+static bool run(struct turn* turn)
+{
+    uint32_t frames = turn->bench->options.quick ? FRAMES_OF_QUICK : FRAMES;
+    if (!make(turn)) return false;
+    for (uint32_t k = 0; k < frames; ++k)
+        if (!take_frame(turn, k == 0) || (k + 1 < frames && !bench_studio_step(&turn->studio, NULL)))
+            return false;
+    for (size_t i = 0; i < WAYS; ++i)
+        if (turn->wanted[i]) add_row(turn, &ways[i], &turn->record[i]);
+    return true;
+}
+
+void bench_measure_turn(struct bench* bench)
+{
+    struct turn turn = {.bench = bench};
+    bool        any  = false, alive;
+    for (size_t i = 0; i < WAYS; ++i) {
+        if (bench->options.quick && !ways[i].quick) continue;
+        turn.wanted[i] = bench_begin(bench, "turn", ways[i].method) && ways[i].msaa <= bench_most_samples();
+        any            = any || turn.wanted[i];
+    }
+    if (!any) return;
+    alive = run(&turn);
+    if (!alive) bench_refuse(bench, "turn", "all");
+    for (int i = 0; i < 4; ++i) bench_truth_free(&turn.truth[i / 2][i % 2]);
+    for (size_t i = 0; i < 2 * WAYS; ++i) bench_picture_free(&turn.record[i / 2].picture[i % 2]);
+    if (turn.studio.hair) bench_studio_free(&turn.studio);
+}
