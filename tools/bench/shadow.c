@@ -1,6 +1,7 @@
 // shadow.c - the suite `shadow`: how near ways to find the light that hair leaves to itself come to counting strands ray by
 // ray. Pictures differ in that light alone; ways that the library does not have are worked out by the processor.
 #include "tools/bench/picture.h"
+#include "tools/bench/scatter.h"
 #include "tools/bench/strand_light.h"
 #include "tools/bench/studio.h"
 #include "tools/common/camera.h"
@@ -17,9 +18,11 @@
 #define RAYS_OF_QUICK 64
 #define UNIT 20 // of textures: the first that is the host's
 
-static const char* const columns[] = {"case",  "method",  "cell",          "layers", "ms",
-                                      "rays",  "strands", "size",          "flip",   "psnr",
-                                      "light", "pixels",  "halves_differ", NULL};
+static const char* const columns[] = {"case",       "method",    "cell",          "layers",    "ms",
+                                      "rays",       "strands",   "size",          "flip",      "psnr",
+                                      "light",      "pixels",    "halves_differ", "color",     "lit",
+                                      "radiance",   "error",     "often",         "bias",      "bias_red",
+                                      "bias_green", "bias_blue", "bias_usual",    "bias_once", NULL};
 
 static const char table_glsl[] =
     "layout(binding = 20) uniform samplerBuffer table;\n"
@@ -240,6 +243,7 @@ static void run_suite(struct bench* bench)
     hair_shader_destroy(scene.by_table);
     hair_shader_destroy(scene.by_library);
     if (scene.studio.bench) bench_studio_free(&scene.studio);
+    bench_measure_scatter(bench);
 }
 
 const struct bench_suite bench_shadow = {

@@ -1,0 +1,9 @@
+// scatter.h - rows of light that hair passes on, against paths.
+#ifndef HAIR_TOOLS_BENCH_SCATTER_H
+#define HAIR_TOOLS_BENCH_SCATTER_H
+
+#include "tools/bench/bench.h"
+
+void bench_measure_scatter(struct bench* bench);
+
+#endif
