@@ -194,15 +194,12 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     hair_look*               look   = &scatter->shot.look;
     hair_light*              light  = &scatter->studio.scene.settings.light;
     size_t                   of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
-    float                    usual = scatter->studio.scene.settings.look.scattering;
-    double                   all[3], less[3], once[3], truth[3], alone[3], error = 0;
+    double                   all[3], once[3], truth[3], alone[3], error = 0;
     look->shadow = method->shadow;
     memcpy(look->root_color, scatter->colors[of / 3], sizeof look->root_color);
     memcpy(look->tip_color, scatter->colors[of / 3], sizeof look->tip_color);
     for (int k = 0; k < 3; ++k) light->to[k] = (float)scatter->to_light[from][k];
-    if (!measure_light(scatter, 1, all) || !measure_light(scatter, usual, less) ||
-        !measure_light(scatter, 0, once))
-        return false;
+    if (!measure_light(scatter, 1, all) || !measure_light(scatter, 0, once)) return false;
     for (size_t k = 0; k < 3; ++k) {
         truth[k] = scatter->glow.often[from][of + k];
         alone[k] = scatter->glow.once[from][of + k];
@@ -222,7 +219,6 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     bench_set_number(row, "often", 1 - (alone[0] + alone[1] + alone[2]) / sum);
     bench_set_number(row, "bias", (all[0] + all[1] + all[2]) / sum - 1);
     for (size_t k = 0; k < 3; ++k) bench_set_number(row, keys[k], all[k] / truth[k] - 1);
-    bench_set_number(row, "bias_usual", (less[0] + less[1] + less[2]) / sum - 1);
     bench_set_number(row, "bias_once", (once[0] + once[1] + once[2]) / (alone[0] + alone[1] + alone[2]) - 1);
     return true;
 }
