@@ -59,8 +59,8 @@ typedef struct hair_style_desc {
 HAIR_DESC(hair_style_desc)
 
 /// Make a haircut: guides whose roots are the scalp's vertices. The built-in scalp is the hair-bearing part
-/// of the skull, an ellipsoid around (0, 1.63, 0) of half axes (0.077, 0.098, 0.096) m; the face looks along
-/// +z; the neck goes down from there to shoulders 0.40 m wide at height 1.40.
+/// of the skull, an ellipsoid around (0, 1.63, 0) of half axes (0.077, 0.098, 0.096) m, on which the middles of its
+/// triangles lie; the face looks along +z; the neck goes down from there to shoulders 0.40 m wide at height 1.40.
 HAIR_API hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out);
 
 HAIR_API const char* hair_style_name(hair_style style);    ///< "long", "bob", … NULL beyond the last.

@@ -7,6 +7,7 @@
 
 #define PI 3.14159265f
 #define CUSHION 0.020f // Height above the clearance from which on hair turns along the bust. m.
+#define BESIDE 0.025f  // As far from a parting hair runs along it at first. m.
 #define STRIDE HAIR_COURSE_STRIDE
 
 // How the hair of one root runs.
@@ -47,10 +48,13 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
     hair_vec3 normal = hair_skull_normal(p);
     float     along  = (HAIR_PARTING_FRONT_Z - p.z) / (HAIR_PARTING_FRONT_Z - parting.crown_z);
     float     width  = hair_mix(0.0005f, 0.045f, hair_smooth(0.9f, 1.5f, along)); // Over which sides change.
-    float     side   = fminf(fmaxf((p.x - hair_parting_x(parting, p.z)) / width, -1), 1);
-    float     back   = hair_mix(back_front, back_crown, hair_smooth(0, 1, along));
-    float     above  = hair_smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
-    hair_vec3 v      = {side * above, -0.7f, -back * above};
+    float     away = p.x - hair_parting_x(parting, p.z), side = fminf(fmaxf(away / width, -1), 1);
+    float     back = hair_mix(back_front, back_crown, hair_smooth(0, 1, along));
+    // Beside the parting it runs along it for a while, and hides the skin there.
+    float beside = hair_smooth(BESIDE, 0, fabsf(away)) * hair_smooth(1.2f, 0.9f, along);
+    side *= 1 - 0.5f * beside, back += 0.4f * beside;
+    float     above = hair_smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
+    hair_vec3 v     = {side * above, -0.7f, -back * above};
     return hair_normalize(hair_tangential(v, normal), hair_tangential(hair_v3(0, -1, 0), normal));
 }
 
@@ -153,13 +157,13 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_co
     float       front = frontness(root), high = layer(root);
     struct walk walk = {
         .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
-        .rise         = 0.16f,
+        .rise         = 0.2f,
         .clearance    = hair_mix(0.004f, 0.014f, high) + 0.002f * hair_noise(root, 0.03f, seed),
         .lift         = 0.06f,
         .gravity      = 45,
         .hold         = 0.04f,
         .split        = 25,
-        .floor        = hair_mix(1.30f, 1.335f, front) + 0.008f * hair_noise(root, 0.02f, seed + 1),
+        .floor        = hair_mix(1.30f, 1.335f, front) + 0.025f * hair_noise(root, 0.012f, seed + 1),
         .face         = 0.010f,
         .inward_below = 0,
     };

@@ -14,6 +14,7 @@ static void comb_to_tie(hair_vec3 root, struct hair_course* course)
 {
     hair_vec3 under = hair_skull_point(hair_skull_unit(tie));
     hair_vec3 p = root, normal = hair_skull_normal(root);
+    float     above = hair_body_distance(root);
     hair_vec3 d =
         hair_normalize(hair_lerp(hair_tangential(hair_sub(under, root), normal), normal, 0.02f), normal);
     hair_course_add(course, p);
@@ -24,7 +25,7 @@ static void comb_to_tie(hair_vec3 root, struct hair_course* course)
         d              = hair_normalize(hair_lerp(d, to, 0.15f), to);
         p              = hair_add(p, hair_scale(d, STRIDE));
         float height   = hair_body_distance(p);
-        float wanted   = (0.003f + 0.03f * course->length) * (1 - expf(-course->length / 0.015f));
+        float wanted   = above + (0.003f + 0.03f * course->length) * (1 - expf(-course->length / 0.015f));
         p = hair_add(p, hair_scale(hair_body_normal(p), fmaxf(fminf(wanted - height, STRIDE), -STRIDE)));
         d = hair_normalize(hair_sub(p, last), d);
         hair_course_add(course, p);

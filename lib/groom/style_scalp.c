@@ -304,6 +304,18 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
     return result;
 }
 
+// Triangles are flat where the skull is round: as far out as puts their middles on it, so that no root lies under the skin.
+static void lift(struct build* build)
+{
+    const float radius = 0.088f; // The skull's, about.
+    float       by     = build->spacing * build->spacing / (6 * radius);
+    for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
+        hair_vec3 p = vertex_at(build, i);
+        hair_store3(build->scalp.positions + 3 * (size_t)i,
+                    hair_add(p, hair_scale(hair_skull_normal(p), by)));
+    }
+}
+
 hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struct hair_parting parting,
                              uint32_t seed, struct hair_scalp* out)
 {
@@ -324,6 +336,7 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
         result = hair_fail_memory(host, "the scalp");
     else
         result = fill(&build, vertex_count);
+    if (!result) lift(&build);
 
     hair_free(host, build.plane);
     hair_free(host, build.area);
