@@ -424,7 +424,7 @@ typedef struct hair_look {
     hair_shading shading;    ///< Default HAIR_SHADING_FIBRES.
     float        roughness[2]; ///< Of fibres, along and round them. [0.05, 1]. Default (0.3, 0.4).
     float        tilt; ///< Of the scales of fibres, which moves highlights. Radians. [0, 0.3]. Default 0.05.
-    float        scattering; ///< Share of the light from other fibres that is heeded. [0, 1]. Default 0.7.
+    float        scattering; ///< Share of the light from other fibres that is heeded. [0, 1]. Default 1.
     float      specular[2];  ///< Of lines: the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
     float      gloss[2];     ///< Of lines: their exponents. [1, 1000]. Default (60, 15).
     float      radius; ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
