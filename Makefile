@@ -71,7 +71,7 @@ gallery: setup ## build/gallery.png: what the library does, pictures with captio
 	$(B)/hair-gallery -o build/gallery.png
 
 # What is measured here, and what was measured elsewhere and is kept, on one page.
-SUITES  := accuracy physics stability render shadow table paths scale lod collision field wind skip
+SUITES  := accuracy physics stability render shadow table paths scale bounds lod collision field wind skip
 MACHINE := build/bench/$(if $(device),device-$(device),here)
 bench: setup ## Every suite of hair-bench, into build/bench/
 	@$(MAKE) -j$(JOBS) $(B)/hair-bench

@@ -195,6 +195,7 @@ static void the_other_suites_run(void** state)
     expect(0, "$T stability --quick --case ordinary --method redblack --csv -", "ordinary,redblack,32,true");
     expect(0, "$T scale --quick --case followers --size 64 --csv - | sed -n 2p",
            "followers,direct,166,32,1024,24,64,");
+    expect(0, "$T bounds --quick --case machine --csv - | sed -n 2p", "machine,a pass that does nothing,");
     expect(0, "$T lod --quick --case coverage --strands 400 --size 64 --csv - | sed -n 2p",
            "coverage,50 %,still,400,64,64,");
     expect(0, "$T table --quick --case drawn --strands 200 --size 64 --csv - | sed -n 2p",

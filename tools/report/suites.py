@@ -98,6 +98,11 @@ def with_and_without(rows):
     return grouped(rows, lambda row: row["scene"], lambda row: (row["ms_all"], row["ms"]) if row.get("ms_all") and row.get("ms") else None)
 
 
+def over_floor(rows):
+    return grouped(rows, lambda row: row["bound"], lambda row: (row["ms"], row["of_floor"], row["method"] if row["case"] == "demo" else "")
+                   if row.get("of_floor") else None)
+
+
 def missed(row):
     return row.get("pass") is False
 
@@ -155,6 +160,15 @@ SUITES = [
         "text": "A step by the number of guides, a picture by the number of followers.",
         "plots": [{"series": cost("guides", "ms_step"), "joined": True, "across": "guides", "down": "milliseconds", "caption": "A step."},
                   {"series": cost("followers", "ms_draw"), "joined": True, "across": "followers", "down": "milliseconds", "caption": "A picture."}],
+    },
+    {
+        "name": "bounds", "title": "What holds it up",
+        "text": "Kinds of work of a frame on a GPU: their time, and how many times that is of what it cannot be less than: what launching their "
+                "passes takes, or moving all of the memory that is theirs once. What is neither is held up by latency, where four times as much "
+                "work takes less than twice as long, or by throughput.",
+        "plots": [{"series": over_floor, "across": "milliseconds", "down": "times its floor", "caption": "Kinds of work by what holds them up."}],
+        "shown": lambda row: True, "shown_title": "each kind of work",
+        "columns": ["case", "method", "pass", "ms", "floor_ms", "of_floor", "bound", "ms_more", "bytes", "runs"],
     },
     {"name": "lod", "title": "Level of detail", "text": "Fewer, wider strands against all of them: coverage, calm of a walk away, the picture far off."},
     {"name": "collision", "title": "Solids", "text": "Followers inside a body though no guide is; finding them; worlds of many objects.",
