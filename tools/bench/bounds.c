@@ -11,17 +11,17 @@
 #define SIZE 720
 #define FRAMES 31
 #define MOST_WORKS 32
-#define MORE 4 // times as much of everything, to see how time grows
+#define MORE 4 // times as much of everything
 
-static const char* const columns[] = {"case",     "method",   "pass",     "guides", "followers",
-                                      "runs",     "ms",       "ms_more",  "bytes",  "launch_ms",
-                                      "bytes_ms", "floor_ms", "of_floor", "bound",  NULL};
+static const char* const columns[] = {"case",     "method",   "pass",     "guides", "followers", "runs",
+                                      "ms",       "ms_more",  "ms_small", "bytes",  "launch_ms", "bytes_ms",
+                                      "floor_ms", "of_floor", "bound",    NULL};
 
 static const struct point {
     const char* name;
     uint32_t    guides, followers;
     bool        quick;
-} points[] = {{"demo", 166, 18000, true}, {"many guides", 10240, 10240, false}};
+} points[] = {{"demo", 166, 18000, true}, {"many guides", 1024, 18000, false}};
 
 // What the machine cannot do faster.
 struct floors {
@@ -39,9 +39,8 @@ struct work {
 
 // Floors ----------------------------------------------------------------------------------------------------
 
-static GLuint make_nothing(void)
+static GLuint make_program(const char* text)
 {
-    static const char* text = "#version 450 core\nlayout(local_size_x = 64) in;\nvoid main() {}\n";
     return glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &text);
 }
 
@@ -49,7 +48,9 @@ static double time_launch(struct bench_timer* timer)
 {
     enum { LAUNCHES = 100 };
     double ms[FRAMES];
-    GLuint program = make_nothing();
+    GLuint program = make_program("#version 450 core\n"
+                                  "layout(local_size_x = 64) in;\n"
+                                  "void main() {}\n");
     for (int i = 0; i < FRAMES; ++i) {
         glUseProgram(program);
         bench_timer_start(timer);
@@ -67,17 +68,27 @@ static double time_launch(struct bench_timer* timer)
 
 static double time_byte(struct bench_timer* timer)
 {
-    enum { BYTES = 1 << 28 };
+    enum { GROUPS = 65535, GROUP = 256, BYTES = GROUPS * GROUP * 16 };
     double ms[FRAMES];
     GLuint buffer[2];
+    GLuint program =
+        make_program("#version 450 core\n"
+                     "layout(local_size_x = 256) in;\n"
+                     "layout(std430, binding = 0) readonly buffer from_buffer { vec4 from[]; };\n"
+                     "layout(std430, binding = 1) writeonly buffer to_buffer { vec4 to[]; };\n"
+                     "void main() { to[gl_GlobalInvocationID.x] = from[gl_GlobalInvocationID.x]; }\n");
     glCreateBuffers(2, buffer);
     for (int i = 0; i < 2; ++i) glNamedBufferStorage(buffer[i], BYTES, NULL, 0);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, buffer);
     for (int i = 0; i < FRAMES; ++i) {
+        glUseProgram(program);
         bench_timer_start(timer);
-        glCopyNamedBufferSubData(buffer[0], buffer[1], 0, 0, BYTES);
+        glDispatchCompute(GROUPS, 1, 1);
         bench_timer_stop(timer);
         ms[i] = bench_timer_take(timer) / (2.0 * BYTES);
     }
+    glUseProgram(0);
+    glDeleteProgram(program);
     glDeleteBuffers(2, buffer);
     return bench_times_of(ms, FRAMES).ms;
 }
@@ -124,12 +135,12 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
 }
 
 // Frames of a head that shakes, each stepped and drawn.
-static bool live(struct bench* bench, const struct point* point, uint32_t times,
+static bool live(struct bench* bench, const struct point* point, uint32_t times, uint32_t size,
                  struct work works[MOST_WORKS], uint32_t* count)
 {
     struct bench_studio      studio;
     struct bench_studio_desc desc = {.scene     = "demo",
-                                     .size      = bench->options.size ? bench->options.size : SIZE,
+                                     .size      = size,
                                      .guides    = times * point->guides,
                                      .followers = times * point->followers,
                                      .solver    = HAIR_SOLVER_DIRECT};
@@ -147,22 +158,41 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
     return done;
 }
 
+static bool draws(const struct work* work)
+{
+    return !strcmp(work->name, "color") || !strcmp(work->name, "depth");
+}
+
+// Of the field only what has moved is written.
+static bool moves_all(const struct work* work)
+{
+    return !draws(work) && strcmp(work->name, "field") != 0;
+}
+
 // Four times the work in less than twice the time leaves threads idle that wait for each other or for memory.
-static const char* name_bound(double ms, double more, double launch, double moved)
+static const char* name_bound(const struct work* work, double ms, double more, double small, double launch,
+                              double moved)
 {
     if (ms < 4 * launch) return "launch";
     if (ms < 2 * moved) return "bandwidth";
-    return more < 0.5 * MORE * ms ? "latency" : "throughput";
+    if (more < 0.5 * MORE * ms) return "latency";
+    if (!draws(work)) return "arithmetic";
+    return small > 0.6 * ms ? "vertices" : "pixels";
+}
+
+static double median(struct work* work)
+{
+    return work->times ? bench_times_of(work->ms, work->times).ms : 0;
 }
 
 static void add_row(struct bench* bench, const struct point* point, const struct floors* floors,
-                    struct work* work, struct work* more)
+                    struct work* work, struct work* more, struct work* small)
 {
-    double  ms     = bench_times_of(work->ms, work->times).ms;
-    double  grown  = more->times ? bench_times_of(more->ms, more->times).ms : 0;
-    double  launch = floors->launch * work->runs, moved = floors->byte * (double)work->bytes;
-    double  least = launch > moved ? launch : moved;
-    json_t* row   = bench_rows_add(&bench->rows);
+    double  ms = median(work), grown = median(more), shrunk = median(small);
+    double  launch = floors->launch * work->runs;
+    double  moved  = moves_all(work) ? floors->byte * (double)work->bytes : 0;
+    double  least  = launch > moved ? launch : moved;
+    json_t* row    = bench_rows_add(&bench->rows);
     bench_set_text(row, "case", point->name);
     bench_set_text(row, "method", work->name);
     bench_set_text(row, "pass", work->pass);
@@ -171,26 +201,29 @@ static void add_row(struct bench* bench, const struct point* point, const struct
     bench_set_count(row, "runs", work->runs);
     bench_set_number(row, "ms", ms);
     bench_set_number(row, "ms_more", grown);
+    bench_set_number(row, "ms_small", shrunk);
     bench_set_number(row, "bytes", (double)work->bytes);
-    bench_set_number(row, "launch_ms", launch);
-    bench_set_number(row, "bytes_ms", moved);
-    bench_set_number(row, "floor_ms", least);
-    bench_set_number(row, "of_floor", ms / least);
-    bench_set_text(row, "bound", name_bound(ms, grown, launch, moved));
+    if (!draws(work)) { // Nobody knows how fast vertices and pixels may be.
+        bench_set_number(row, "launch_ms", launch);
+        bench_set_number(row, "bytes_ms", moved);
+        bench_set_number(row, "floor_ms", least);
+        bench_set_number(row, "of_floor", ms / least);
+    }
+    bench_set_text(row, "bound", name_bound(work, ms, grown, shrunk, launch, moved));
 }
 
 static void measure(struct bench* bench, const struct point* point, const struct floors* floors)
 {
-    static struct work works[2][MOST_WORKS];
-    uint32_t           count[2] = {0, 0};
+    static struct work works[3][MOST_WORKS]; // as it is, more of it, and in a picture half as wide and high
+    uint32_t           count[3] = {0, 0, 0}, size = bench->options.size ? bench->options.size : SIZE;
     if (!bench_begin(bench, point->name, "direct")) return;
-    for (uint32_t i = 0; i < 2; ++i)
-        if (!live(bench, point, i ? MORE : 1, works[i], &count[i])) {
+    for (uint32_t i = 0; i < 3; ++i)
+        if (!live(bench, point, i == 1 ? MORE : 1, i == 2 ? size / 2 : size, works[i], &count[i])) {
             bench_refuse(bench, point->name, "direct");
             return;
         }
     for (uint32_t i = 0; i < count[0] && i < MOST_WORKS; ++i)
-        if (works[0][i].times) add_row(bench, point, floors, &works[0][i], &works[1][i]);
+        if (works[0][i].times) add_row(bench, point, floors, &works[0][i], &works[1][i], &works[2][i]);
 }
 
 static void run_suite(struct bench* bench)

@@ -165,10 +165,10 @@ SUITES = [
         "name": "bounds", "title": "What holds it up",
         "text": "Kinds of work of a frame on a GPU: their time, and how many times that is of what it cannot be less than: what launching their "
                 "passes takes, or moving all of the memory that is theirs once. What is neither is held up by latency, where four times as much "
-                "work takes less than twice as long, or by throughput.",
+                "work takes less than twice as long, or else by arithmetic; draws by vertices, where a quarter of the pixels takes nearly as long, or by pixels.",
         "plots": [{"series": over_floor, "across": "milliseconds", "down": "times its floor", "caption": "Kinds of work by what holds them up."}],
         "shown": lambda row: True, "shown_title": "each kind of work",
-        "columns": ["case", "method", "pass", "ms", "floor_ms", "of_floor", "bound", "ms_more", "bytes", "runs"],
+        "columns": ["case", "method", "pass", "ms", "floor_ms", "of_floor", "bound", "ms_more", "ms_small", "bytes", "runs"],
     },
     {"name": "lod", "title": "Level of detail", "text": "Fewer, wider strands against all of them: coverage, calm of a walk away, the picture far off."},
     {"name": "collision", "title": "Solids", "text": "Followers inside a body though no guide is; finding them; worlds of many objects.",
