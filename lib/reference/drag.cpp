@@ -7,10 +7,7 @@
 
 double hair_reference_drag_across(double reynolds)
 {
-    const double more = reynolds <= 5    ? 0.147 * std::pow(reynolds, 0.82)
-                        : reynolds <= 40 ? 0.227 * std::pow(reynolds, 0.55)
-                                         : 0.0838 * std::pow(reynolds, 0.82);
-    return 9.689 * std::pow(reynolds, -0.78) * (1 + more);
+    return 1 + 9.75 * std::pow(reynolds, -0.744);
 }
 
 double hair_reference_drag_along(double reynolds)

@@ -7,7 +7,7 @@ extern "C" {
 #endif
 
 /// Of the flow across it, by its Reynolds number: force of a metre over half the density, the diameter and the squared
-/// velocity. Clift, Grace and Weber 1978, "Bubbles, Drops, and Particles", of Reynolds numbers from 0.1 to 400.
+/// velocity: 1 + 9.75 Re^-0.744, the form of White 1991, of Reynolds numbers from 0.1 to 400.
 double hair_reference_drag_across(double reynolds);
 
 /// Of the flow along it, by the Reynolds number of that across: force of a metre over viscosity and velocity. What goes

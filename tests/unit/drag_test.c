@@ -19,18 +19,35 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
     (void)state;
     const struct {
         double reynolds, published;
-    } rows[] = {{0.1, slow_drag(0.1)},
-                {0.2, slow_drag(0.2)},
-                // Dennis and Chang 1970, steady flow.
-                {5, 4.116},
-                {7, 3.421},
-                {10, 2.846},
-                {20, 2.045},
-                {40, 1.522},
-                // Park, Kwon and Choi 1998, mean of the flow that sheds vortices.
-                {60, 1.39},
-                {80, 1.35},
-                {100, 1.33}};
+    } rows[] = {
+        {0.1, slow_drag(0.1)},
+        {0.2, slow_drag(0.2)},
+        // Dennis and Chang 1970, steady flow.
+        {5, 4.116},
+        {7, 3.421},
+        {10, 2.846},
+        {20, 2.045},
+        {40, 1.522},
+        // Park, Kwon and Choi 1998, mean of the flow that sheds vortices.
+        {60, 1.39},
+        {80, 1.35},
+        {100, 1.33},
+        // Wieselsberger 1922, NACA TN 121: read off its curve, whose lower end is Lamb's theory.
+        {0.116, 54.1},
+        {0.241, 30.5},
+        {0.728, 13.2},
+        {3.18, 4.87},
+        {8.01, 2.94},
+        {17.7, 2.12},
+        {31.7, 1.73},
+        {63.6, 1.48},
+        {196, 1.27},
+        {356, 1.15},
+        // Navier and Stokes' equations, steady, solved for this test by second differences of the stream function and
+        // the vorticity out to 400 radii and more, on two grids; at 0.1 that gives 1 % more than Kaplun.
+        {0.5, 16.86},
+        {1, 10.50},
+        {2, 6.76}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         double drag = hair_reference_drag_across(rows[i].reynolds);
         print_message("    Re %g: %.4g, published %.4g\n", rows[i].reynolds, drag, rows[i].published);
@@ -52,15 +69,6 @@ static void along_a_cylinder_it_is_what_heat_does(void** state)
     assert_true(fabs(hair_reference_drag_along(0) - 0.3 * PI) < 1e-12);
 }
 
-static void the_correlation_has_no_jumps(void** state)
-{
-    (void)state;
-    for (double re = 0.1; re < 400; re *= 1.001) {
-        double step = hair_reference_drag_across(1.001 * re) / hair_reference_drag_across(re);
-        assert_true(step < 1 && step > 0.998);
-    }
-}
-
 static void a_force_has_a_part_across_and_one_along(void** state)
 {
     (void)state;
@@ -80,7 +88,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(across_a_cylinder_it_is_within_a_tenth_of_published_data),
         cmocka_unit_test(along_a_cylinder_it_is_what_heat_does),
-        cmocka_unit_test(the_correlation_has_no_jumps),
         cmocka_unit_test(a_force_has_a_part_across_and_one_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,10 +18,13 @@ static const struct {
     const char* reference;
 } rows[] = {{0.1, 0, "Kaplun 1957"},
             {0.2, 0, "Kaplun 1957"},
+            {0.728, 13.2, "Wieselsberger 1922"},
+            {3.18, 4.87, "Wieselsberger 1922"},
             {5, 4.116, "Dennis, Chang 1970"},
             {7, 3.421, "Dennis, Chang 1970"},
             {10, 2.846, "Dennis, Chang 1970"},
             {20, 2.045, "Dennis, Chang 1970"},
+            {31.7, 1.73, "Wieselsberger 1922"},
             {40, 1.522, "Dennis, Chang 1970"},
             {60, 1.39, "Park, Kwon, Choi 1998"},
             {80, 1.35, "Park, Kwon, Choi 1998"},
