@@ -118,13 +118,13 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_STEP 0         // hair_step_params
 #define HAIR_BIND_DRAW 1         // hair_draw_params
 #define HAIR_BIND_FIELD 2        // hair_field_params
-#define HAIR_BIND_WIND 2         // hair_wind_params, of the solvers of rods
+#define HAIR_BIND_WIND 2         // hair_wind_params, of the solvers of rods and of the pass that draws air
 #define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of the passes that draw nothing
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, likewise
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the passes of the fluid,
 #define HAIR_BIND_LEVEL 1        // and hair_fluid_level
 #define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, likewise
-#define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids and the field
+#define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids, the field and air
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -167,7 +167,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PAINT 17   // vec4 per follower and place along it: colours of its own
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_LIGHT 18   // uint per follower vertex and light, unsigned: HAIR_BIND_LIGHT
-#define HAIR_UNIT_GUST 8     // of the solvers of rods and of the fluid, in place of the field: gusts of deviation 1,
+#define HAIR_UNIT_GUST 8     // of what knows air, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
 
@@ -529,9 +529,10 @@ struct hair_shown_params {
     hair_vec4 corner;  // xyz: of the slice, m
     hair_vec4 side[2]; // xyz: from there along it, m
     hair_vec4 depth;   // depth in the framebuffer is x + y times that in clip space
+    hair_vec4 air;     // of arrows: x, y: how many along each side; z: how far apart, m; w: speed that is grey, m/s
     HAIR_STRUCT(hair_shown_solid) shown[HAIR_SHOWN_SOLIDS];
 };
-HAIR_SIZE(hair_shown_params, 96 + HAIR_SHOWN_SOLIDS * 128)
+HAIR_SIZE(hair_shown_params, 112 + HAIR_SHOWN_SOLIDS * 128)
 
 // HAIR_BRICK^3 voxels, and the solids that reach into them.
 struct hair_field_brick {

@@ -70,16 +70,22 @@ vec3 from_texture(vec3 place)
     return all(equal(at, clamp(at, 0.0, 1.0))) ? sound(textureLod(volume_texture, at, 0.0).xyz) : vec3(0.0);
 }
 
-// m/s, at a place from the head's origin at the start of a substep of the dispatch.
-vec3 air_at(vec3 position, uint substep)
+// m/s, at a position from the head's origin, which is a place from that at the end of the dispatch; `time` from there, s.
+vec3 air_then(vec3 position, vec3 place, float time)
 {
-    vec4 at    = wind.at[substep];
-    vec3 place = position + at.xyz, u = wind.velocity.xyz + gust_at(place, at.w), past = u;
+    vec3 u     = wind.velocity.xyz + gust_at(place, time), past = u;
     vec3 down  = direction_or(wind.velocity.xyz, vec3(0.0));
     for (uint k = 0u; k < wind.balls; ++k) past = around_ball(past, (position - wind.ball[k].xyz) / wind.ball[k].w, down);
     u = wind.box.w > 0.0 ? in_fluid(place, u) : mix(u, past, wind.shelter);
     for (uint k = 0u; k < wind.sources; ++k) u += from_source(k, place);
     return wind.volume != 0u ? u + from_texture(place) : u;
+}
+
+// At the start of a substep of the dispatch.
+vec3 air_at(vec3 position, uint substep)
+{
+    vec4 at = wind.at[substep];
+    return air_then(position, position + at.xyz, at.w);
 }
 
 #endif

@@ -609,9 +609,9 @@ static inline hair_wind_source hair_wind_source_default(void)
     return source;
 }
 
-/// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them by the
-/// correlation of Clift, Grace and Weber 1978, along them as heat passes from them. Guides stand for locks, whose hairs
-/// shelter each other: so hair_physics.drag is below 1. hair_physics.damping is against this air as well.
+/// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them with a
+/// coefficient of 1 + 9.75 Re^-0.744, the form of White 1991, along them as heat passes from them. Guides stand for locks,
+/// whose hairs shelter each other: so hair_physics.drag is below 1. hair_physics.damping is against this air as well.
 typedef struct hair_wind {
     hair_made       made;
     hair_wind_model model;       ///< Default HAIR_WIND_AMBIENT.
@@ -745,7 +745,10 @@ typedef enum hair_pass {
     /// y in viewports, to the right and up, without jitter; 0 and 1 beside. Keeps the vertices of two frames: 40 bytes each.
     HAIR_PASS_MOTION,
     /// With depth: numbers. To an unsigned integer target: 1 + strand, 1 + its guide, place along it from 0 to 65535.
-    HAIR_PASS_ID
+    HAIR_PASS_ID,
+    /// Debug: the air of the last step, if there is wind, as arrows in a hair_slice; HAIR_SLICE_NONE is HAIR_SLICE_Z here.
+    /// Grey ones are as fast as the wind, blue ones slower, red ones twice as fast.
+    HAIR_PASS_WIND
 } hair_pass;
 
 /// How followers become what is drawn: the picture is the same.
@@ -865,7 +868,7 @@ typedef struct hair_view {
     /// and Hanrahan 2001 order and scale them, over world axes: 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Each in
     /// [-1e6, 1e6]. NULL: none.
     const float*    sky;
-    hair_slice      slice;     ///< Of HAIR_PASS_SOLIDS. Default HAIR_SLICE_NONE.
+    hair_slice      slice;     ///< Of HAIR_PASS_SOLIDS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
     float           slice_at;  ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
     const hair_lod* lod;       ///< NULL: all is drawn.
     hair_shader*    shader;    ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.

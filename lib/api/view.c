@@ -128,6 +128,14 @@ static hair_result draw_solids(hair_instance* hair, const hair_view* view)
     return result;
 }
 
+static hair_result draw_air(hair_instance* hair, const hair_view* view)
+{
+    const struct hair_sim*   sim   = &hair->sim;
+    const struct hair_fluid* fluid = sim->air.box.w > 0 ? &sim->blow.fluid : NULL;
+    if (!sim->air.params) return HAIR_OK;
+    return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
+}
+
 // Followers that are inside solids are found and led out before they are looked at. `view`: NULL: all.
 static hair_result meet_solids(hair_instance* hair, const hair_view* view)
 {
@@ -155,10 +163,15 @@ static int is_held(const struct hair_sim* sim)
     return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
 }
 
+static int is_of_surroundings(const hair_view* view)
+{
+    return view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_WIND;
+}
+
 // Velocities want to be asked for in every frame.
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
-    if (view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_MOTION) return 0;
+    if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
     return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.at_step, view);
 }
 
@@ -166,7 +179,7 @@ static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
 {
     struct hair_asked* asked = hair_asked_now(hair);
-    if (view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
+    if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
     int depth = view->pass == HAIR_PASS_DEPTH, unseen = is_out_of_view(hair, view);
     ++asked->views[depth];
     asked->unseen[depth] += (uint32_t)unseen;
@@ -190,8 +203,8 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
     hair_draw_tidy(&hair->draw, hair->ledger.number);
-    if (own.pass == HAIR_PASS_SOLIDS) {
-        result = draw_solids(hair, &own);
+    if (is_of_surroundings(&own)) {
+        result = own.pass == HAIR_PASS_SOLIDS ? draw_solids(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
         hair->draw.bounded =

@@ -146,6 +146,11 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
                              const hair_solid* solids, uint32_t count, const struct hair_pose* head,
                              const hair_view* view);
 
+// air.c: air as the last step had it, around what the field's box holds. fluid: NULL where none is.
+hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, const hair_wind* wind,
+                          const struct hair_fluid* fluid, const struct hair_field_box* box,
+                          const struct hair_pose* head, const hair_view* view);
+
 // expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth);
 void        hair_draw_free_expanded(struct hair_draw* draw);

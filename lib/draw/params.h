@@ -23,6 +23,10 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
 void hair_draw_cull_patches(const struct hair_draw* draw, const hair_view* view,
                             struct hair_draw_params* out);
 
+// solids.c: of what is drawn for debugging, where a slice lies, `place` of the way through the box.
+void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, float place,
+                           struct hair_shown_params* params);
+
 // cull.c: where a picture of so many pixels ends with what may reach into it, as a multiple of w.
 double hair_draw_edge(float pixels, float jitter);
 

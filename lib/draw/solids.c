@@ -13,16 +13,16 @@ static hair_vec4 find_depth(struct hair_gl* gl)
     return (hair_vec4){0.5f * (range[0] + range[1]), 0.5f * (range[1] - range[0]), 0, 0};
 }
 
-static void write_slice(const struct hair_field_box* box, const hair_view* view,
-                        struct hair_shown_params* params)
+void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, float place,
+                           struct hair_shown_params* params)
 {
     const float brick = HAIR_BRICK * box->voxel, lower[] = {box->lower.x, box->lower.y, box->lower.z};
-    if (!view->slice) return;
-    int   axis = (int)view->slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    if (!slice) return;
+    int   axis = (int)slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
     float length[3] = {brick * (float)box->bricks[0], brick * (float)box->bricks[1],
                        brick * (float)box->bricks[2]};
     float at[3] = {lower[0], lower[1], lower[2]}, normal[3] = {0}, sides[2][3] = {{0}};
-    at[axis] += view->slice_at * length[axis];
+    at[axis] += place * length[axis];
     normal[axis]    = 1;
     sides[0][a]     = length[a];
     sides[1][b]     = length[b];
@@ -90,7 +90,7 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
         params->rotation =
             (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
         params->depth = find_depth(gl);
-        write_slice(&field->box, view, params);
+        hair_draw_write_slice(&field->box, view->slice, view->slice_at, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, &buffer);
         gl->BindVertexArray(gl->vertex_array);

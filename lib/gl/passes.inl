@@ -104,6 +104,7 @@ PASS(LIGHT_NODES, "draw/light_nodes", WITH(SOLIDS), "draw/light_nodes.comp")
 PASS(LIGHT, "draw/light", WITH(SOLIDS), "draw/light.comp")
 PASS(SOLIDS, "draw/solids", 0, "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
 PASS(SLICE, "draw/slice", 0, "draw/slice.vert draw/slice.frag")
+PASS(AIR, "draw/air", 0, "draw/air.vert draw/guides.frag")
 PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
 
 #undef DRAW_STAGES

@@ -167,15 +167,20 @@ static void write_gusts(struct hair_air* air, const struct hair_air_now* now, st
     params->velocity.w          = gusts.speed;
 }
 
+static int has_volume(const struct hair_gl* gl, const hair_wind* wind)
+{
+    GLint target = 0;
+    if (wind->texture && gl->IsTexture(wind->texture))
+        gl->GetTextureParameteriv(wind->texture, GL_TEXTURE_TARGET, &target);
+    return target == GL_TEXTURE_3D;
+}
+
 // From the head's origin at the end of the dispatch: the transform after a shift by it.
 static void write_volume(const struct hair_gl* gl, const struct hair_air_now* now,
                          struct hair_wind_params* params)
 {
-    const float* m      = now->wind->texture_transform;
-    GLint        target = 0;
-    if (now->wind->texture && gl->IsTexture(now->wind->texture))
-        gl->GetTextureParameteriv(now->wind->texture, GL_TEXTURE_TARGET, &target);
-    params->volume = target == GL_TEXTURE_3D;
+    const float* m = now->wind->texture_transform;
+    params->volume = (hair_uint)has_volume(gl, now->wind);
     double shift[3];
     for (int k = 0; k < 3; ++k) {
         shift[k] = (double)m[12 + k];
@@ -194,6 +199,19 @@ static void write_starts(const struct hair_air_now* now, struct hair_wind_params
         origin          = hair_sub(origin, hair_v3(moved.x, moved.y, moved.z));
         params->at[i] =
             (hair_vec4){origin.x, origin.y, origin.z, (float)(-now->substep * (now->substeps - i))};
+    }
+}
+
+static void bind(const struct hair_air* air, struct hair_gl* gl, GLuint volume)
+{
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &air->params);
+    if (air->gusts) { // None would take what a host has of other kinds off the unit.
+        gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
+        gl->BindSampler(HAIR_UNIT_GUST, 0);
+    }
+    if (volume) {
+        gl->BindTextureUnit(HAIR_UNIT_VOLUME, volume);
+        gl->BindSampler(HAIR_UNIT_VOLUME, 0);
     }
 }
 
@@ -217,13 +235,10 @@ void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_a
     write_volume(gl, now, &params);
     write_starts(now, &params);
     hair_gl_write_uniform(gl, air->params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &air->params);
-    if (air->gusts) { // None would take what a host has of other kinds off the unit.
-        gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
-        gl->BindSampler(HAIR_UNIT_GUST, 0);
-    }
-    if (params.volume) {
-        gl->BindTextureUnit(HAIR_UNIT_VOLUME, wind->texture);
-        gl->BindSampler(HAIR_UNIT_VOLUME, 0);
-    }
+    bind(air, gl, params.volume ? wind->texture : 0);
+}
+
+void hair_air_bind(const struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
+{
+    bind(air, gl, has_volume(gl, wind) ? wind->texture : 0);
 }

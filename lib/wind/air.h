@@ -47,4 +47,7 @@ struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair
 // What the next dispatch of a solver reads; gusts go on by its time.
 void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_air_now* now);
 
+// The same for who looks at it afterwards, where there is any.
+void hair_air_bind(const struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);
+
 #endif

@@ -159,7 +159,9 @@ static hair_result draw(struct fixture* f)
         view.path        = (hair_path)(i / 16);
         result           = hair_draw(f->hair, &view);
     }
-    return result;
+    hair_view air = hair_view_default();
+    air.pass      = HAIR_PASS_WIND;
+    return result ? result : hair_draw(f->hair, &air);
 }
 static hair_result read_all(struct fixture* f)
 {

@@ -1,0 +1,71 @@
+// air.c - air, drawn for debugging: arrows in a slice of the field's box.
+#include <math.h>
+
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#define ARROWS 40   // along the longest side
+#define AROUND 1.5f // of the box, and of air so much: as far as the fluid goes unless the wind says
+
+// That of the wind, or else of a source, or of what only a texture knows, 1 m/s.
+static float grey_speed(const hair_wind* wind)
+{
+    float speed = hair_length(hair_load3(wind->velocity));
+    for (uint32_t i = 0; i < wind->source_count && !(speed > 0); ++i) speed = fabsf(wind->sources[i].speed);
+    return speed > 0 ? speed : 1;
+}
+
+static void widen(struct hair_shown_params* params, int i)
+{
+    float      more   = 0.5f * (AROUND - 1);
+    hair_vec4 *corner = &params->corner, *side = &params->side[i];
+    *corner =
+        (hair_vec4){corner->x - more * side->x, corner->y - more * side->y, corner->z - more * side->z, 0};
+    *side = (hair_vec4){AROUND * side->x, AROUND * side->y, AROUND * side->z, 0};
+}
+
+static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* wind, const hair_view* view,
+                             struct hair_shown_params* params)
+{
+    const hair_slice slice   = view->slice ? view->slice : HAIR_SLICE_Z;
+    uint32_t         longest = 0, along[2];
+    for (int k = 0; k < 3; ++k) longest = box->bricks[k] > longest ? box->bricks[k] : longest;
+    hair_draw_write_slice(box, slice, view->slice_at, params);
+    for (uint32_t i = 0; i < 2; ++i) {
+        widen(params, (int)i);
+        along[i] = (ARROWS * box->bricks[((uint32_t)slice + i) % 3] + longest - 1) / longest;
+    }
+    float apart = AROUND * HAIR_BRICK * box->voxel * (float)longest / ARROWS;
+    params->air = (hair_vec4){(float)along[0], (float)along[1], apart, grey_speed(wind)};
+    return along[0] * along[1];
+}
+
+hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, const hair_wind* wind,
+                          const struct hair_fluid* fluid, const struct hair_field_box* box,
+                          const struct hair_pose* head, const hair_view* view)
+{
+    struct hair_gl*          gl     = draw->gl;
+    GLuint                   buffer = 0; // Made each time: who looks at no air has none.
+    hair_vec4                turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
+    struct hair_shown_params params = {.rotation = turn};
+    struct hair_draw_params  own;
+    hair_result              result = hair_gl_need(gl, HAIR_GL_AIR);
+    if (!result) result = hair_gl_uniform(gl, "hair shown", sizeof params, &buffer);
+    if (result) return result;
+    uint32_t arrows = write_arrows(box, wind, view, &params);
+    hair_draw_write_params(draw, head, view, &own);
+    hair_gl_write_uniform(gl, draw->params, sizeof own, &own);
+    hair_gl_write_uniform(gl, buffer, sizeof params, &params);
+    hair_air_bind(air, gl, wind);
+    if (fluid) hair_fluid_bind(fluid);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, &buffer);
+    gl->BindVertexArray(gl->vertex_array);
+    gl->Disable(GL_CULL_FACE);
+    hair_gl_begin(gl, HAIR_GL_AIR);
+    gl->DrawArraysInstanced(GL_TRIANGLES, 0, 3, (GLsizei)arrows);
+    hair_gl_end(gl, HAIR_GL_AIR);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, NULL); // Before it is deleted: see state.c.
+    hair_gl_free_buffer(gl, &buffer);
+    return HAIR_OK;
+}
