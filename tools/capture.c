@@ -181,12 +181,13 @@ static int make_hair(struct capture* capture)
 {
     const struct hair_scene* scene = &capture->options.scene;
     hair_desc                desc  = scene->settings.desc;
+    hair_wind                wind  = hair_scene_wind_of(&scene->settings, &scene->wind);
     desc.label                     = capture->options.name;
     desc.physics                   = &scene->settings.physics;
     desc.look                      = &scene->settings.look;
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
-    if (!result) result = hair_set_wind(capture->hair, &scene->settings.wind);
+    if (!result) result = hair_set_wind(capture->hair, &wind);
     if (!result) result = set_solids(capture, 0, desc.transform);
     return hair_exit_for(result);
 }

@@ -20,12 +20,12 @@ ROW("Solids from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
         "tools/scenes/bullet.json --show hair,head,solids")
 
-ROW("Wind with gusts, half a second apart, and what a lock feels of it (drag, a multiple of a single hair's)")
-PICTURE("Wind of 4 m/s from the left", "--scene wind --frames 60:61")
-PICTURE("A gust later", "--scene wind --frames 90:91")
-PICTURE("drag=0.03", "--scene wind --set drag=0.03")
-PICTURE("drag=0.4", "--scene wind --set drag=0.4")
-PICTURE("A storm of 25 m/s", "--scene wind --set wind.x=23 --set wind.z=-9")
+ROW("Wind as a fluid around the head, whose gusts travel through it; of its air, blue is lee and red faster than the wind")
+PICTURE("Wind of 3 m/s from the left", "--scene wind --frames 24:25")
+PICTURE("A fifth of a second later", "--scene wind --frames 30:31")
+PICTURE("Its air (--show wind)", "--scene wind --show head,wind --frames 24:25")
+PICTURE("A fifth of a second later", "--scene wind --show head,wind --frames 30:31")
+PICTURE("What a lock feels of it: drag=0.1", "--scene wind --set drag=0.1 --frames 24:25")
 
 ROW("Three ways to make followers of the same guides")
 PICTURE("Single strand: offsets from one guide (interpolation=single)", "--scene demo --set interpolation=single")

@@ -86,7 +86,7 @@ static void wrong_use_exits_with_2(void** state)
         {"-o - --stats -", "standard output"},
         {"--dance", "--help"},
         {"--groom", "--help"},
-        {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides and solids"},
+        {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides, solids and wind"},
         {"--show hair, --hash", "--show is hair,"},
     };
     assert_int_equal(hair_test_shell("printf 'HAIR' >$D/x.hair; head -c 124 /dev/zero >>$D/x.hair"), 0);
@@ -161,6 +161,9 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
         {"{\"motion\": [{\"time\": 1, \"dance\": 1}]}", "motion[0].dance"},
         {"{\"solids\": [{\"shape\": \"cube\"}]}", "solids[0].shape"},
         {"{\"solids\": [{\"motion\": [{\"time\": 1}, {\"time\": 0}]}]}", "solids[0].motion must be in order"},
+        {"{\"wind\": {\"velocity\": [1, 2]}}", "wind.velocity must be three numbers"},
+        {"{\"wind\": {\"gust\": 1}}", "no setting wind.gust"},
+        {"{\"wind\": {\"sources\": [{\"speed\": 2000}]}}", "wind.sources[0].speed must be"},
         {"{\"solids\": [{\"stays\": 1}]}", "solids[0].stays must be true or false"},
         {"{\"solids\": [{\"spin\": 1}]}", "solids[0].spin must be 3 numbers"},
         {"{\"settings\": {\"dance\": 1}}", "no setting dance"},
@@ -265,6 +268,25 @@ static void what_is_shown_is_what_was_asked_for(void** state)
 }
 
 // Every way to move leads to the same place: the picture is that of a solid which stands there.
+// Of the pixels' hash: hair, also of a step in wind; and the wind itself, which a source has, or the scene's velocity.
+static void wind_of_a_scene_blows_and_is_shown(void** state)
+{
+    (void)state;
+    static const char* const winds[] = {"\"velocity\": [4, 0, 0]", "\"velocity\": [4, 0, 0], \"gusts\": 0.5",
+                                        "\"sources\": [{\"position\": [0.3, 1.6, 0], \"speed\": 9}]"};
+    for (int i = 0; i < 3; ++i) {
+        char command[512];
+        snprintf(
+            command, sizeof command,
+            "sed 's/{/{\"wind\": {%s}, /' $D/small.json >$D/blown.json && for show in hair wind; do "
+            "$T $D/blown.json --samples 1 --frames 1:2 --hash --show $show | grep pixels >>$D/shown; done",
+            winds[i]);
+        expect(0, command, "");
+    }
+    expect(0, "$T $D/small.json --samples 1 --frames 1:2 --hash --show hair | grep pixels >>$D/shown", "");
+    expect(0, "test $(sort -u $D/shown | wc -l) = 7 && rm $D/shown $D/blown.json", "");
+}
+
 static void solids_are_where_their_motion_says(void** state)
 {
     (void)state;
@@ -499,6 +521,7 @@ int main(void)
         cmocka_unit_test(hashes_tell_one_capture_from_another),
         cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
         cmocka_unit_test(what_is_shown_is_what_was_asked_for),
+        cmocka_unit_test(wind_of_a_scene_blows_and_is_shown),
         cmocka_unit_test(solids_are_where_their_motion_says),
         cmocka_unit_test(pictures_and_videos_are_in_their_formats),
         cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),

@@ -27,9 +27,11 @@ const struct hair_builtin hair_builtin_scenes[] = {
             " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, "
             "'guides': 1000, 'iterations': 8, "
             "'pull_root': 8, 'pull_tip': 6}}"},
-    {"wind", "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 180, 'picture': 60,"
-             " 'camera': {'eye': [0.5, 1.62, 1.25], 'target': [0.1, 1.5, 0.0], 'fov': 27},"
-             " 'settings': {'wind.x': 4, 'wind.z': -1.5, 'wind.gusts': 0.45, 'wind.gust_length': 0.7}}"},
+    {"wind",
+     "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
+     " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
+     " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'box': 1, 'gusts': 0.4, 'gust_length': 0.25},"
+     " 'settings': {'drag': 0.5, 'pull_root': 3, 'pull_tip': 0.3}}"},
     {NULL, NULL},
 };
 

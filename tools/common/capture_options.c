@@ -44,7 +44,7 @@ static const struct row rows[] = {
     {"style", STYLE, "NAME", "show a built-in haircut, below"},
     {"motion", MOTION, "NAME", "move the head so, below"},
     {"head", HEAD, NULL, "draw the built-in head under the haircut of a file"},
-    {"show", SHOW, "WHAT", "draw some of hair, head, guides, solids, by commas; hair,head"},
+    {"show", SHOW, "WHAT", "draw some of hair, head, guides, solids, wind, by commas; hair,head"},
     {"frames", FRAMES, "A:B", "draw frames A up to, not including, B; those before are simulated only"},
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
@@ -170,15 +170,15 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
 
 static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
 {
-    static const char* const names[] = {"hair", "head", "guides",
-                                        "solids"}; // In the order of enum hair_show.
+    static const char* const names[] = {"hair", "head", "guides", "solids", "wind"}; // As enum hair_show.
+    const int                count   = (int)(sizeof names / sizeof *names);
     scene->show                      = 0;
     for (const char* at = text;;) {
         size_t length = strcspn(at, ",");
         int    i      = 0;
-        while (i < 4 && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
-        if (i == 4) {
-            hair_complain(tool, "--show is %s, not some of hair, head, guides and solids", text);
+        while (i < count && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
+        if (i == count) {
+            hair_complain(tool, "--show is %s, not some of hair, head, guides, solids and wind", text);
             return false;
         }
         scene->show |= 1u << i;

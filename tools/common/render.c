@@ -317,10 +317,11 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
         uint32_t  show;
         hair_pass pass;
     } passes[]         = {{HAIR_SHOW_SOLIDS, HAIR_PASS_SOLIDS},
+                          {HAIR_SHOW_WIND, HAIR_PASS_WIND},
                           {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
                           {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};
     hair_result result = HAIR_OK;
-    for (int i = 0; i < 3 && !result; ++i)
+    for (int i = 0; i < 4 && !result; ++i)
         if (frame->scene->show & passes[i].show)
             result = draw_hair(frame, &tile->camera, passes[i].pass, render->targets.shadow);
     if (result) return result;

@@ -112,6 +112,12 @@ static bool read_lights(const place* json, const char* key, const json_t* value,
     return hair_scene_read_lights(json, key, value, &((struct hair_scene*)out)->lights);
 }
 
+static bool read_wind(const place* json, const char* key, const json_t* value, void* out)
+{
+    struct hair_scene* scene = out;
+    return hair_scene_read_wind(json, key, value, &scene->settings, &scene->wind);
+}
+
 static bool read_bullet(const place* json, const char* key, const json_t* value, void* out)
 {
     return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
@@ -151,14 +157,7 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
     if (!json_is_object(value)) return hair_json_wrong(json, key, "an object");
     json_object_foreach((json_t*)(uintptr_t)value, name, member)
     {
-        char text[64];
-        if (json_is_string(member))
-            snprintf(text, sizeof text, "%s", json_string_value(member));
-        else if (json_is_number(member))
-            snprintf(text, sizeof text, "%.17g", json_number_value(member));
-        else
-            return hair_json_wrong(json, name, "a number or the name of a choice");
-        if (!hair_settings_set(json->tool, &scene->settings, name, text)) return false;
+        if (!hair_scene_set(json, "", name, member, &scene->settings)) return false;
     }
     return true;
 }
@@ -183,6 +182,7 @@ static const entry whole[]      = {HAIR_OTHER("style", read_style),
                                    HAIR_OTHER("camera", read_camera),
                                    HAIR_OBJECT("light", light),
                                    HAIR_OTHER("lights", read_lights),
+                                   HAIR_OTHER("wind", read_wind),
                                    HAIR_OBJECT("background", background),
                                    HAIR_NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
                                    HAIR_NUMBERS("settle", AT(settle), 1, 0, 60),

@@ -11,12 +11,19 @@
 #include "tools/common/scene_lights.h"
 #include "tools/common/scene_maps.h"
 #include "tools/common/scene_solids.h"
+#include "tools/common/scene_wind.h"
 #include "tools/common/settings.h"
 
 enum hair_subject { HAIR_SUBJECT_STYLE, HAIR_SUBJECT_FILE, HAIR_SUBJECT_FUR };
 
 // What is drawn, together.
-enum hair_show { HAIR_SHOW_HAIR = 1, HAIR_SHOW_HEAD = 2, HAIR_SHOW_GUIDES = 4, HAIR_SHOW_SOLIDS = 8 };
+enum hair_show {
+    HAIR_SHOW_HAIR   = 1,
+    HAIR_SHOW_HEAD   = 2,
+    HAIR_SHOW_GUIDES = 4,
+    HAIR_SHOW_SOLIDS = 8,
+    HAIR_SHOW_WIND   = 16
+};
 
 #define HAIR_SCENE_PATH 4096
 #define HAIR_SCENE_SOLIDS 32 // The built-in head adds its own.
@@ -40,6 +47,7 @@ struct hair_scene {
     struct hair_bullet_list  bullet;
     struct hair_scene_maps   maps;
     struct hair_scene_lights lights; // beside settings.light
+    struct hair_scene_wind   wind;   // beside settings.wind
     float                    settle; // s of hanging still before frame 0
     float                    fps;
     uint32_t                 frames;  // of the whole scene

@@ -127,7 +127,7 @@ static const struct row rows[] = {
     {"lod.least", "dynamic: least share of strands", FLOAT, {AT(lod.least)}, {0}},
     {"lod.importance", "dynamic: factor of how large hair appears", FLOAT, {AT(lod.importance)}, {0}},
     {"lod.hidden", "dynamic: the same for hair behind the head", FLOAT, {AT(lod.hidden)}, {0}},
-    {"slice", "of the field, with --show solids", COUNT, {AT(view.slice)}, {"none", "x", "y", "z"}},
+    {"slice", "of the field, or of air, with --show", COUNT, {AT(view.slice)}, {"none", "x", "y", "z"}},
     {"slice_at", "where, as a share of the field's box", FLOAT, {AT(view.slice_at)}, {0}},
     {"field_voxel", "side of a voxel of the field, m", FLOAT, {AT(desc.field_voxel)}, {0}},
     {"look", "kind of look, which sets numbers from taper to curls below", LOOK, {AT(look)}, {0}},
