@@ -222,19 +222,19 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
 
 static hair_result need_programs(hair_instance* hair, const hair_view* view)
 {
-    struct hair_gl* gl     = &hair->context->gl;
-    uint32_t        solids = hair->sim.solids.now.count;
-    int             shows = view->pass == HAIR_PASS_SOLIDS, guides = view->pass == HAIR_PASS_GUIDES;
-    hair_result     result = HAIR_OK;
-    if (solids && !guides && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
-    if (!result && hair->sim.solids.forms && !guides) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
-    if (!result && guides) result = hair_gl_need(gl, HAIR_GL_GUIDES);
+    struct hair_gl*        gl     = &hair->context->gl;
+    const struct hair_sim* sim    = &hair->sim;
+    int                    solids = sim->solids.now.count > 0, shows = view->pass == HAIR_PASS_SOLIDS;
+    hair_result            result = HAIR_OK;
+    if (view->pass == HAIR_PASS_GUIDES) return hair_gl_need(gl, HAIR_GL_GUIDES);
+    if (view->pass == HAIR_PASS_WIND) return sim->air.params ? hair_gl_need(gl, HAIR_GL_AIR) : HAIR_OK;
+    if (solids && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
+    if (!result && sim->solids.forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
     if (!result && shows) result = hair_gl_need(gl, HAIR_GL_SOLIDS);
     if (!result && shows && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
-    if (result || shows || guides) return result;
-    return hair_draw_need_programs(&hair->draw, view,
-                                   view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL,
-                                   solids > 0);
+    if (result || shows) return result;
+    struct hair_gl_shader* shader = view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL;
+    return hair_draw_need_programs(&hair->draw, view, shader, solids);
 }
 
 hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* ready)
