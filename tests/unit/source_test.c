@@ -213,6 +213,59 @@ static void every_line_of_every_shader_leads_back_to_its_file(void** state)
     for_every_shader(check_lines_of);
 }
 
+// What a shader includes, and whether that is within an #if.
+struct included {
+    char     file[64][48];
+    int      on_condition[64];
+    uint32_t count;
+};
+
+static int is_guard(const char* line)
+{
+    size_t length = strcspn(line, "\n");
+    return strncmp(line, "#ifndef HAIR_", 13) == 0 &&
+           (strncmp(line + length - 5, "_GLSL", 5) == 0 || strncmp(line + length - 2, "_H", 2) == 0);
+}
+
+// The reader puts a file where it is included first: where that is not compiled, there is nothing of it.
+static void walk(const char* name, int on_condition, struct included* all)
+{
+    char path[128], line[512], file[48];
+    int  depth = 0;
+    snprintf(path, sizeof path, "glsl/%s", name);
+    FILE* text = fopen(path, "rb");
+    assert_non_null(text);
+    while (fgets(line, sizeof line, text)) {
+        depth += strncmp(line, "#if", 3) == 0 && !is_guard(line);
+        depth -= strncmp(line, "#endif", 6) == 0 && depth > 0;
+        if (sscanf(line, "#include \"%47[^\"]\"", file) != 1 || strcmp(file, HAIR_GL_OWN) == 0) continue;
+        uint32_t k = 0;
+        while (k < all->count && strcmp(all->file[k], file)) ++k;
+        if (k < all->count) {
+            if (all->on_condition[k]) fail_msg("%s, included by %s too, is there on a condition", file, name);
+            continue;
+        }
+        assert_in_range(k, 0, 63);
+        strcpy(all->file[k], file);
+        all->on_condition[k] = on_condition || depth > 0;
+        ++all->count;
+        walk(file, on_condition || depth > 0, all);
+    }
+    fclose(text);
+}
+
+static void check_includes_of(const char* name)
+{
+    struct included all = {.count = 0};
+    walk(name, 0, &all);
+}
+
+static void what_is_included_on_a_condition_is_included_once(void** state)
+{
+    (void)state;
+    for_every_shader(check_includes_of);
+}
+
 static void compare(const char* name)
 {
     struct hair_gl_source built_in, file;
@@ -242,6 +295,7 @@ int main(void)
         TEST(lines_that_only_look_like_includes_stay),
         TEST(refused_memory_leaks_nothing),
         TEST(every_line_of_every_shader_leads_back_to_its_file),
+        TEST(what_is_included_on_a_condition_is_included_once),
         TEST(the_text_built_in_is_that_of_the_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
