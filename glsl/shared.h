@@ -69,7 +69,7 @@ typedef uint32_t hair_uint;
 // Of the passes that look for followers inside solids:
 #define HAIR_BIND_HIT 3    // float[]     per follower: the first vertex inside, HAIR_NO_HIT if none is
 #define HAIR_BIND_REPAIR 4 // uvec2[]     per follower and control point of repair.glsl: four halves
-#define HAIR_BIND_LIST 5   // uint[]      two counts, in turn, the followers that are to be repaired, and for which finding each was looked at
+#define HAIR_BIND_LIST 5   // uint[]      two counts, in turn, and the followers that are to be repaired
 // The one with a work group per follower, and the one that writes followers out, have no textures of guides and followers
 // but, all never written:
 #define HAIR_BIND_STORED_POSITION 0 // hair_vec4[] per smooth vertex, as at HAIR_BIND_POSITION
@@ -671,13 +671,11 @@ struct hair_draw_params {
     hair_uint collision; // hair_collision
     hair_uint turn;      // which of the two counts of the list this time's is
     float     margin;    // m, from a solid, of what is pushed out of it
-    hair_uint finding;   // since when followers have been looked for that are inside
-    hair_uint every;     // 1: all followers are looked at, else those that are drawn
-    hair_uint isolines;  // most of a patch
     hair_uint lights;    // how many there are
     hair_uint textured;  // 1: there is a texture of colours
     hair_uint lit;       // numbers of a vertex at HAIR_UNIT_LIGHT; 0: there are none
     hair_uint culls;     // 1: patches of which `sides` cut off all are left out
+    hair_uint unused0, unused1, unused2;
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m

@@ -1,12 +1,9 @@
 // hit.comp - the first vertex of each follower that is inside a solid (Tariq 2010): by a thread that stops there, or with
 // HAIR_GROUP_PER_FOLLOWER by a work group that looks at several vertices at once. The root is where it is: only what comes
 // after it counts. With HAIR_PREPASS hit.tese has found it.
-//
-// Followers that the view leaves out wait for a view that draws them.
 #version 450 core
 #include "follower.glsl"
 #include "field.glsl"
-#include "patch.glsl"
 #include "workgroup.glsl"
 
 #ifdef HAIR_GROUP_PER_FOLLOWER
@@ -64,27 +61,15 @@ float find_first(uint number, hair_follower follower)
 }
 #endif
 
-// The place-th of a patch, or HAIR_NO_SOLID: there is no such, it is not drawn, or it has been looked at already. What is
-// about to be drawn counts as drawn, for stages round differently.
-uint find_wanted(uint patch_, uint place)
-{
-    uvec4 record = texelFetch(patch_texture, int(patch_) * HAIR_PATCH_TEXELS); // hair_patch
-    if (place >= record.y) return HAIR_NO_SOLID;
-    if (draw.every == 0u && place > find_lines(patch_).strands) return HAIR_NO_SOLID;
-    return list[2u + draw.followers + record.x + place] == draw.finding ? HAIR_NO_SOLID : record.x + place;
-}
-
 void main()
 {
 #ifdef HAIR_GROUP_PER_FOLLOWER
-    uint at = hair_group();
+    uint number = hair_group();
 #else
-    uint at = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    uint number = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
 #endif
-    if (at == 0u) list[1u - draw.turn] = 0u; // For the next time.
-    if (at / draw.isolines >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return;
-    uint number = find_wanted(at / draw.isolines, at % draw.isolines);
-    if (number == HAIR_NO_SOLID) return;
+    if (number == 0u) list[1u - draw.turn] = 0u; // For the next time.
+    if (number >= draw.followers) return;
     hair_follower follower = fetch_follower(number);
     bool          switches = draw.collision == HAIR_COLLISION_IS_SWITCH;
     bool          minds    = !switches || follower.multi > 0.0;
@@ -93,7 +78,6 @@ void main()
 #ifdef HAIR_GROUP_PER_FOLLOWER
     if (gl_LocalInvocationID.x > 0u) return;
 #endif
-    hit[number]                           = first;
-    list[2u + draw.followers + number]    = draw.finding;
+    hit[number] = first;
     if (first < HAIR_NO_HIT && !switches) list[2u + atomicAdd(list[draw.turn], 1u)] = number;
 }

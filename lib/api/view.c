@@ -136,8 +136,8 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
     return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
 }
 
-// Followers that are inside solids are found and led out before they are looked at. `view`: NULL: all.
-static hair_result meet_solids(hair_instance* hair, const hair_view* view)
+// Followers that are inside solids are found and led out before they are looked at.
+static hair_result meet_solids(hair_instance* hair)
 {
     struct hair_draw* draw = &hair->draw;
     if (hair_draw_has_met_solids(draw, &hair->smooth)) return HAIR_OK;
@@ -146,8 +146,7 @@ static hair_result meet_solids(hair_instance* hair, const hair_view* view)
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
     if (!hair->sim.solids.now.count) hair_draw_free_hits(draw);
-    return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin,
-                                 &hair->sim.at_step, view);
+    return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin);
 }
 
 static void make_ready(hair_instance* hair)
@@ -207,10 +206,10 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         result = own.pass == HAIR_PASS_SOLIDS ? draw_solids(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
+        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
         hair->draw.bounded =
             (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
         hair->draw.held = is_held(&hair->sim);
-        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair, &own);
         if (!result)
             result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own,
                                    own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
@@ -281,7 +280,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
-    hair_result result = meet_solids(hair, NULL);
+    hair_result result = meet_solids(hair);
     if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;

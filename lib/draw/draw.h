@@ -74,13 +74,12 @@ void        hair_draw_destroy(struct hair_draw* draw);
 hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim);
 void        hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
 
-// hits.c: find the followers that are inside solids, and lead them out, before either of the below: those that `view`
-// draws, or all (NULL). `field`: NULL: no solid is near. margin: what guides keep from solids, m.
+// hits.c: find the followers that are inside solids, and lead them out, before either of the below. `field`: NULL: no
+// solid is near. margin: what guides keep from solids, m.
 hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                  const struct hair_solid_field* field, float margin,
-                                  const struct hair_pose* head, const hair_view* view);
+                                  const struct hair_solid_field* field, float margin);
 int         hair_draw_has_met_solids(const struct hair_draw*   draw,
-                                     const struct hair_smooth* smooth); // all, since they moved
+                                     const struct hair_smooth* smooth); // since they moved
 void        hair_draw_free_hits(struct hair_draw* draw);
 // prepass.c: with everything bound that makes followers, leave the first vertex inside in hits.image.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);

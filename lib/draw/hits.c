@@ -5,8 +5,6 @@
 #include <string.h>
 
 #define OUTSIDE 5e-4f // m: so far out of a solid, beyond the margin of guides, followers are put
-// Of hair that stands still so many views have only the followers looked at that they draw; then all are.
-#define MOST_VIEWS 4
 
 // A GPU wants many threads, each with little to do one after the other; a processor as little work as there need be.
 static hair_gl_pass pass_of(const struct hair_draw* draw)
@@ -26,7 +24,7 @@ static hair_result make(struct hair_draw* draw)
     if (!result && !hits->hit_texture)
         result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, hits->hit, &hits->hit_texture);
     if (!result && !hits->list)
-        result = hair_gl_storage(gl, "hair hit list", (2 * count + 2) * sizeof(uint32_t), NULL, &hits->list);
+        result = hair_gl_storage(gl, "hair hit list", (count + 2) * sizeof(uint32_t), NULL, &hits->list);
     if (!result && pushes && !hits->repair)
         result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL, &hits->repair);
     if (!result && pushes && !hits->repair_texture)
@@ -50,77 +48,49 @@ void hair_draw_free_hits(struct hair_draw* draw)
     hair_gl_free_texture(draw->gl, &hits->image);
 }
 
-// A patch has as many places as the one of the most followers.
-static uint32_t count_places(const struct hair_draw* draw)
-{
-    return draw->patches * draw->most_isolines;
-}
-
 static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
-                const struct hair_solid_field* field, float margin, const struct hair_pose* head,
-                const hair_view* view)
+                const struct hair_solid_field* field, float margin)
 {
     struct hair_gl*         gl   = draw->gl;
     struct hair_hits*       hits = &draw->hits;
     struct hair_draw_params params;
-    hair_draw_write_params(draw, head, view, &params);
-    hits->turn      = 1 - hits->turn;
-    params.turn     = hits->turn;
-    params.finding  = hits->finding;
-    params.every    = view == NULL;
-    params.isolines = draw->most_isolines;
-    params.margin   = margin + OUTSIDE;
+    hair_draw_write_params(draw, NULL, NULL, &params);
+    hits->turn    = 1 - hits->turn;
+    params.turn   = hits->turn;
+    params.margin = margin + OUTSIDE;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     hair_field_bind(field);
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    uint32_t places   = count_places(draw);
+    uint32_t groups   = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     int      by_group = !hits->prepass && !gl->software;
     if (by_group) {
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     }
-    hair_gl_run(gl, pass_of(draw), by_group ? places : (places + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, pass_of(draw), by_group ? draw->followers : groups);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
         hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }
 
-static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
+int hair_draw_has_met_solids(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->hits.fresh && draw->hits.smoothed == smooth->runs;
 }
 
-int hair_draw_has_met_solids(const struct hair_draw* draw, const struct hair_smooth* smooth)
-{
-    return is_fresh(draw, smooth) && draw->hits.all;
-}
-
-// Without levels of detail nearly all are drawn; a prepass, and what makes vertices of all followers, knows no others.
-static int needs_all(const struct hair_draw* draw, const hair_view* view)
-{
-    return !view || !view->lod || draw->hits.prepass || view->pass == HAIR_PASS_MOTION ||
-           hair_draw_is_shared(view) || hair_draw_lit(draw, view);
-}
-
 hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                  const struct hair_solid_field* field, float margin,
-                                  const struct hair_pose* head, const hair_view* view)
+                                  const struct hair_solid_field* field, float margin)
 {
     struct hair_hits* hits = &draw->hits;
-    if (!is_fresh(draw, smooth)) {
-        ++hits->finding;
-        hits->views = 0;
-    }
-    hits->all    = !field || hits->views++ == MOST_VIEWS || needs_all(draw, view);
-    hits->active = field != NULL;
-    hits->field  = field;
+    hits->active           = field != NULL;
+    hits->field            = field;
     if (field) {
         hair_result result = make(draw);
         if (result) return result;
-        run(draw, smooth, field, margin, head, hits->all ? NULL : view);
+        run(draw, smooth, field, margin);
     }
     ++hits->met;
     hits->fresh    = 1;

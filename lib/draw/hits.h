@@ -12,9 +12,6 @@ struct hair_hits {
     int                            prepass;      // hits are found by one
     int                            active;       // solids are near
     const struct hair_solid_field* field;        // then: that they are in
-    uint32_t                       finding;      // counts the times that followers or solids have changed
-    uint32_t                       views;        // for which some of the followers have been looked at since
-    int                            all;          // or all of them
     int      fresh;    // for what was asked last; what changes followers or solids clears it
     uint32_t smoothed; // runs of smooth.comp that it is for
     uint32_t met;      // how often it has been found out

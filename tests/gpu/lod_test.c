@@ -314,56 +314,6 @@ static void what_the_head_hides_is_not_drawn(void** state)
     finish(&f);
 }
 
-static uint32_t count_looked_at(struct fixture* f)
-{
-    const struct hair_draw* draw  = &f->hair->draw;
-    uint32_t                count = draw->followers, sum = 0;
-    uint32_t*               stamps = calloc(count, sizeof *stamps);
-    glGetNamedBufferSubData(draw->hits.list, (GLintptr)((2 + count) * sizeof *stamps),
-                            (GLsizeiptr)(count * sizeof *stamps), stamps);
-    for (uint32_t i = 0; i < count; ++i) sum += stamps[i] == draw->hits.finding;
-    free(stamps);
-    return sum;
-}
-
-// Views from both sides, of which the second draws more; then the same once all followers have been looked at.
-static void only_strands_that_are_drawn_are_looked_at_for_solids(void** state)
-{
-    static struct picture some[2], all[2];
-    struct fixture        f     = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
-    hair_lod              lod   = hair_lod_default();
-    hair_solid            solid = hair_solid_default();
-    uint32_t              looked_at[3], count;
-    float                 one[3];
-    lod.dynamic       = 0;
-    solid.position[0] = 0.07f, solid.position[1] = 1.5f;
-    solid.size[0] = 0.06f;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
-    hair_test_ok(f.test, hair_step(f.hair, 0.02f));
-    for (int k = 0; k < 4; ++k) {
-        hair_view view = view_from(0.9f, 3 * (float)(k % 2));
-        view.lod       = &lod;
-        lod.strands    = k % 2 ? 0.3f : 0.1f;
-        if (k == 2) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, one, 1, &count));
-        draw(&f, &view, NULL, k < 2 ? &some[k] : &all[k - 2]);
-        if (k < 3) looked_at[k] = count_looked_at(&f);
-    }
-    print_message("    looked at %u, then %u, then %u\n", looked_at[0], looked_at[1], looked_at[2]);
-    assert_in_range(looked_at[0], 200, 300);
-    assert_in_range(looked_at[1], 600, 700);
-    assert_int_equal(looked_at[2], 2000);
-    assert_false(differ(&some[0], &all[0]));
-    assert_false(differ(&some[1], &all[1]));
-    for (int k = 0; k < 8; ++k) { // Of hair that stands still, not for ever more views.
-        hair_view view = view_from(0.9f + 0.1f * (float)k, 0);
-        view.lod       = &lod;
-        if (k == 0) hair_test_ok(f.test, hair_step(f.hair, 0.02f));
-        draw(&f, &view, NULL, &some[0]);
-    }
-    assert_int_equal(count_looked_at(&f), 2000);
-    finish(&f);
-}
-
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -373,7 +323,6 @@ int main(void)
         HAIR_TEST(nothing_pops_where_segments_or_strands_become_fewer),
         HAIR_TEST(what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing),
         HAIR_TEST(what_the_head_hides_is_not_drawn),
-        HAIR_TEST(only_strands_that_are_drawn_are_looked_at_for_solids),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
