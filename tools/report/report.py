@@ -66,7 +66,7 @@ def cell(row, column):
     if row.get(column + "_min") is not None and row.get(column + "_max") is not None:
         text += f' [{number(row[column + "_min"])}, {number(row[column + "_max"])}]'
     kind = "text" if isinstance(row[column], str) else ""
-    if column == "pass" and row[column] is not None:
+    if isinstance(row[column], bool) and column == "pass":
         kind, text = ("held", "held") if row[column] else ("missed", "missed")
     return {"text": text, "kind": kind}
 
@@ -79,7 +79,7 @@ def table(title, rows, folded, columns=None):
             "rows": [[cell(row, c) for c in columns] for row in rows]}
 
 
-# A panel for each machine. `series` to [(across, down, label, (least, greatest) across)].
+# A panel for each machine. `series` to [(across, down, label, (least, greatest))], of what is across unless style["spread"] is down.
 def plot(panels, style):
     panels = [p for p in panels if any(p[1].values())]
     if not panels:
@@ -102,7 +102,8 @@ def plot(panels, style):
             across, down = [p[0] for p in points], [p[1] for p in points]
             for p in points:
                 if len(p) > 3 and p[3]:
-                    ax.plot(p[3], [p[1]] * 2, color=look["color"], linewidth=1, alpha=0.5)
+                    spread = ([p[0]] * 2, p[3]) if style.get("spread") == "down" else (p[3], [p[1]] * 2)
+                    ax.plot(*spread, color=look["color"], linewidth=1, alpha=0.5)
             marks[name], = ax.plot(across, down, linestyle="-" if style.get("joined") else "none", markersize=5, linewidth=1.2, **look)
             for p in points:
                 if len(p) > 2 and p[2]:

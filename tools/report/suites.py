@@ -158,8 +158,8 @@ SUITES = [
     {
         "name": "scale", "title": "How cost grows",
         "text": "A step by the number of guides, a picture by the number of followers.",
-        "plots": [{"series": cost("guides", "ms_step"), "joined": True, "across": "guides", "down": "milliseconds", "caption": "A step."},
-                  {"series": cost("followers", "ms_draw"), "joined": True, "across": "followers", "down": "milliseconds", "caption": "A picture."}],
+        "plots": [{"series": cost("guides", "ms_step"), "joined": True, "spread": "down", "across": "guides", "down": "milliseconds", "caption": "A step."},
+                  {"series": cost("followers", "ms_draw"), "joined": True, "spread": "down", "across": "followers", "down": "milliseconds", "caption": "A picture."}],
     },
     {
         "name": "bounds", "title": "What holds it up",
