@@ -169,27 +169,6 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
     return result;
 }
 
-static hair_result need_all(struct hair_gl* gl, const hair_gl_pass* passes, size_t count)
-{
-    hair_result result = HAIR_OK;
-    for (size_t i = 0; i < count && !result; ++i) result = hair_gl_need(gl, passes[i]);
-    return result;
-}
-
-static hair_result need_hits(struct hair_draw* draw)
-{
-    struct hair_gl* gl     = draw->gl;
-    hair_gl_pass    finds  = gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP;
-    hair_result     result = HAIR_OK;
-    if (draw->look.collision == HAIR_COLLISION_NONE) return HAIR_OK;
-    if (draw->hits.prepass) result = hair_gl_need(gl, HAIR_GL_PREPASS_HIT);
-    if (!result)
-        result = hair_gl_need(gl, hair_draw_styled(draw, draw->hits.prepass ? HAIR_GL_PREPASS : finds));
-    if (!result && draw->look.collision == HAIR_COLLISION_PUSH)
-        result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
-    return result;
-}
-
 static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader)
 {
     GLuint program = 0;
@@ -199,27 +178,23 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
                                     struct hair_gl_shader* shader, int may_meet)
 {
-    static const hair_gl_pass listed[] = {HAIR_GL_COUNT, HAIR_GL_LIST};
-    static const hair_gl_pass sorted[] = {HAIR_GL_BUCKET, HAIR_GL_BUCKETS, HAIR_GL_PLACE};
-    static const hair_gl_pass lit[]    = {HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT_FILL, HAIR_GL_LIGHT_NODES,
-                                          HAIR_GL_LIGHT};
-    struct hair_gl*           gl       = draw->gl;
-    hair_path                 path     = hair_draw_path(draw, view);
-    uint32_t                  met      = HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS);
-    int                       meets    = may_meet && draw->look.collision != HAIR_COLLISION_NONE,
-        lights                         = hair_draw_lit(draw, view) > 0;
-    hair_gl_pass strands = hair_draw_styled(draw, row_of_path[path] | features_of(draw, view, shader));
-    hair_gl_pass expand  = hair_draw_styled(draw, HAIR_GL_EXPAND);
-    hair_result  result  = path == HAIR_PATH_TESSELLATION ? HAIR_OK : need_all(gl, listed, 2);
-    if (!result && hair_draw_is_shared(view)) result = need_all(gl, sorted, 3);
-    if (!result && meets) result = need_hits(draw);
+    struct hair_gl* gl      = draw->gl;
+    hair_path       path    = hair_draw_path(draw, view);
+    int             meets   = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
+    int             lit     = hair_draw_lit(draw, view) > 0;
+    hair_gl_pass    strands = hair_draw_styled(draw, row_of_path[path] | features_of(draw, view, shader));
+    hair_gl_pass    expand  = hair_draw_styled(draw, HAIR_GL_EXPAND);
+    hair_result     result  = HAIR_OK;
+    if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, 0);
+    if (!result && hair_draw_is_shared(view))
+        result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
+    if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
-        uint32_t with = i ? met : 0;
+        uint32_t with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
         result        = need_program(draw, hair_gl_with(strands, with), shader);
-        if (!result && (lights || path == HAIR_PATH_EXPANDED))
+        if (!result && (lit || path == HAIR_PATH_EXPANDED))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
-        for (int k = 0; k < 4 && lights && !result; ++k)
-            result = hair_gl_need(gl, hair_gl_with(lit[k], with));
+        if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
     }
     return result;
 }

@@ -78,6 +78,7 @@ void        hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smo
 // solid is near. margin: what guides keep from solids, m.
 hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
                                   const struct hair_solid_field* field, float margin);
+hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
 int         hair_draw_has_met_solids(const struct hair_draw*   draw,
                                      const struct hair_smooth* smooth); // since they moved
 void        hair_draw_free_hits(struct hair_draw* draw);

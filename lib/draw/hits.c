@@ -13,6 +13,16 @@ static hair_gl_pass pass_of(const struct hair_draw* draw)
     return hair_draw_styled(draw, draw->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP);
 }
 
+hair_result hair_draw_need_hit_programs(struct hair_draw* draw)
+{
+    struct hair_gl* gl     = draw->gl;
+    hair_result     result = hair_gl_need(gl, pass_of(draw));
+    if (!result && draw->hits.prepass) result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_PREPASS));
+    if (!result && draw->look.collision == HAIR_COLLISION_PUSH)
+        result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
+    return result;
+}
+
 static hair_result make(struct hair_draw* draw)
 {
     struct hair_gl*   gl     = draw->gl;
@@ -29,10 +39,8 @@ static hair_result make(struct hair_draw* draw)
         result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL, &hits->repair);
     if (!result && pushes && !hits->repair_texture)
         result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, hits->repair, &hits->repair_texture);
-    if (!result) result = hair_gl_need(gl, pass_of(draw));
     if (!result && hits->prepass) result = hair_draw_make_prepass(draw);
-    if (!result && pushes) result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
-    return result;
+    return result ? result : hair_draw_need_hit_programs(draw);
 }
 
 void hair_draw_free_hits(struct hair_draw* draw)

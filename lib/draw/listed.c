@@ -23,9 +23,7 @@ static hair_result make_lists(struct hair_draw* draw)
     if (!result && !listed->command)
         result = hair_gl_storage(gl, "hair commands", 3 * sizeof(struct hair_draw_command), NULL,
                                  &listed->command);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_COUNT);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_LIST);
-    return result;
+    return result ? result : hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, 0);
 }
 
 // Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them.

@@ -60,10 +60,9 @@ static hair_result make(struct hair_draw* draw, uint32_t each)
     if (!result && !own->box)
         result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
     if (!result) result = make_light(draw, each);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_BOX);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_LIGHT_FILL);
-    if (!result) result = hair_gl_need(gl, past_solids(draw, HAIR_GL_LIGHT_NODES));
-    return result ? result : hair_gl_need(gl, past_solids(draw, HAIR_GL_LIGHT));
+    if (result) return result;
+    return hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT,
+                             draw->hits.field ? HAIR_GL_WITH(SOLIDS) : 0);
 }
 
 static void fill(struct hair_draw* draw, uint32_t groups)

@@ -30,9 +30,7 @@ hair_result hair_draw_need_sorted(struct hair_draw* draw)
         result =
             hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL, &sorted->bucket);
     if (!result && sorted->segments != segments) result = make_index(draw, segments);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_BUCKET);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_BUCKETS);
-    if (!result) result = hair_gl_need(gl, HAIR_GL_PLACE);
+    if (!result) result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
     return result;
 }
 

@@ -120,6 +120,8 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // The program of a pass, compiled when first needed. Whoever runs one has needed it.
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
+// The same of all rows from `first` to `last`, each with those of the `wanted` features that it may be compiled with.
+hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, uint32_t wanted);
 
 // From one to the other hair_gl_need has programs begun that are not there, all at once where the driver compiles beside what we
 // do, else one. The second returns how many are not ready.

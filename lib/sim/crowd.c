@@ -227,14 +227,6 @@ hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres
     return result;
 }
 
-hair_result hair_crowd_need_programs(struct hair_gl* gl)
-{
-    hair_result result = HAIR_OK;
-    for (hair_gl_pass pass = HAIR_GL_CROWD_CLEAR; pass <= HAIR_GL_CROWD_GATHER && !result; ++pass)
-        result = hair_gl_need(gl, pass);
-    return result;
-}
-
 hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
                             const struct hair_rest* rest)
 {
@@ -242,7 +234,7 @@ hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guide
     struct hair_crowd* crowd = &sim->crowd;
     if (!hair_crowd_is_on(sim) || crowd->texture) return HAIR_OK;
     hair_result result = make_rest(sim, guides, rest);
-    if (!result) result = hair_crowd_need_programs(gl);
+    if (!result) result = hair_gl_need_rows(gl, HAIR_GL_CROWD_CLEAR, HAIR_GL_CROWD_GATHER, 0);
     size_t grid = (size_t)grid_fours(crowd) * 4 * sizeof(int32_t);
     if (!result) result = hair_gl_uniform(gl, "hair crowd", sizeof(struct hair_crowd_params), &crowd->params);
     if (!result) result = hair_gl_storage(gl, "hair crowd", grid, NULL, &crowd->grid);

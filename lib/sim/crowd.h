@@ -25,7 +25,6 @@ struct hair_crowd {                                      // All 0 until hair fir
 struct hair_sim;
 
 int         hair_crowd_is_on(const struct hair_sim* sim);
-hair_result hair_crowd_need_programs(struct hair_gl* gl);
 hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
                             const struct hair_rest* rest); // if it is on and not yet made
 void        hair_crowd_free(struct hair_sim* sim);

@@ -38,9 +38,7 @@ hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* gu
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair guides", GL_RGBA32UI, sim->guide, &feedback->guide_texture);
     feedback->framebuffer = hair_gl_blank_framebuffer(gl);
-    for (hair_gl_pass pass = HAIR_GL_FEEDBACK_INTEGRATE; pass <= HAIR_GL_FEEDBACK_END && !result; ++pass)
-        result = hair_gl_need(gl, pass);
-    return result;
+    return result ? result : hair_gl_need_rows(gl, HAIR_GL_FEEDBACK_INTEGRATE, HAIR_GL_FEEDBACK_END, 0);
 }
 
 void hair_feedback_free(struct hair_sim* sim)

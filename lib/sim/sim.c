@@ -278,7 +278,8 @@ hair_result hair_sim_need_programs(struct hair_sim* sim)
     hair_result     result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim)));
     if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
     if (!result && sim->physics.sleep > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
-    if (!result && hair_crowd_is_on(sim)) result = hair_crowd_need_programs(gl);
+    if (!result && hair_crowd_is_on(sim))
+        result = hair_gl_need_rows(gl, HAIR_GL_CROWD_CLEAR, HAIR_GL_CROWD_GATHER, 0);
     return result ? result : hair_blow_need_programs(sim);
 }
 

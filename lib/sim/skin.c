@@ -73,12 +73,11 @@ static void rest_scalp(struct hair_sim* sim)
 
 hair_result hair_skin_make(struct hair_sim* sim)
 {
-    static const hair_gl_pass passes[] = {HAIR_GL_SCALP, HAIR_GL_RIDE, HAIR_GL_SEAT};
-    struct hair_gl*           gl       = sim->gl;
-    hair_result               result   = HAIR_OK;
-    GLuint                    ride     = 0;
+    struct hair_gl* gl     = sim->gl;
+    hair_result     result = HAIR_OK;
+    GLuint          ride   = 0;
     if (hair_skin_is_on(sim)) return HAIR_OK;
-    for (int i = 0; i < 3 && !result; ++i) result = hair_gl_need(gl, passes[i]);
+    result = hair_gl_need_rows(gl, HAIR_GL_SCALP, HAIR_GL_SEAT, 0);
     if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 1));
     if (!result)
         result =

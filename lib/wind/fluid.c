@@ -79,8 +79,7 @@ hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method metho
     hair_result result = HAIR_OK;
     for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
         if (takes(method, pass)) result = hair_gl_need(gl, pass);
-    for (hair_gl_pass pass = HAIR_GL_FLUID_CLEAR; porous && pass <= HAIR_GL_FLUID_POROUS && !result; ++pass)
-        result = hair_gl_need(gl, pass);
+    if (!result && porous) result = hair_gl_need_rows(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
     return result;
 }
 

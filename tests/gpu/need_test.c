@@ -130,13 +130,6 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
 
 // Programs --------------------------------------------------------------------------------------------------
 
-static uint32_t count_programs(const hair_context* context)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < context->gl.programs; ++i) count += context->gl.program[i]->program != 0;
-    return count;
-}
-
 static void each_program_is_compiled_when_something_first_needs_it(void** state)
 {
     static float   pixels[4 * SIZE * SIZE];
@@ -144,22 +137,22 @@ static void each_program_is_compiled_when_something_first_needs_it(void** state)
     hair_view      view     = view_of(HAIR_PATH_TESSELLATION);
     const float    head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
     f.context               = make_context(f.test, NULL);
-    assert_int_equal(count_programs(f.context), 0);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
     hair_test_ok(f.test, create(&f, &f.hair));
-    assert_int_equal(count_programs(f.context), 3); // It is placed, solved and smoothed.
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 3); // It is placed, solved and smoothed.
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     hair_test_ok(f.test, hair_step(f.hair, 0.05f));
-    assert_int_equal(count_programs(f.context), 3);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 3);
     draw(&f, &view, pixels);
-    assert_int_equal(count_programs(f.context), 4);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 4);
     hair_test_ok(f.test, hair_teleport(f.hair, head));
-    assert_int_equal(count_programs(f.context), 5);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 5);
     view.pass = HAIR_PASS_GUIDES;
     draw(&f, &view, pixels);
-    assert_int_equal(count_programs(f.context), 6);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 6);
     view.pass = HAIR_PASS_SOLIDS;
     draw(&f, &view, pixels);
-    assert_int_equal(count_programs(f.context), 7);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 7);
     finish(&f);
 }
 

@@ -45,13 +45,6 @@ static hair_view view_of(hair_path path)
     return view;
 }
 
-static uint32_t count_programs(const struct hair_gl* gl)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < gl->programs; ++i) count += gl->program[i]->program != 0;
-    return count;
-}
-
 // Returns how many calls it took.
 static uint32_t prepare(struct fixture* f, const hair_view* view)
 {
@@ -168,11 +161,11 @@ static void frames_compile_nothing_once_they_are_prepared(void** state)
         hair_view      view = view_of(ways[i].path);
         ways[i].set(&f, &view);
         prepare(&f, &view);
-        uint32_t before = count_programs(&f.context->gl);
+        uint32_t before = hair_test_count_programs(&f.context->gl);
         live(&f, &view);
-        if (count_programs(&f.context->gl) != before)
-            fail_msg("%s: of %u programs %u were prepared", ways[i].name, count_programs(&f.context->gl),
-                     before);
+        if (hair_test_count_programs(&f.context->gl) != before)
+            fail_msg("%s: of %u programs %u were prepared", ways[i].name,
+                     hair_test_count_programs(&f.context->gl), before);
         finish(&f);
     }
 }
@@ -182,13 +175,14 @@ static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(vo
     struct fixture f       = start(*state);
     hair_view      view    = view_of(HAIR_PATH_INSTANCED);
     f.context->gl.parallel = 0;
-    uint32_t before = count_programs(&f.context->gl), ready = 0;
+    uint32_t before = hair_test_count_programs(&f.context->gl), ready = 0;
     put_a_ball_into(&f, &view);
     hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
     assert_int_equal(ready, 0);
-    assert_int_equal(count_programs(&f.context->gl), before + 1);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), before + 1);
     uint32_t calls = 1 + prepare(&f, &view);
-    assert_int_equal(calls, count_programs(&f.context->gl) - before + 1); // the last finds nothing left
+    assert_int_equal(calls,
+                     hair_test_count_programs(&f.context->gl) - before + 1); // the last finds nothing left
     live(&f, &view);
     finish(&f);
 }

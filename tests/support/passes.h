@@ -20,6 +20,13 @@ static inline uint32_t hair_test_runs(const struct hair_gl* gl, hair_gl_pass pas
     return own ? own->timer.begun : 0;
 }
 
+static inline uint32_t hair_test_count_programs(const struct hair_gl* gl)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < gl->programs; ++i) count += gl->program[i]->program != 0;
+    return count;
+}
+
 // Of all whose labels have `words` in them.
 static inline uint32_t hair_test_runs_of(const struct hair_gl* gl, const char* words)
 {
