@@ -25,7 +25,9 @@ typedef uint32_t hair_gl_pass;
 #define HAIR_GL_ROW_BITS 8
 #define HAIR_GL_SIZE(n) ((uint32_t)(n) << HAIR_GL_ROW_BITS) // 0 to 3: 32, 64, 128 or 256 threads
 #define HAIR_GL_SIZES HAIR_GL_SIZE(3)
-#define HAIR_GL_WITH(feature) (1u << (HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURE_##feature))
+#define HAIR_GL_THREADS(pass) (32u << (((pass)&HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS))
+#define HAIR_GL_BIT(feature) (1u << (HAIR_GL_ROW_BITS + 2 + (feature)))
+#define HAIR_GL_WITH(feature) HAIR_GL_BIT(HAIR_GL_FEATURE_##feature)
 
 #define HAIR_GL_UNITS (HAIR_UNIT_LIGHT + 1)
 

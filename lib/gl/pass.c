@@ -56,13 +56,13 @@ static void write_label(hair_gl_pass pass, char* out, size_t size)
 {
     size_t used = (size_t)snprintf(out, size, "%s", hair_gl_row_label(pass));
     for (uint32_t i = 0; i < HAIR_GL_FEATURES && used < size; ++i) {
-        if (!(pass >> (HAIR_GL_ROW_BITS + 2 + i) & 1)) continue;
+        if (!(pass & HAIR_GL_BIT(i))) continue;
         size_t start = used + 1;
         used += (size_t)snprintf(out + used, size - used, "_%s", features[i]);
         for (size_t k = start; k < used && k < size; ++k) out[k] = (char)tolower(out[k]);
     }
     if (rows[row_of(pass)].features & HAIR_GL_SIZES && used < size)
-        snprintf(out + used, size - used, "_%u", 32u << ((pass & HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS));
+        snprintf(out + used, size - used, "_%u", HAIR_GL_THREADS(pass));
 }
 
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass)

@@ -110,23 +110,17 @@ static hair_result define(struct recipe* recipe, const char* name)
     return HAIR_OK;
 }
 
-static int has_feature(const struct recipe* recipe, uint32_t feature)
-{
-    return (int)(recipe->pass >> (HAIR_GL_ROW_BITS + 2 + feature) & 1);
-}
-
 // What no stage says: what the driver is, the features of the pass, whose shading it is.
 static hair_result define_all(struct recipe* recipe)
 {
     char threads[32];
-    snprintf(threads, sizeof threads, "HAIR_GUIDE_THREADS %u",
-             32u << ((recipe->pass & HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS));
+    snprintf(threads, sizeof threads, "HAIR_GUIDE_THREADS %u", HAIR_GL_THREADS(recipe->pass));
     hair_result result =
         define(recipe, recipe->gl->lines_level ? "HAIR_LINES_LEVEL 1" : "HAIR_LINES_LEVEL 0");
     if (!result && recipe->gl->subgroup) result = define(recipe, "HAIR_SUBGROUP 1");
     if (!result) result = define(recipe, threads);
     for (uint32_t i = 0; i < HAIR_GL_FEATURES && !result; ++i)
-        if (has_feature(recipe, i)) {
+        if (recipe->pass & HAIR_GL_BIT(i)) {
             char name[64];
             snprintf(name, sizeof name, "%s 1", features[i]);
             result = define(recipe, name);
@@ -145,7 +139,7 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
     size_t length  = (size_t)(name - word) - (size_t)without;
     for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
         if (strlen(features[i]) == length && strncmp(features[i], word + without, length) == 0)
-            return has_feature(recipe, i) != without ? name + 1 : NULL;
+            return ((recipe->pass & HAIR_GL_BIT(i)) == 0) == without ? name + 1 : NULL;
     return NULL;
 }
 

@@ -9,90 +9,6 @@
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
-// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
-// nothing. How often a substep goes round at the worst: every method tried, each with all its steps, each vertex in
-// reach of all solids. A loop that nobody enters goes round once.
-#define MOST_ROUNDS 65000
-
-static uint32_t lesser(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
-static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
-{
-    const struct hair_cells* cells  = &sim->contacts.cells;
-    uint32_t                 solids = hair_sim_contacts(sim), look = 3 * (solids + 1);
-    uint32_t                 others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
-    uint32_t met = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
-    if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    uint32_t drawn = sim->ties.count ? 40 : 0; // By ties, more often.
-    if (hair_wind_is_on(&sim->wind)) drawn += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
-    if (sim->contacts.any) met = 44 * (cells->rounds + 20) + 3 * cells->longest, look = 0;
-    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + look;
-    return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + look;
-}
-
-// Where a thread would have too much to do, it is a work group's.
-static int is_by_thread(const struct hair_sim* sim)
-{
-    return sim->by_thread && (!sim->gl->software || rounds_of_substep(sim, 1) <= MOST_ROUNDS);
-}
-
-static uint32_t substeps_at_once(const struct hair_sim* sim)
-{
-    if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    uint32_t most = MOST_ROUNDS / rounds_of_substep(sim, is_by_thread(sim));
-    return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
-}
-
-// Compiled with what there is, and with nothing else. `any` number of solids, among them `bodies`.
-static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bodies)
-{
-    static const hair_gl_pass row[] = {
-        [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT,
-        [HAIR_SOLVER_ACCURATE] = HAIR_GL_ACCURATE,
-        [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW,
-        [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
-    };
-    uint32_t features = 0;
-    if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(SOLIDS);
-    if (any) features |= HAIR_GL_WITH(ANY);
-    if (bodies) features |= HAIR_GL_WITH(BODIES);
-    if (hair_sim_is_curved(sim)) features |= HAIR_GL_WITH(CURVED);
-    if (is_by_thread(sim)) features |= HAIR_GL_WITH(THREAD);
-    if (hair_crowd_is_on(sim)) features |= HAIR_GL_WITH(CROWD);
-    if (sim->ties.count > 0) features |= HAIR_GL_WITH(TIED);
-    if (hair_skin_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
-    if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
-    hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF : row[sim->solver];
-    return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
-}
-
-static int has_bodies(const struct hair_sim* sim)
-{
-    return hair_sim_contacts(sim) > sim->solids.capsules;
-}
-
-static hair_gl_pass solver_pass(const struct hair_sim* sim)
-{
-    int any = sim->contacts.any;
-    return solver_pass_for(sim, any, any ? sim->contacts.cells.bodies > 0 : has_bodies(sim));
-}
-
-hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
-{
-    hair_gl_pass pass = HAIR_GL_RESET;
-    if (sim->rods) pass |= HAIR_GL_WITH(ROD);
-    if (skinned) pass |= HAIR_GL_WITH(SKINNED);
-    return pass;
-}
-
-static hair_gl_pass turn_pass(const struct hair_sim* sim)
-{
-    return sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
-}
-
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 {
     for (uint32_t i = 0; i < sim->guides; ++i) {
@@ -134,7 +50,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->last_substep = sim->substep;
     if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 0));
     if (!result && sim->feedback.wanted) result = hair_feedback_make(sim, groom->guides);
-    return result ? result : hair_gl_need(gl, solver_pass(sim));
+    return result ? result : hair_gl_need(gl, hair_sim_solver_pass(sim));
 }
 
 void hair_sim_destroy(struct hair_sim* sim)
@@ -270,19 +186,6 @@ static float share_of(double from, double dt)
     return (float)fmin(fmax(from / dt, -1), 1);
 }
 
-hair_result hair_sim_need_programs(struct hair_sim* sim)
-{
-    struct hair_gl* gl     = sim->gl;
-    int             any    = hair_contacts_are_any(sim);
-    hair_gl_pass    smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
-    hair_result     result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim)));
-    if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
-    if (!result && sim->physics.sleep > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
-    if (!result && hair_crowd_is_on(sim))
-        result = hair_gl_need_rows(gl, HAIR_GL_CROWD_CLEAR, HAIR_GL_CROWD_GATHER, 0);
-    return result ? result : hair_blow_need_programs(sim);
-}
-
 static hair_result need(struct hair_sim* sim, double from, double dt)
 {
     sim->contacts.any  = hair_contacts_are_any(sim);
@@ -292,7 +195,7 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     if (!result) result = hair_blow_need(sim);
     if (!result && !hair_blow_is_on(sim)) sim->air.box = (hair_vec4){0, 0, 0, 0};
     if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
-    return result ? result : hair_gl_need(sim->gl, solver_pass(sim));
+    return result ? result : hair_gl_need(sim->gl, hair_sim_solver_pass(sim));
 }
 
 // `count` substeps of the parameters.
@@ -312,7 +215,7 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
-    hair_gl_pass            pass   = solver_pass(sim);
+    hair_gl_pass            pass   = hair_sim_solver_pass(sim);
     int                     crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
     sim->next_substep = sim->substep;
     write_physics(sim, &params);
@@ -327,7 +230,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
     if (sim->rods) hair_sim_bind_rods(sim);
     params.share_start = share_of(from, dt);
     for (uint32_t done = 0; done < total;) {
-        uint32_t most  = substeps_at_once(sim);
+        uint32_t most  = hair_sim_substeps_at_once(sim);
         uint32_t block = crowd ? hair_crowd_left(sim) : most;
         uint32_t count = total - done < most ? total - done : most;
         if (block < count) count = block;
@@ -338,8 +241,8 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
         write_now(sim, &params);
         upload(sim, &params);
-        uint32_t groups =
-            is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP : sim->guides;
+        uint32_t groups = hair_sim_is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP
+                                                     : sim->guides;
         if (crowd) hair_crowd_bind(sim);
         if (sim->ties.count) hair_ties_bind(sim);
         if (blown) hair_fluid_bind(&sim->blow.fluid);
@@ -449,7 +352,7 @@ void hair_sim_reset(struct hair_sim* sim)
 // The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
-    hair_result result = hair_gl_need(sim->gl, turn_pass(sim));
+    hair_result result = hair_gl_need(sim->gl, hair_sim_turn_pass(sim));
     if (result) return result;
     struct hair_step_params params  = {0};
     struct hair_pose        from    = sim->head;
@@ -469,7 +372,7 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now    = vec4_of_quat(to->rotation);
-    run_over_vertices(sim, turn_pass(sim), &params);
+    run_over_vertices(sim, hair_sim_turn_pass(sim), &params);
     hair_sim_show(sim);
     return HAIR_OK;
 }

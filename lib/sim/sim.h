@@ -68,14 +68,12 @@ void        hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
 hair_result hair_sim_step(struct hair_sim* sim, double dt);
-hair_result hair_sim_need_programs(struct hair_sim* sim); // all that a step with what is set now runs
 void        hair_sim_pass_time(struct hair_sim* sim, double dt); // as if it had, at rest
 void        hair_sim_reset(struct hair_sim* sim);                // rest pose under sim->head
 // sim->head and the hair with it
-hair_result  hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
-hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
-void         hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
-void         hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
+void        hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
+void        hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
 
 // contacts.c: solids where they may be anything. `find` is for a step of dt that has been done up to a share of it, which
 // may be below 0; `write` fills in what it found of the parameters.
@@ -98,6 +96,14 @@ int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, o
 int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
 float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // and how many were stiffened
 void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
+
+// programs.c: passes compiled with what there is; all that a step with what is set now runs; and how many substeps a dispatch may have.
+hair_gl_pass hair_sim_solver_pass(const struct hair_sim* sim);
+hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
+hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
+hair_result  hair_sim_need_programs(struct hair_sim* sim);
+int          hair_sim_is_by_thread(const struct hair_sim* sim);
+uint32_t     hair_sim_substeps_at_once(const struct hair_sim* sim);
 
 // save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
 size_t hair_sim_save_size(struct hair_sim* sim);

@@ -1,6 +1,25 @@
 // solve.c - pressures: cycles of multigrid, or sweeps over the one grid.
 #include "lib/wind/fluid.h"
 
+static int takes(hair_fluid_method method, hair_gl_pass pass)
+{
+    int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
+                 pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
+    if (coarse) return method == HAIR_FLUID_MULTIGRID;
+    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return 0;
+    if (pass == HAIR_GL_FLUID_SMOOTH) return method != HAIR_FLUID_JACOBI;
+    return pass != HAIR_GL_FLUID_JACOBI || method == HAIR_FLUID_JACOBI;
+}
+
+hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous)
+{
+    hair_result result = HAIR_OK;
+    for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
+        if (takes(method, pass)) result = hair_gl_need(gl, pass);
+    if (!result && porous) result = hair_gl_need_rows(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
+    return result;
+}
+
 static uint32_t cubed(uint32_t n)
 {
     return n * n * n;
