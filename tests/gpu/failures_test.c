@@ -284,5 +284,5 @@ int main(int count, char** arguments)
     };
     if (hair_test_shell_start("/bin/sh")) return 1;
     int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
-    return hair_test_shell_finish() ? 1 : failed;
+    return hair_test_shell_finish(NULL) ? 1 : failed;
 }

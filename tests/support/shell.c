@@ -24,8 +24,9 @@ int hair_test_shell_start(const char* tool)
     return realpath(tool, program) && mkdtemp(folder) ? access(program, X_OK) : -1;
 }
 
-int hair_test_shell_finish(void)
+int hair_test_shell_finish(void** state)
 {
+    (void)state;
     return hair_test_shell("rm -r \"$D\"");
 }
 

@@ -27,12 +27,6 @@ static int make_folder(void** state)
     return hair_test_shell_start(TOOL);
 }
 
-static int remove_folder(void** state)
-{
-    (void)state;
-    return hair_test_shell_finish();
-}
-
 // The command line ------------------------------------------------------------------------------------------
 
 static void wrong_use_exits_with_2(void** state)
@@ -332,5 +326,5 @@ int main(void)
         cmocka_unit_test(what_csv_must_quote_is_quoted),
         cmocka_unit_test(the_frequency_of_a_swing_is_found),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);
 }

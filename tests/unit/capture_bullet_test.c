@@ -25,12 +25,6 @@ static int start(void** state)
                            "f 1 2 4 \\r\\nf -4 -1 -2\\nf 2 3 4\\n' >$D/corner.obj");
 }
 
-static int finish(void** state)
-{
-    (void)state;
-    return hair_test_shell_finish();
-}
-
 // Frame 3 of a scene with this in it, into $D/NAME.
 static void capture(const char* lists, const char* name)
 {
@@ -195,5 +189,5 @@ int main(void)
         cmocka_unit_test(what_is_wrong_is_named_with_its_range),
         cmocka_unit_test(the_scene_that_comes_along_can_be_shown),
     };
-    return cmocka_run_group_tests(tests, start, finish);
+    return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

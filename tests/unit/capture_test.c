@@ -503,12 +503,6 @@ static int start(void** state)
                            " {\"followers\": 300, \"guides\": 32, \"iterations\": 2}}' >$D/small.json");
 }
 
-static int finish(void** state)
-{
-    (void)state;
-    return hair_test_shell_finish();
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -538,5 +532,5 @@ int main(void)
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),
     };
-    return cmocka_run_group_tests(tests, start, finish);
+    return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

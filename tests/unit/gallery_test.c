@@ -69,12 +69,6 @@ static int start(void** state)
     return hair_test_shell_start(TOOL);
 }
 
-static int finish(void** state)
-{
-    (void)state;
-    return hair_test_shell_finish();
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -83,5 +77,5 @@ int main(void)
         cmocka_unit_test(a_sheet_has_the_pictures_of_its_rows),
         cmocka_unit_test(what_cannot_be_written_exits_with_1),
     };
-    return cmocka_run_group_tests(tests, start, finish);
+    return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

@@ -37,12 +37,6 @@ static int make_folder(void** state)
     return 0;
 }
 
-static int remove_folder(void** state)
-{
-    (void)state;
-    return hair_test_shell_finish();
-}
-
 static void info_tells_what_is_in_a_haircut(void** state)
 {
     (void)state;
@@ -200,5 +194,5 @@ int main(void)
         cmocka_unit_test(a_reader_that_went_away_is_a_failed_write),
         cmocka_unit_test(help_and_version_are_printed),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);
 }
