@@ -271,9 +271,9 @@ HAIR_SIZE(hair_rod, 64)
 // still resolve micrometres; the displacement is kept rather than differenced, for the same reason.
 struct hair_state {
     // xyz: m, world axes, from the head's origin at the end of the substep; w: of a guide's first vertex, how much
-    // of the past a solver knows: 0 nothing, it is at rest; 1 the displacement; 2 hair_history as well
+    // of the past a solver knows: 0 nothing, it is at rest; 1 the displacement; 2 hair_history as well; see rod.comp
     hair_vec4 position;
-    hair_vec4 displacement; // xyz: m, over the last substep, in the world
+    hair_vec4 displacement; // xyz: m, over the last substep, in the world; w: tension / line density, m^2/s^2
 };
 HAIR_SIZE(hair_state, 32)
 

@@ -118,6 +118,12 @@ uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3
     return 1u;
 }
 
+uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
+
+// One loop for both words: a software rasteriser goes once through what is in one that nobody enters.
+#define EACH_BIT(bits)                                                                                       \
+    for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
+
 #ifdef HAIR_ANY
 #include "sim/contact_any.glsl"
 #else
@@ -131,17 +137,16 @@ vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out v
     vec3 d     = want;
     vec3 start = root_now - root_moved + head_moved + GET(place);
     freedom    = vec4(0.0, 0.0, 0.0, FREE);
-#ifdef HAIR_ANY // In a loop, so that a compiler need not make so much of it twice.
     uint contacts = 2u;
-    for (uint n = 0u; n < 2u && contacts > 1u; ++n) {
+    for (uint n = 0u; n < 2u && contacts > 1u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
+#ifdef HAIR_ANY
         uvec2 tried = enough(i, start, start + d - head_moved);
         contacts    = push_out(i, start, tried | kept, kept, head_moved, d, freedom, met);
         if (tried != enough(i, start, start + d - head_moved)) contacts = 2u; // It was led to others.
-    }
 #else
-    if (push_out(i, start, solids, kept, head_moved, d, freedom, met) > 1u)
-        push_out(i, start, solids, kept, head_moved, d, freedom, met);
+        contacts = push_out(i, start, solids, kept, head_moved, d, freedom, met);
 #endif
+    }
     return d;
 }
 

@@ -23,12 +23,6 @@ vec3 halfway(vec3 position, vec3 way, float far)
 
 uint member_at(uint first, uint word, uint bit) { return cell_entry(first + 32u * word + uint(findLSB(bit))) & HAIR_MEMBER_NUMBER; }
 
-uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
-
-// One loop for both words: a software rasteriser goes once through what is in one that nobody enters.
-#define EACH_BIT(bits)                                                                                       \
-    for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
-
 // Of the solids around, for the rest of the step.
 void list_solids(uint i, vec3 middle, float far)
 {

@@ -1,5 +1,6 @@
 // contact_few.glsl - solids that are in the step's parameters, HAIR_FEW_SOLIDS at most: which a guide can touch, and out
 // of them, one after the other.
+uint  number_of(uvec2 at) { return 32u * at.x + uint(findLSB(at.y)); }
 uvec2 bodies()
 {
 #ifdef HAIR_BODIES
@@ -25,21 +26,18 @@ void find_solids(vec3 head_moved)
     near = all_bits(near);
     sunk = 0.0;
     if (!root_is_free)
-        for (uint word = 0u; word < 2u; ++word)
-            for (uint bits = near[word]; bits != 0u; bits &= bits - 1u)
-                sunk = max(sunk, root_depth_in(32u * word + uint(findLSB(bits)), (bits & -bits & bodies()[word]) != 0u));
+        EACH_BIT(near) sunk = max(sunk, root_depth_in(number_of(at), (at.y & bodies()[at.x]) != 0u));
     EACH(guide_count) {
         own(reachable) = own(met) = uvec2(0u);
         if (own(slack) > 0.0) {
             vec3  position = root_now + GET(place) + own(wanted) - root_moved;
             float reach    = 0.02 + length(own(wanted) - head_moved);
-            for (int word = 0; word < 2; ++word)
-                for (uint bits = near[word]; bits != 0u; bits &= bits - 1u) {
-                    uint    k     = 32u * uint(word) + uint(findLSB(bits));
-                    capsule solid = solid_at(k, share_now);
-                    if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid))
-                        own(reachable)[word] |= bits & -bits;
-                }
+            EACH_BIT(near) {
+                uint    k     = number_of(at);
+                capsule solid = solid_at(k, share_now);
+                if (length(from_axis(position, solid)) < solid.radius + reach + swept_by(k, solid))
+                    own(reachable)[at.x] |= at.y;
+            }
         }
     }
 }
@@ -50,19 +48,17 @@ uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, ino
     uint  contacts = 0u;
     vec2  granted  = granted_to(i);
     vec3  normal, surface;
-    for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & ~bodies()[word]; bits != 0u; bits &= bits - 1u) {
-            uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
-            contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
-        }
+    EACH_BIT(solids & ~bodies()) {
+        uint  k     = number_of(at);
+        float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
+        contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+    }
 #ifdef HAIR_BODIES
-    for (uint word = 0u; word < 2u; ++word)
-        for (uint bits = solids[word] & bodies()[word]; bits != 0u; bits &= bits - 1u) {
-            uint  k     = 32u * word + uint(findLSB(bits));
-            float depth = depth_in_body(k, start, start + d - head_moved, head_moved, granted, normal, surface);
-            contacts += push_from(word, bits & -bits, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
-        }
+    EACH_BIT(solids & bodies()) {
+        uint  k     = number_of(at);
+        float depth = depth_in_body(k, start, start + d - head_moved, head_moved, granted, normal, surface);
+        contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+    }
 #endif
     return contacts;
 }

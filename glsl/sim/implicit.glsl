@@ -24,6 +24,7 @@ void substitute(bool euler)
         }
     }
     MEET;
+    RENEW(moved)
 }
 
 #ifdef HAIR_THREAD_PER_GUIDE

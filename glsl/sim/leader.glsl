@@ -82,22 +82,15 @@ void draw_strand()
 
 #endif
 
-// What that draws into solids is turned out of them, once.
-void follow_leader(vec3 head_moved)
+// What of `moved` solids allow, drawn so.
+void follow_leader()
 {
-    find_solids(head_moved);
-    for (uint n = 0u; n < (SOLIDS ? 2u : 1u); ++n) {
-        EACH(guide_count) {
-            vec4 freedom = vec4(0.0);
-            if (n == 0u) PUT(moved, own(wanted));
-            if (SOLIDS) {
-                if ((own(reachable).x | own(reachable).y) != 0u)
-                    PUT(moved, allowed(i, GET(moved), own(reachable), uvec2(0u), head_moved, freedom, own(met)));
-                own(touch) = vec4(0.0);
-            }
-        }
-        MEET;
-        ONCE { draw_strand(); }
-        MEET;
+    EACH(guide_count) {
+        if (SOLIDS) own(touch) = vec4(0.0);
     }
+    MEET;
+    ONCE { draw_strand(); }
+    MEET;
+    RENEW(moved)
+    EACH(guide_count) { own(wanted) = GET(moved); }
 }

@@ -10,6 +10,7 @@
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
 #endif
+#include "sim/leader.glsl"
 
 OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
 OWN(float, course);      // of a step by A^-1: tensions that it goes by
@@ -29,8 +30,8 @@ bool  owed;              // it went another way than the strand wants: there is 
 #define MOST_STEPS 8u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
-// Which displacement is allowed of what is wanted; and how long that leaves the segments.
-void try_wanted(vec3 head_moved, bool keep, float tolerance)
+// Which displacement is allowed of what is wanted.
+void try_wanted(vec3 head_moved, bool keep)
 {
     EACH(guide_count) {
         vec4 freedom = vec4(0.0);
@@ -41,9 +42,6 @@ void try_wanted(vec3 head_moved, bool keep, float tolerance)
             own(touch) = freedom;
         }
     }
-    MEET;
-    give_length();
-    measure(tolerance);
 }
 
 // The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
@@ -95,13 +93,14 @@ void move_stiffly(bool euler)
     }
     EACH(guide_count) {
         if (own(slack) > 0.0) own(wanted) += far * GET(moved);
+        FIND_TENSION(far);
     }
 }
 
 // Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on.
 void correct_lengths(int method, uint n)
 {
-    bool of_start = method == SHAKE, stiffly = n < STIFFLY && (CURVED ? !of_start : method == BACK);
+    bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && (CURVED ? !of_start : IS_BACK(method));
     uint segments = guide_count - 1u;
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge), along_before = before, along = GET(edge);
@@ -129,28 +128,36 @@ void correct_lengths(int method, uint n)
     }
     solve_rows(segments);
     if (stiffly) {
-        stiffen_solution(method == BACK ? 2.0 / 3.0 * params.gravity.w : params.gravity.w);
+        stiffen_solution(IS_BACK(method) ? 2.0 / 3.0 * params.gravity.w : params.gravity.w);
         if (CURVED) conjugate(n == 0u);
     }
-    EACH(segments) { PUT(handed, -own(solution) * (HAIR_SOLVER == SHAKE && of_start ? GET(lever) : GET(edge))); }
+    EACH(segments) { PUT(handed, -own(solution) * (of_start ? GET(lever) : GET(edge))); }
     MEET;
     EACH(guide_count) {
         vec3 force = by_segments(i);
         if (stiffly) { PUT(moved, own(slack) > 0.0 ? force : vec3(0.0)); }
-        else own(wanted) += own(slack) * force;
+        else {
+            own(wanted) += own(slack) * force;
+            FIND_TENSION(1.0);
+        }
     }
     if (stiffly) move_stiffly(method >= EULER);
 }
 
-// False: some length is broken even so.
+// Or, by the last of the methods, from root to tip. False: some length is broken even so.
 bool fit_lengths(int method, float tolerance, vec3 head_moved)
 {
-    find_solids(head_moved);
     for (uint n = 0u;; ++n) {
-        try_wanted(head_moved, n >= KEEP_FROM, tolerance);
-        // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-        if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS) return !broken;
-        owed = false;
-        correct_lengths(method, n);
+        try_wanted(head_moved, n >= KEEP_FROM);
+        if (IS_LEADER(method)) { // What that draws into solids is turned out of them, once.
+            follow_leader();
+            if (n == (SOLIDS ? 1u : 0u)) return true;
+        } else {
+            measure(tolerance);
+            // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
+            if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS) return !broken;
+            owed = false;
+            correct_lengths(method, n);
+        }
     }
 }

@@ -10,7 +10,8 @@
 //            within a condition that differs between vertices, nor in an EACH that writes it
 //   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
 //            any of the guide's threads has, and sum_of do that too
-//   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v)
+//   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v); after it
+//            RENEW(name) what it has put, since a vertex's own is kept in registers too
 //   lend     makes a vector seen by all threads of a work group or subgroup, as lent_by(thread), which goes round
 #include "workgroup.glsl"
 
@@ -49,6 +50,7 @@
 #define GET_AT(name, k) subgroupShuffle(name, k)
 #define PUT_AT(name, k, v)                                                                                   \
     if ((k) == lane) name = v
+#define RENEW(name)
 #define MEET
 #define lane gl_SubgroupInvocationID
 #define lanes 32u
@@ -65,18 +67,8 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
 // Vertices, and one more, which AFTER_VEC3 may read. And Mesa takes 16 s to unroll a loop over an array of 32.
 #define MOST (HAIR_GUIDE_THREADS + 1)
 
-// Vectors component after component: neighbouring threads then use neighbouring banks of a GPU's memory.
-#define COMPONENT(name, i, c) name[uint(MOST) * (c) + (i)]
-#define GET_AT(name, k) vec3(COMPONENT(name, k, 0u), COMPONENT(name, k, 1u), COMPONENT(name, k, 2u))
-#define PUT_AT(name, k, v)                                                                                   \
-    {                                                                                                        \
-        vec3 put_value         = v;                                                                          \
-        COMPONENT(name, k, 0u) = put_value.x;                                                                \
-        COMPONENT(name, k, 1u) = put_value.y;                                                                \
-        COMPONENT(name, k, 2u) = put_value.z;                                                                \
-    }
-#define GET(name) GET_AT(name, i)
-#define PUT(name, v) PUT_AT(name, i, v)
+#define GET_AT(name, k) name[k]
+#define PUT_AT(name, k, v) name[k] = v
 #define seen(name) name[i]
 #define BEFORE(name) name[max(i, 1u) - 1u]
 #define BEFORE_VEC3(name) GET_AT(name, max(i, 1u) - 1u)
@@ -88,7 +80,10 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
 #define EACH(n) for (uint i = 0u; i < (n); ++i)
 #define ONCE
 #define SHARED(T, name) T name[MOST]
-#define SHARED_VEC3(name) float name[3 * MOST]
+#define SHARED_VEC3(name) vec3 name[MOST]
+#define GET(name) name[i]
+#define PUT(name, v) name[i] = v
+#define RENEW(name)
 #define OWN(T, name) T name[MOST]
 #define own(name) name[i]
 #define MEET
@@ -105,7 +100,11 @@ float sum_of(float v) { return v; }
 #define EACH(n) for (uint i = lane; i < (n); i = 0xffffffffu)
 #define ONCE if (lane == 0u)
 #define SHARED(T, name) shared T name[MOST]
-#define SHARED_VEC3(name) shared float name[3 * MOST]
+#define SHARED_VEC3(name) shared vec3 name[MOST]
+struct { vec3 place, moved, edge, lever, handed; } mine; // what is shared of the thread's own vertex
+#define GET(name) mine.name
+#define PUT(name, v) name[i] = mine.name = v
+#define RENEW(name) EACH(guide_count) { mine.name = name[i]; }
 #define OWN(T, name) T name
 #define own(name) name
 #define MEET synchronise()
@@ -113,7 +112,7 @@ float sum_of(float v) { return v; }
 #define lanes uint(HAIR_GUIDE_THREADS)
 
 shared uvec2 gathered[3]; // Taken in turn, so that one can be cleared while another is read.
-shared float lent[6 * MOST]; // Two in turn, likewise.
+shared float lent[6 * MOST]; // Two in turn, likewise; component after component: vectors would not fit into 32 KB.
 uint gathering, lending;
 
 uint hair_guide_number()
@@ -140,13 +139,13 @@ bvec2 any_of(bvec2 v) { return notEqual(all_bits(uvec2(v)), uvec2(0u)); }
 void lend(vec3 v)
 {
     lending = uint(3 * MOST) - lending;
-    PUT_AT(lent, lending + lane, v);
+    for (int c = 0; c < 3; ++c) lent[lending + uint(MOST * c) + lane] = v[c];
     synchronise();
 }
 vec3 lent_by(uint thread)
 {
     uint k = lending + (thread & (lanes - 1u));
-    return GET_AT(lent, k);
+    return vec3(lent[k], lent[k + uint(MOST)], lent[k + uint(2 * MOST)]);
 }
 
 float sum_of(float v)

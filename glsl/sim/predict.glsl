@@ -13,10 +13,25 @@
 #define EULER 2  // implicit Euler: first order, more stable still
 #define LEADER 3 // the same, then follow the leader
 
+// Of a method, constants where the program never has it: software rasterisers run both sides of a branch.
+#define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
+#define IS_BACK(method) (HAS_BACK && (method) == BACK)
+#define IS_LEADER(method) (HAIR_SOLVER == LEADER || (method) == LEADER)
+
 #if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
 #define KEEPS_RATES
+#define HAS_BACK (HAIR_SOLVER != LEADER)
 OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
 OWN(vec3, rate_before); // and of the one before
+OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
+float of_force;         // what a force does in the substep, displacement times mass: s^2
+
+#define GUESSED 0.5      // of the tension that was: see pull_on
+#define MOST_GUESSED 0.5 // of the distance to a neighbour, which that may move a vertex
+#define FIND_TENSION(part) own(tension) -= (part) * own(solution) / of_force
+#else
+#define HAS_BACK false
+#define FIND_TENSION(part)
 #endif
 #ifdef HAIR_CROWD
 layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
@@ -28,14 +43,14 @@ int own_method; // of the guide
 const int own_method = HAIR_SOLVER;
 #endif
 OWN(vec4, aim);         // rest position from the root, in groom space; w^2
-float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too
+float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between, of SHAKE: it waits
 vec4      turn_then; // turn_now, of the substep before
 
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
-    if (own(slack) == 0.0) return method != SHAKE ? held_move(i) : vec3(0.0);
-    return method == BACK ? last / 3.0 : vec3(0.0);
+    if (own(slack) == 0.0) return IS_SHAKE(method) ? vec3(0.0) : held_move(i);
+    return IS_BACK(method) ? last / 3.0 : vec3(0.0);
 }
 
 #ifdef HAIR_WIND
@@ -80,16 +95,41 @@ void step_back(uint i, bool two, vec3 force, vec3 bending)
 #endif
 }
 
+#ifdef KEEPS_RATES
+// Half the tension that the last substep left, along where segments will be if they go on as they moved: fit_lengths finds
+// the rest, along what that leads to. What swings crosswise at w is fed by the one way and damped by the other. Half of
+// each does not feed it up to w h of 3, and damps it by (w h)^4 / 100 in a substep; fit_lengths alone feeds it from 1.6
+// on, and damps it by (w h)^4 / 5.
+void pull_on()
+{
+    EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
+    MEET;
+    EACH(guide_count - 1u) {
+        vec3  to   = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
+        float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
+        own(tension) = clamp(GUESSED * own(tension), -most, most);
+        PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
+    }
+    MEET;
+}
+#endif
+
 void predict(int method)
 {
-    bool at_end  = method != SHAKE; // is where forces are of
+    bool at_end  = !IS_SHAKE(method); // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
+    find_edges();
     MEET;
-    give_length();
-    measure(1.0);
     find_bending();
+#ifdef KEEPS_RATES
+    of_force = params.gravity.w * params.gravity.w;
+    if (IS_BACK(method)) {
+        of_force *= 4.0 / 9.0;
+        pull_on();
+    }
+#endif
 
     EACH(guide_count) {
         // Of what its inertia would weigh: see lib/sim/taut.c.
@@ -97,22 +137,25 @@ void predict(int method)
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
-        feel_air(i, before, share, method == SHAKE ? own(displacement) : rate_from(i, method == BACK));
+        feel_air(i, before, share, IS_SHAKE(method) ? own(displacement) : rate_from(i, IS_BACK(method)));
 #endif
         own(wanted)  = held_move(i);
         vec3 bending = by_segments(i);
         vec3 force   = share * params.gravity.xyz;
-        if (own(aim).w > 0.0) force += own(aim).w * (rotate(turn, own(aim).xyz) + (at_end ? root_moved - GET(moved) : vec3(0.0)) - GET(place));
+        if (own(aim).w > 0.0) {
+            vec3 ahead = at_end ? root_moved - offset_of(i, method, own(displacement)) : vec3(0.0);
+            force += own(aim).w * (rotate(turn, own(aim).xyz) + ahead - GET(place));
+        }
 #ifdef HAIR_CROWD
         force += own(push);
 #endif
         PUT(moved, vec3(0.0));
         if (own(slack) > 0.0) {
-            if (method == SHAKE) leap(i, force, bending);
-            else step_back(i, method == BACK, force, bending);
+            if (IS_SHAKE(method)) leap(i, force, bending);
+            else step_back(i, IS_BACK(method), force, bending);
         }
     }
-    if (method == SHAKE) {
+    if (IS_SHAKE(method)) {
         EACH(guide_count - 1u) { PUT(lever, GET(edge)); }
         MEET;
     }

@@ -15,10 +15,13 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
-#include "sim/leader.glsl"
 #include "sim/ride.glsl"
 
 #define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
+
+// Where SHAKE fails a strand is kinked, and swings from vertex to vertex as no explicit method can follow: it would fail
+// again and again, or flail without failing. Implicit Euler calms it, for 16 substeps: of `known`, so much for each.
+#define WAIT (1.0 / 16.0)
 
 // Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
 // the method of its solver fails again, for ever.
@@ -60,6 +63,7 @@ void load()
 #ifdef KEEPS_RATES
         own(rate)        = known < 2.0 ? own(displacement) : history[at].rate.xyz;
         own(rate_before) = history[at].rate_before.xyz;
+        own(tension)     = state[at].displacement.w;
 #endif
     }
 }
@@ -73,8 +77,9 @@ void store()
             state[at].displacement = vec4(own(displacement), 0.0);
             if (CURVED) material[at] = seen(section);
 #ifdef KEEPS_RATES
-            history[at].rate        = vec4(own(rate), 0.0);
-            history[at].rate_before = vec4(own(rate_before), 0.0);
+            history[at].rate         = vec4(own(rate), 0.0);
+            history[at].rate_before  = vec4(own(rate_before), 0.0);
+            state[at].displacement.w = own(tension);
 #endif
         }
     }
@@ -100,14 +105,14 @@ void forget(uint i, vec3 d)
 
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
-void accept(int method, vec3 head_moved)
+void accept(int method, bool waits, vec3 head_moved)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     vec3 root_d = GET_AT(moved, 0u);
     bool lost   = false;
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
-        if (method == LEADER) { // What was drawn along may not keep that speed.
+        if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
             vec3  relative = d - root_d;
             float speed    = length(relative);
             float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
@@ -118,15 +123,18 @@ void accept(int method, vec3 head_moved)
         precise vec3 from_root = from_head - root_now;
         PUT(place, from_root);
 #ifdef KEEPS_RATES
-        own(rate_before) = method == LEADER ? kept : own(rate); // It may be what was not finite.
-        own(rate)        = method == BACK ? 1.5 * d - 0.5 * own(displacement) : kept;
+        own(rate_before) = IS_LEADER(method) ? kept : own(rate); // It may be what was not finite.
+        own(rate)        = IS_BACK(method) ? 1.5 * d - 0.5 * own(displacement) : kept;
         if (SOLIDS && own(touch).w != FREE) forget(i, d);
+        bool slacks  = IS_LEADER(method) || i + 1u >= guide_count || bits_of(own(tension)) >= 0x7f800000u;
+        own(tension) = slacks ? 0.0 : own(tension);
 #endif
         own(displacement) = kept;
         if (i < guide_count)
             lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
     }
-    known       = own_method != SHAKE && (method == BACK || method == EULER) ? 2.0 : 1.0;
+    if (own_method == SHAKE) known = IS_SHAKE(method) ? 1.0 : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
+    else known = method == BACK || method == EULER ? 2.0 : 1.0;
     if (!any_of(bvec2(lost, false)).x) return;
 
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
@@ -136,6 +144,7 @@ void accept(int method, vec3 head_moved)
         if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
 #ifdef KEEPS_RATES
         own(rate) = own(rate_before) = still;
+        own(tension) = 0.0;
 #endif
     }
     known       = 1.0;
@@ -185,21 +194,22 @@ void main()
         place_root(params.substep[s].rotation, params.substep[s].displacement.w);
         root_moved = root_now - root_then + head_moved;
 
-        int method = own_method == BACK && known < 2.0 ? EULER : own_method;
+        bool waits = own_method == SHAKE && known > 1.0;
+        int method = waits || (own_method == BACK && known < 2.0) ? EULER : own_method;
         for (;; ++method) {
             predict(method);
-            if (method == LEADER) {
-                follow_leader(head_moved);
-                break;
-            }
+            find_solids(head_moved);
             if (fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved)) break;
-            if (method == SHAKE) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
+#ifdef KEEPS_RATES
+            EACH(guide_count) { own(tension) = 0.0; } // This one was led to nothing.
+#endif
+            if (IS_SHAKE(method)) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
             count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
         }
 #ifdef HAIR_TIED
         if (any_of(bvec2(taut, false)).x) count_in(HAIR_HEALTH_TAUT);
 #endif
-        accept(method, head_moved);
+        accept(method, waits, head_moved);
     }
     store();
 }

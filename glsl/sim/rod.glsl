@@ -45,15 +45,25 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 #define FARTHEST 1e4  // m from the head's origin, or in a substep: no hair is there
 #define TOO_LONG 0.01 // relative error of length with which a method has failed
 
-// Unit edges where `moved` leads; whether some length is loose, wrong by more than the relative `tolerance`, or broken.
-void measure(float tolerance)
+// Unit edges where `moved` leads.
+void find_edges()
 {
-    uint most = 0u;
+    MEET;
+    give_length();
     EACH(guide_count - 1u) {
         vec3  to = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
         float l  = length(to);
         PUT(edge, to / l);
         own(excess) = l - own(rest_length);
+    }
+}
+
+// The same; and whether some length is loose, wrong by more than the relative `tolerance`, or broken.
+void measure(float tolerance)
+{
+    uint most = 0u;
+    find_edges();
+    EACH(guide_count - 1u) {
         if (i + 1u < guide_count) most = max(most, bits_of(own(excess) / own(rest_length)));
     }
     bvec2 found = any_of(bvec2(most > floatBitsToUint(tolerance), most > floatBitsToUint(TOO_LONG)));

@@ -18,11 +18,12 @@ static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
     uint32_t                 others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
     uint32_t met = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
     if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    uint32_t drawn = sim->ties.count ? 40 : 0; // By ties, more often.
+    uint32_t drawn = sim->ties.count ? 40 : 0;    // By ties, more often.
+    uint32_t led   = sim->ties.count ? 300 : 170; // Following the leader is in every step of every method.
     if (hair_wind_is_on(&sim->wind)) drawn += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (sim->contacts.any) met = 44 * (cells->rounds + 20) + 3 * cells->longest, look = 0;
-    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + look;
-    return 740 + (40 + drawn) * (sim->most_vertices + 1) + met + look;
+    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + led + look;
+    return 740 + led + (40 + drawn) * (sim->most_vertices + 1) + met + look;
 }
 
 // Where a thread would have too much to do, it is a work group's.

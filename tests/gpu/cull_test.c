@@ -316,9 +316,10 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
 // A frame is a step and a draw, with solids that followers come into and all passes timed.
 static void no_frame_waits_for_the_gpu(void** state)
 {
-    struct fixture f     = start(state);
-    hair_view      view  = hair_view_default();
-    hair_solid     solid = hair_solid_default();
+    struct fixture f      = start(state);
+    hair_view      view   = hair_view_default();
+    hair_solid     solid  = hair_solid_default();
+    uint32_t       looked = 0;
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
     project(0, view.projection);
     solid.size[0] = 0.05f, solid.position[1] = 0.2f;
@@ -336,8 +337,9 @@ static void no_frame_waits_for_the_gpu(void** state)
         static const char* const waiting[] = {"glFinish", "glReadPixels", "glGetError", "glGetTexImage",
                                               "glMapBuffer"};
         for (int i = 0; i < 5; ++i) assert_int_equal(hair_test_trace_count(waiting[i]), 0);
+        looked += hair_test_trace_count("glClientWaitSync");
     }
-    assert_true(hair_test_trace_count("glClientWaitSync") > 0); // Guides were looked at.
+    assert_true(looked > 0); // Until they rested, guides were looked at.
     finish(&f);
 }
 

@@ -355,7 +355,12 @@ static void what_is_saved_falls_asleep_as_it_would_have(void** state)
         }
         hair_test_look(test, hair, &straight);
         hair_test_look(test, other, &loaded);
-        hair_test_same(&straight, &loaded);
+        assert_int_equal(straight.count, loaded.count);
+        if (hair->sim.sleep.asleep) // What is shown of sleeping hair is not placed anew as time goes by.
+            for (size_t i = 0; i < straight.count; ++i)
+                hair_test_near("shown", i, (double)straight.number[i], (double)loaded.number[i], 1e-9);
+        else
+            hair_test_same(&straight, &loaded);
     }
     assert_true(slept >= 3);
     hair_destroy(hair);
