@@ -267,15 +267,15 @@ static void flip_every_bit(struct hair_test* test, int way)
         memcpy(wrong.bytes, good.bytes, good.size);
         wrong.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
         refused(test, hair_load(hair, wrong.bytes, wrong.size), HAIR_ERROR_FILE, "saved state");
-        // Beyond the head a third of them will do, a different one in each byte.
-        if (bit >= 64 * 8 && (bit + bit / 8) % 3) continue;
+        // Beyond the head one in each byte will do, a different one of each number's.
+        if (bit >= 64 * 8 && bit % 8 != bit / 8 * 3 % 8) continue;
         accepted += (uint32_t)survives(test, hair, wrong);
         ++sealed;
     }
     print_message("    %u of %u accepted once they are sealed\n", accepted, sealed);
     // Every bit of the magic, of the version and of the five that say whose it is, and of some exponents.
-    assert_in_range(accepted, 1000, sealed - 8 * (8 + 4 + 40) - 30);
-    for (int n = 0; n < 500; ++n) { // several numbers at once
+    assert_in_range(accepted, sealed / 2, sealed - 8 * (8 + 4 + 40) - 30);
+    for (int n = 0; n < 200; ++n) { // several numbers at once
         memcpy(wrong.bytes, good.bytes, good.size);
         for (int k = 0; k < 4; ++k) {
             size_t at = 64 + 4 * (size_t)((double)hair_random(&random) * (double)((good.size - 72) / 4));
