@@ -143,22 +143,9 @@ static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** sta
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     glClearNamedFramebufferfv(frame.framebuffer, GL_DEPTH, 0, &near);
     glClearNamedFramebufferfv(frame.framebuffer, GL_COLOR, 0, blue);
-    glBlendFuncSeparatei(0, GL_DST_COLOR, GL_ZERO, GL_ONE_MINUS_DST_ALPHA, GL_SRC_COLOR);
-    glBlendEquationSeparatei(0, GL_MAX, GL_FUNC_REVERSE_SUBTRACT);
+    hair_test_blend_begin();
     hair_test_ok(f.test, hair_draw(f.hair, &view));
-    GLint     factor[4], equation[2];
-    GLboolean writes;
-    glGetIntegeri_v(GL_BLEND_SRC_RGB, 0, &factor[0]), glGetIntegeri_v(GL_BLEND_DST_RGB, 0, &factor[1]);
-    glGetIntegeri_v(GL_BLEND_SRC_ALPHA, 0, &factor[2]), glGetIntegeri_v(GL_BLEND_DST_ALPHA, 0, &factor[3]);
-    glGetIntegeri_v(GL_BLEND_EQUATION_RGB, 0, &equation[0]),
-        glGetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &equation[1]);
-    glGetBooleanv(GL_DEPTH_WRITEMASK, &writes);
-    assert_true(factor[0] == GL_DST_COLOR && factor[1] == GL_ZERO && factor[2] == GL_ONE_MINUS_DST_ALPHA &&
-                factor[3] == GL_SRC_COLOR && equation[0] == GL_MAX &&
-                equation[1] == GL_FUNC_REVERSE_SUBTRACT);
-    assert_true(writes && !glIsEnabledi(GL_BLEND, 0));
-    glBlendFunc(GL_ONE, GL_ZERO);
-    glBlendEquation(GL_FUNC_ADD);
+    assert_true(hair_test_blend_end());
     hair_test_frame_read(&frame, pixels);
     for (int i = 0; i < SIDE * SIDE; ++i) assert_true(pixels[4 * i] == 0 && pixels[4 * i + 2] == 0.5f);
     hair_test_frame_free(&frame);

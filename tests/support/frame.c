@@ -88,3 +88,27 @@ int hair_test_png_read(const char* path, int* width, int* height, unsigned char*
     *height = (int)image.height;
     return 1;
 }
+
+void hair_test_blend_begin(void)
+{
+    glBlendFuncSeparatei(0, GL_DST_COLOR, GL_ZERO, GL_ONE_MINUS_DST_ALPHA, GL_SRC_COLOR);
+    glBlendEquationSeparatei(0, GL_MAX, GL_FUNC_REVERSE_SUBTRACT);
+    glDisablei(GL_BLEND, 0);
+}
+
+int hair_test_blend_end(void)
+{
+    GLint     factor[4], equation[2];
+    GLboolean writes;
+    glGetIntegeri_v(GL_BLEND_SRC_RGB, 0, &factor[0]), glGetIntegeri_v(GL_BLEND_DST_RGB, 0, &factor[1]);
+    glGetIntegeri_v(GL_BLEND_SRC_ALPHA, 0, &factor[2]), glGetIntegeri_v(GL_BLEND_DST_ALPHA, 0, &factor[3]);
+    glGetIntegeri_v(GL_BLEND_EQUATION_RGB, 0, &equation[0]);
+    glGetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &equation[1]);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &writes);
+    int same = factor[0] == GL_DST_COLOR && factor[1] == GL_ZERO && factor[2] == GL_ONE_MINUS_DST_ALPHA &&
+               factor[3] == GL_SRC_COLOR && equation[0] == GL_MAX && equation[1] == GL_FUNC_REVERSE_SUBTRACT;
+    same = same && writes && !glIsEnabledi(GL_BLEND, 0);
+    glBlendFunc(GL_ONE, GL_ZERO);
+    glBlendEquation(GL_FUNC_ADD);
+    return same;
+}

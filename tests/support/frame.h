@@ -21,6 +21,10 @@ void hair_test_frame_read(const struct hair_test_frame* frame, float* pixels);
 // One float a pixel, of a frame without samples.
 void hair_test_frame_read_depth(const struct hair_test_frame* frame, float* depths);
 
+// A host's blending of the first draw buffer, set up but off: begun, and whether all of it is still as it was, which ends it.
+void hair_test_blend_begin(void);
+int  hair_test_blend_end(void);
+
 // RGBA of 8 bits, the upper row first. 1 when it was done.
 int hair_test_png_write(const char* path, int width, int height, const unsigned char* pixels);
 // The same; the caller frees *pixels.
