@@ -30,8 +30,12 @@ vec3 normal_of(hair_fragment f) // of the ribbon
 
 vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
 {
-    if (draw.lit > 0u) return light_through_strands(number, f.strand, f.t, taken, met);
-    return light_through_depth(number, f.position, f.seed, taken, met);
+    vec4 through;
+    if (draw.lit > 0u)
+        through = light_through_strands(number, f.strand, f.t, taken, met);
+    else
+        through = light_through_depth(number, f.position, f.seed, taken, met);
+    return light_past_bodies(number, f.position) * through;
 }
 
 // Of the sky's light, the share that comes through hair, where it is known. Light hair passes more on.

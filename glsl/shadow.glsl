@@ -1,7 +1,8 @@
-// shadow.glsl - how much of a light comes through the hair and past the bodies in front of a point. As light.comp has found
-// it for vertices of strands; else exponential in the depth of what the light's shadow map says lies between (Beer 1852),
-// averaged over taps around it.
+// shadow.glsl - how much of a light comes through the hair and past the bodies in front of a point. Through hair as light.comp
+// has found it for vertices of strands; else exponential in the depth of what the light's shadow map says lies between (Beer
+// 1852), averaged over taps around it. Past bodies all or nothing, smoothly over the texels around.
 #include "draw_params.glsl"
+#include "maps.glsl"
 
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
 layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
@@ -39,16 +40,16 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     // So many that no compiler unrolls the loop, which some do for each of the maps.
     int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
     if (taps == 0) return vec4(1.0);
-    vec3  at    = (draw.shadow[map] * vec4(position, 1.0)).xyz;
+    vec3  at    = place_in_map(map, position);
     vec2  texel = 1.0 / vec2(textureSize(shadow_texture[map], 0));
-    float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034);
+    float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034), from_light = distance_to_light(number, position);
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
     vec4  sum   = vec4(0.0);
     for (int i = 0; i < taps; ++i) {
         // Vogel's spiral: even over the disc, turned for each strand so that no pattern shows.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
         float depth = textureLod(shadow_texture[map], at.xy + r * arm, 0.0).r;
-        float n     = more.z * max(at.z - depth, 0.0);
+        float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
         sum += exp(-n * vec4(1.0, taken));
         met += n;
         arm = GOLDEN_TURN * arm;
@@ -56,3 +57,30 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     met /= float(SHADOW_TAPS);
     return sum / float(SHADOW_TAPS);
 }
+
+#ifdef HAIR_BLOCKED
+layout(binding = HAIR_UNIT_BODY) uniform sampler2D body_texture[HAIR_SHADOW_MAPS];
+
+// Of three by three texels, weighed as a quadratic B-spline has it; all that is nearer to what hides it than the bias is lit.
+// By single texels: Mesa's llvmpipe aborts where arrays of textures are gathered from.
+float light_past_bodies(uint number, vec3 position)
+{
+    vec4 own = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MAP];
+    uint map = uint(own.x);
+    int  taps = map < uint(HAIR_SHADOW_MAPS) ? 9 : 0; // As above.
+    if (taps == 0) return 1.0;
+    vec3  at    = place_in_map(map, position);
+    float least = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)), sum = 0.0;
+    vec2  size  = vec2(textureSize(body_texture[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
+    vec2  first = floor(place), part = place - first, rest = 1.0 - part;
+    mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);
+    for (int i = 0; i < taps; ++i) {
+        ivec2 k = ivec2(i % 3, i / 3);
+        float depth = textureLod(body_texture[map], (first + vec2(k) - 0.5) / size, 0.0).r;
+        sum += least <= depth ? weight[k.x].x * weight[k.y].y : 0.0;
+    }
+    return sum;
+}
+#else
+float light_past_bodies(uint number, vec3 position) { return 1.0; }
+#endif

@@ -167,6 +167,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_PAINT 17   // vec4 per follower and place along it: colours of its own
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_LIGHT 18   // uint per follower vertex and light, unsigned: HAIR_BIND_LIGHT
+#define HAIR_UNIT_BODY 19    // and the three after it: the host's depth maps of bodies
 #define HAIR_UNIT_GUST 8     // of what knows air, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
@@ -649,10 +650,13 @@ HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 48)
 #define HAIR_LIGHT_TO 0    // xyz, w 0: unit, towards it; w 1: m, from the head's origin to it
 #define HAIR_LIGHT_COLOR 1 // rgb: irradiance, or that 1 m away; w: m^2: squared distance below which it is no brighter
 #define HAIR_LIGHT_AXIS 2  // xyz: of a spot: unit, from what it shines at; w: cosine from which on there is light
-// x: slope of its brightness by that cosine; y: 1 over the square of its range, 1/m^2, 0: any; z: absorption per unit of
-// depth in its shadow map; w: which of the shadow maps that is, HAIR_SHADOW_MAPS: it has none
+// x: slope of its brightness by that cosine; y: 1 over the square of its range, 1/m^2, 0: any; z: absorption, 1/m; w: which
+// of the shadow maps of hair it has, HAIR_SHADOW_MAPS: none
 #define HAIR_LIGHT_MORE 3
-#define HAIR_LIGHT_VECTORS 4
+// x: which of the maps of bodies it has, HAIR_SHADOW_MAPS: none; y: how far behind those there is light, m; of both maps z:
+// m per unit of depth; w: depth of what is infinitely far away in perspective, 0: there is none
+#define HAIR_LIGHT_MAP 4
+#define HAIR_LIGHT_VECTORS 5
 
 // One draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
@@ -698,7 +702,7 @@ struct hair_draw_params {
     HAIR_STRUCT(hair_tint) tint;
     HAIR_STRUCT(hair_strand_look) strand;
     hair_vec4 light[HAIR_LIGHTS * HAIR_LIGHT_VECTORS]; // of each as HAIR_LIGHT_ says
-    hair_mat4 shadow[HAIR_SHADOW_MAPS]; // to each: xy texture coordinates, z depth, both in [0, 1]
+    hair_mat4 shadow[HAIR_SHADOW_MAPS]; // to each: xy texture coordinates, z depth, both in [0, 1], times w
     hair_mat4 sky[3]; // of r, g, b: irradiance on a plane with unit normal n is (n, 1) sky (n, 1)
 };
 HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +

@@ -57,6 +57,7 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     count = split(all, has, " ")
     print_program(" ", stages)
     print_program(mixed, stages)
+    if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity
     for (i = 1; i <= count; i++) {
         print_program(" " has[i] " ", stages)
         without = mixed

@@ -1,4 +1,13 @@
-// depth.frag - nothing but depth: shadow maps and pre-passes.
+// depth.frag - nothing but depth: shadow maps and pre-passes. With HAIR_SHARES how much of a texel a strand covers, for what
+// hair takes of a light.
 #version 450 core
+#ifdef HAIR_SHARES
+#include "draw_params.glsl"
+#include "coverage.glsl"
 
+layout(location = 0) out vec4 opacity;
+
+void main() { opacity = vec4(coverage_of(strand_share) * draw.viewport.w); }
+#else
 void main() {}
+#endif

@@ -7,6 +7,7 @@
 #version 450 core
 #include "density.glsl"
 #include "lights.glsl"
+#include "maps.glsl"
 #include "random.glsl"
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer { float light_of_node[]; };
@@ -75,21 +76,20 @@ float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float r
 }
 
 // Of the places around, the share that nothing hides in a shadow map.
-float open_in(uint map, strand_bit s)
+float open_in(uint map, uint light, vec3 to, strand_bit s)
 {
-    mat4  m     = draw.shadow[map];
     vec2  size  = vec2(textureSize(shadow_texture[map], 0));
-    vec3  along = mat3(m) * (s.after - s.before);
+    vec3  along = place_in_map(map, s.after) - place_in_map(map, s.before);
     vec2  texels = along.xy * size;
     float slope = along.z / max(dot(texels, texels), 1.0); // of depth along the strand
-    vec3  away  = vec3(m[0].z, m[1].z, m[2].z);           // from the light: depth per m
-    vec3  side  = cross(s.tangent, away);
+    vec3  side  = cross(s.tangent, to);
     side *= s.radius / max(length(side), 1e-12);
-    float own = OWN_DEPTH * s.radius * length(away), turn = random(s.seed + 0x3c6ef372u), open = 0.0;
+    float each = depth_by_metre(light, place_in_map(map, s.at).z, distance_to_light(light, s.at));
+    float own = OWN_DEPTH * s.radius * each, turn = random(s.seed + 0x3c6ef372u), open = 0.0;
     for (int i = 0; i < TAPS; ++i) {
         float x  = (float(i) + turn) / float(TAPS) * 2.0 - 1.0, across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
         vec3  p  = s.at + 0.5 * abs(x) * ((x < 0.0 ? s.before : s.after) - s.at) + across * side;
-        vec3  at = (m * vec4(p, 1.0)).xyz;
+        vec3  at = place_in_map(map, p);
         ivec2 texel = ivec2(floor(at.xy * size));
         // The strand's own depth is that in the texel's middle.
         float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
@@ -121,7 +121,7 @@ void main()
         float along = dot(s.tangent, to), reach = place.w > 0.0 ? length(place.xyz - s.at) : 1e9;
         float met   = met_towards(grid, s.at, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
         uint  map   = uint(draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE].w);
-        float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, s) : exp(-met);
+        float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, i, to, s) : exp(-met);
         light_of_vertex[vertex * draw.lit + 1u + i] = packHalf2x16(vec2(open, met));
     }
 }

@@ -18,18 +18,7 @@ layout(location = 5) in vec3 clip_now;
 layout(location = 6) in vec3 clip_before;
 #endif
 #ifdef HAIR_SHARES
-layout(location = 7) noperspective in vec4 strand_share;
-
-// Of the projection of a square pixel onto a line: how much of it lies before x.
-float share_before(float x, float outer, float inner)
-{
-    float y = min(abs(x), outer), ramp = max(outer - inner, 1e-4), left = outer - y;
-    float tail = y > inner ? 0.5 * left * left / ramp : 0.5 * ramp + inner - y;
-    tail /= outer + inner;
-    return x < 0.0 ? tail : 1.0 - tail;
-}
-
-float coverage_of(vec4 s) { return clamp(share_before(s.x + s.y, s.z, s.w) - share_before(s.x - s.y, s.z, s.w), 0.0, 1.0); }
+#include "coverage.glsl"
 #endif
 
 #ifdef HAIR_IDS

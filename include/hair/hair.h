@@ -238,7 +238,7 @@ typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
     ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
-    ///< buffer texture of unit 17, 2D textures, samplers of units 12-16, 3D textures, samplers of units 8-11, image units 0-1.
+    ///< buffer textures of units 17 and 18, 2D textures, samplers of units 12-16 and 19-22, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
 /// Where a host keeps programs as its driver has compiled them, so that they need not be compiled in every run: bytes under
@@ -454,8 +454,9 @@ typedef struct hair_look {
     hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
     float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
     float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
-    float absorption; ///< Strands that light meets on its way, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
-    float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
+    float
+        absorption; ///< Strands that light meets on its way, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
+    float          density;   ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
     float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
@@ -477,9 +478,9 @@ typedef struct hair_look {
     float wetness; ///< [0, 1]. Default 0.
     /// Share of the colours that the groom has of its own, if any, in those from root_color to tip_color. Spreads, streaks and
     /// root_shade go on top.
-    float groom_colors; ///< [0, 1]. Default 1.
-    hair_shadow shadow; ///< Default HAIR_SHADOW_DEPTH.
-    float       voxel;  ///< Of HAIR_SHADOW_STRANDS: cells of its grid, at least. m. [0.001, 1]. Default 0.004.
+    float       groom_colors; ///< [0, 1]. Default 1.
+    hair_shadow shadow;       ///< Default HAIR_SHADOW_DEPTH.
+    float       voxel; ///< Of HAIR_SHADOW_STRANDS: cells of its grid, at least. m. [0.001, 1]. Default 0.004.
 } hair_look;
 HAIR_DESC(hair_look)
 
@@ -748,7 +749,13 @@ typedef enum hair_pass {
     HAIR_PASS_ID,
     /// Debug: the air of the last step, if there is wind, as arrows in a hair_slice; HAIR_SLICE_NONE is HAIR_SLICE_Z here.
     /// Grey ones are as fast as the wind, blue ones slower, red ones twice as fast.
-    HAIR_PASS_WIND
+    HAIR_PASS_WIND,
+    /// What hair takes of a light that it is seen from, as hair_light.shadow_matrix does, for what it falls on: the share of
+    /// each texel that strands of true width cover, times hair_view.opacity, whatever size texels have; it is fit to be
+    /// filtered. To a float target, R16F will do, that was cleared to 0: what lies behind has 1 - opacity of the light.
+    /// Blending is set for it and put back; depth is tested as that is set, and not written. Attach the depth map of
+    /// bodies, hair_light.body_texture: then only hair before the first body counts, which is what falls on it.
+    HAIR_PASS_OPACITY
 } hair_pass;
 
 /// How followers become what is drawn: the picture is the same.
@@ -807,7 +814,7 @@ typedef enum hair_shade_at {
 
 /// Shading of the host's own: GLSL 4.50 that has
 ///     vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f) + 0.1 * f.color, 1.0); }
-/// and whatever that needs: uniform buffers from binding 8 on, textures from unit 20 on and, of pixels, storage buffers from
+/// and whatever that needs: uniform buffers from binding 8 on, textures from unit 24 on and, of pixels, storage buffers from
 /// binding 8 on, which the host binds. It returns light towards the eye and, of pixels, alpha. It may call
 ///     vec3 hair_shade_ours(hair_fragment f)            what would be without it
 ///     vec3 hair_world(hair_fragment f)                 where it is in the world, m
@@ -842,15 +849,21 @@ typedef struct hair_light {
     hair_made       made;
     hair_light_kind kind; ///< Default HAIR_LIGHT_DIRECTIONAL.
     /// Towards the light: from anywhere, or of a spot from the middle of what it shines at. Any length. World.
-    float    to[3];       ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
-    float    position[3]; ///< Of a point or spot. World. m. [-1e9, 1e9]. Default 0.
-    float    color[3];    ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
-    float    range;       ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
-    float    size;        ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
-    float    inner; ///< Of a spot: half of the angle of its full brightness. Radians. [0, 1.57]. Default 0.3.
-    float    outer; ///< And beyond which it does not shine: above inner. Radians. [0, 1.57]. Default 0.5.
-    uint32_t shadow_texture; ///< Of OpenGL: 2D, depth seen from the light. 0: no shadow. Of up to 4 lights.
-    float    shadow_matrix[16]; ///< World to its clip space; orthographic. Default identity.
+    float to[3];       ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
+    float position[3]; ///< Of a point or spot. World. m. [-1e9, 1e9]. Default 0.
+    float color[3];    ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
+    float range;       ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
+    float size;        ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
+    float inner; ///< Of a spot: half of the angle of its full brightness. Radians. [0, 1.57]. Default 0.3.
+    float outer; ///< And beyond which it does not shine: above inner. Radians. [0, 1.57]. Default 0.5.
+    /// Of OpenGL: 2D, depth of hair seen from the light, as HAIR_PASS_DEPTH draws it: what hair lets through of it. Bodies in
+    /// it take no more than hair would there. 0: none. One or both textures of up to 4 lights.
+    uint32_t shadow_texture;
+    /// World to clip space of both; orthographic or, of points and spots, in perspective. Depth grows away from the light.
+    float    shadow_matrix[16]; ///< Default identity.
+    uint32_t body_texture;      ///< The same of what lets no light through: a head, clothes, walls. 0: none.
+    float
+        body_bias; ///< Hair that is no farther than this behind what that shows is lit. m. [0, 1]. Default 0.003.
 } hair_light;
 HAIR_DESC(hair_light)
 
@@ -868,13 +881,13 @@ typedef struct hair_view {
     /// and Hanrahan 2001 order and scale them, over world axes: 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Each in
     /// [-1e6, 1e6]. NULL: none.
     const float*    sky;
-    hair_slice      slice;     ///< Of HAIR_PASS_SOLIDS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
-    float           slice_at;  ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
-    const hair_lod* lod;       ///< NULL: all is drawn.
-    hair_shader*    shader;    ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
-    hair_coverage   coverage;  ///< Default HAIR_COVERAGE_SAMPLES.
-    float           opacity;   ///< Of HAIR_COVERAGE_SHARES: of what strands cover. [0, 1]. Default 1.
-    float           jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
+    hair_slice      slice;    ///< Of HAIR_PASS_SOLIDS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
+    float           slice_at; ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
+    const hair_lod* lod;      ///< NULL: all is drawn.
+    hair_shader*    shader;   ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    hair_coverage   coverage; ///< Default HAIR_COVERAGE_SAMPLES.
+    float opacity; ///< Of HAIR_COVERAGE_SHARES, HAIR_PASS_OPACITY: of what strands cover. [0, 1]. Default 1.
+    float jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
     /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
     /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.
     /// Where there was none, after hair_reset or hair_load, or with another number of segments, hair has stood still;
@@ -946,10 +959,11 @@ HAIR_DESC(hair_field_info)
 HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
 typedef struct hair_timing {
-    const char* pass;     ///< Its label and what it was compiled with, as "sim/direct_curved_32". As long as the context.
-    float       ms;       ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t    runs;     ///< Since the context was created.
-    double      total_ms; ///< GPU time of its finished runs together, but for more than four at once.
+    const char*
+        pass; ///< Its label and what it was compiled with, as "sim/direct_curved_32". As long as the context.
+    float    ms;       ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t runs;     ///< Since the context was created.
+    double   total_ms; ///< GPU time of its finished runs together, but for more than four at once.
 } hair_timing;
 
 /// GPU time of every pass that something has needed yet, if the context was created with `timings`. Never waits. Returns how

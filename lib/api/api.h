@@ -21,8 +21,8 @@ struct hair_shader {
 // What was asked for in a frame, beside what ran.
 struct hair_asked {
     int      asleep;
-    uint32_t views[2],
-        unseen[2];        // in colour and in depth only: of hair, and of them those that show none of it
+    uint32_t views[3],
+        unseen[3]; // in colour, in depth only, of opacity: of hair, and of them those that show none of it
     int listed, expanded; // by a path that takes that
 };
 

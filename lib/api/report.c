@@ -39,8 +39,10 @@ void hair_begin_frame(hair_instance* hair)
 // Of what is made for views.
 static hair_why why_not_shown(const struct hair_asked* asked)
 {
-    if (asked->views[0] + asked->views[1] == 0) return HAIR_WHY_NOT_CALLED;
-    if (asked->views[0] + asked->views[1] == asked->unseen[0] + asked->unseen[1]) return HAIR_WHY_OUT_OF_VIEW;
+    uint32_t views = 0, unseen = 0;
+    for (int i = 0; i < 3; ++i) views += asked->views[i], unseen += asked->unseen[i];
+    if (views == 0) return HAIR_WHY_NOT_CALLED;
+    if (views == unseen) return HAIR_WHY_OUT_OF_VIEW;
     return HAIR_WHY_UNCHANGED;
 }
 
@@ -54,9 +56,9 @@ static hair_why why_not_met(const hair_instance* hair, const struct hair_asked* 
     return why == HAIR_WHY_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_WHY_NONE_NEAR : why;
 }
 
-static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int depth)
+static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int kind)
 {
-    if (asked->views[depth] == 0) return HAIR_WHY_NOT_CALLED;
+    if (asked->views[kind] == 0) return HAIR_WHY_NOT_CALLED;
     if (hair->draw.look.density <= 0) return HAIR_WHY_NOT_WANTED;
     return HAIR_WHY_OUT_OF_VIEW;
 }
@@ -91,6 +93,7 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
     case HAIR_GL_WORK_COUNT_STRANDS:
     case HAIR_GL_WORK_LIST: return asked->listed || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
     case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
+    case HAIR_GL_WORK_OPACITY: return why_not_drawn(hair, asked, 2);
     case HAIR_GL_WORK_COLOR: return why_not_drawn(hair, asked, 0);
     default: return HAIR_WHY_NOT_CALLED;
     }

@@ -3,10 +3,28 @@
 
 #include <string.h>
 
+#define PARALLEL 1e-3 // sine of the angle that rounding may leave
+
+// Orthographic, or in perspective with a depth that is z = a - b / w, b above 0, in front of the light: there clip space has a w
+// that grows away from it, and its depth is a w - b.
+static int is_seen_from_light(const hair_light* light)
+{
+    const float* m = light->shadow_matrix;
+    if (m[3] == 0 && m[7] == 0 && m[11] == 0) return m[15] == 1;
+    if (light->kind == HAIR_LIGHT_DIRECTIONAL) return 0;
+    double zz = 0, zw = 0, ww = 0;
+    for (int i = 0; i < 12; i += 4) {
+        zz += (double)m[i + 2] * (double)m[i + 2];
+        zw += (double)m[i + 2] * (double)m[i + 3];
+        ww += (double)m[i + 3] * (double)m[i + 3];
+    }
+    double a = zw / ww;
+    return zw > 0 && zz * ww - zw * zw <= PARALLEL * PARALLEL * zz * ww && a * (double)m[15] > (double)m[14];
+}
+
 static hair_result check_light(const hair_instance* hair, const hair_light* light, uint32_t i)
 {
     const hair_host* host = &hair->context->host;
-    const float*     m    = light->shadow_matrix;
     if (light->kind != HAIR_LIGHT_POINT && !(hair_length(hair_load3(light->to)) > 1e-12f))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].to has no direction",
                          hair->label, i);
@@ -14,12 +32,12 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
                          "%s: hair_view.lights[%u].inner is %g, not below its outer, %g", hair->label, i,
                          (double)light->inner, (double)light->outer);
-    if (light->shadow_texture && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
-        return hair_fail(
-            host, HAIR_ERROR_ARGUMENT,
-            "%s: hair_view.lights[%u].shadow_matrix is not orthographic: its last row is not (0, 0, 0, 1)",
-            hair->label, i);
-    return HAIR_OK;
+    if (!(light->shadow_texture || light->body_texture) || is_seen_from_light(light)) return HAIR_OK;
+    return hair_fail(
+        host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].shadow_matrix is %s", hair->label, i,
+        light->kind == HAIR_LIGHT_DIRECTIONAL
+            ? "not orthographic: its last row is not (0, 0, 0, 1)"
+            : "neither orthographic nor in perspective, with depth that grows away from the light");
 }
 
 // What a caller lends a view, checked and copied.
@@ -40,13 +58,13 @@ static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_
     for (uint32_t i = 0; i < view->light_count && !result; ++i) {
         result = HAIR_TAKE(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
         if (!result) result = check_light(hair, &light[i], i);
-        if (!result) shadows += light[i].shadow_texture != 0;
+        if (!result) shadows += light[i].shadow_texture || light[i].body_texture;
     }
     view->lights = light;
     if (!result && shadows > HAIR_SHADOW_MAPS)
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "%s: %u of hair_view.lights have a shadow_texture, not at most %d", hair->label,
-                         shadows, HAIR_SHADOW_MAPS);
+                         "%s: %u of hair_view.lights have a shadow_texture or a body_texture, not at most %d",
+                         hair->label, shadows, HAIR_SHADOW_MAPS);
     return result;
 }
 
@@ -87,20 +105,25 @@ static hair_result check_framebuffer(const hair_instance* hair)
 }
 
 // Binding what is no texture would raise the host's error flag; one of another target would stay bound.
+static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
+{
+    const struct hair_gl* gl     = &hair->context->gl;
+    GLint                 target = 0;
+    if (!texture) return HAIR_OK;
+    if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    if (target == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture",
+                     hair->label, light, name, texture);
+}
+
 static hair_result check_shadows(const hair_instance* hair, const hair_view* view)
 {
-    const struct hair_gl* gl = &hair->context->gl;
-    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count; ++i) {
-        GLuint texture = view->lights[i].shadow_texture;
-        GLint  target  = 0;
-        if (!texture) continue;
-        if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-        if (target != GL_TEXTURE_2D)
-            return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
-                             "%s: hair_view.lights[%u].shadow_texture is %u, not a 2D texture", hair->label,
-                             i, texture);
+    hair_result result = HAIR_OK;
+    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
+        result = check_map(hair, view->lights[i].shadow_texture, i, "shadow_texture");
+        if (!result) result = check_map(hair, view->lights[i].body_texture, i, "body_texture");
     }
-    return HAIR_OK;
+    return result;
 }
 
 static hair_result check_color(const hair_instance* hair, const hair_view* view)
@@ -179,9 +202,10 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
 {
     struct hair_asked* asked = hair_asked_now(hair);
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
-    int depth = view->pass == HAIR_PASS_DEPTH, unseen = is_out_of_view(hair, view);
-    ++asked->views[depth];
-    asked->unseen[depth] += (uint32_t)unseen;
+    int kind   = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
+    int unseen = is_out_of_view(hair, view);
+    ++asked->views[kind];
+    asked->unseen[kind] += (uint32_t)unseen;
     hair_path path = hair_draw_path(&hair->draw, view);
     asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
     asked->expanded |= !unseen && path == HAIR_PATH_EXPANDED;

@@ -79,14 +79,20 @@ static void bind_light(struct hair_draw* draw, const hair_view* view)
     hair_draw_bind_shadows(draw, view);
 }
 
+static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture)
+{
+    if (!texture) return;
+    gl->BindTextureUnit(unit, texture);
+    gl->BindSampler(unit, gl->shadow_sampler);
+}
+
 void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
 {
-    struct hair_gl* gl                     = draw->gl;
-    GLuint          maps[HAIR_SHADOW_MAPS] = {0};
-    uint32_t        count                  = hair_view_maps(view, maps);
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t               count = hair_view_maps(view, maps);
     for (GLuint i = 0; i < count; ++i) {
-        gl->BindTextureUnit(HAIR_UNIT_SHADOW + i, maps[i]);
-        gl->BindSampler(HAIR_UNIT_SHADOW + i, gl->shadow_sampler);
+        bind_map(draw->gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
+        bind_map(draw->gl, HAIR_UNIT_BODY + i, maps[i].body);
     }
 }
 
@@ -143,15 +149,16 @@ static uint32_t features_of(const struct hair_draw* draw, const hair_view* view,
                             const struct hair_gl_shader* shader)
 {
     uint32_t features = 0;
-    if (view->pass == HAIR_PASS_DEPTH) features |= HAIR_GL_WITH(DEPTH);
+    if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
     if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
     if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
     if (view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         features |= HAIR_GL_WITH(FIBRES);
-    if (hair_draw_is_shared(view))
+    if (hair_draw_covers(view))
         features |= HAIR_GL_WITH(SHARES);
     else if (view->primitive == HAIR_LINES)
         features |= HAIR_GL_WITH(LINES);
+    if (hair_draw_is_blocked(view)) features |= HAIR_GL_WITH(BLOCKED);
     if (wants_uvs(draw, view, shader)) features |= HAIR_GL_WITH(TINTED);
     if (is_painted(draw, view)) features |= HAIR_GL_WITH(PAINTED);
     return features;
@@ -211,8 +218,9 @@ static void draw_guides(struct hair_draw* draw)
 static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view,
                            const struct hair_draw_params* params, const struct drawn* with)
 {
-    struct hair_gl* gl     = draw->gl;
-    int             listed = with->path != HAIR_PATH_TESSELLATION;
+    struct hair_gl*   gl     = draw->gl;
+    int               listed = with->path != HAIR_PATH_TESSELLATION;
+    struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params);
     if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
@@ -221,7 +229,9 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
+    if (hair_draw_covers(view)) hair_draw_begin_blend(gl, &was);
     (hair_draw_is_shared(view) ? hair_draw_sorted : listed ? hair_draw_listed : hair_draw_patches)(draw);
+    if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, with->pass);
 }
 

@@ -38,27 +38,27 @@ enum {
 };
 
 struct hair_draw {
-    struct hair_gl*      gl;
-    uint32_t             frame;                           // as tidy.c was told,
-    uint32_t             used[HAIR_DRAW_PARTS];           // and in which each was last needed
-    hair_look            look;                            // soaked
-    GLuint               follower, patch, params;         // buffers
-    GLuint               follower_texture, patch_texture; // the first two, for stages without storage buffers
-    uint32_t             followers, patches, smooth_vertices, guides;
-    uint32_t             most_isolines; // of a patch
-    uint32_t             map_sets;
-    uint32_t             driver;  // row of paths.inl
-    hair_vec4            skull;   // of the groom
-    int                  bounded; // roots are held: no strand leaves its patch's reach
-    int                  held;    // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
-    uint32_t             seated;  // for which run of smooth.comp followers are
-    struct hair_extent   extent;
-    struct hair_hits     hits;
-    struct hair_listed   listed;
-    struct hair_expanded expanded;
-    struct hair_fibres   fibres;
-    struct hair_motion   motion;
-    struct hair_sorted   sorted;
+    struct hair_gl* gl;
+    uint32_t        frame;                           // as tidy.c was told,
+    uint32_t        used[HAIR_DRAW_PARTS];           // and in which each was last needed
+    hair_look       look;                            // soaked
+    GLuint          follower, patch, params;         // buffers
+    GLuint          follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t        followers, patches, smooth_vertices, guides;
+    uint32_t        most_isolines; // of a patch
+    uint32_t        map_sets;
+    uint32_t        driver;  // row of paths.inl
+    hair_vec4       skull;   // of the groom
+    int             bounded; // roots are held: no strand leaves its patch's reach
+    int      held;   // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
+    uint32_t seated; // for which run of smooth.comp followers are
+    struct hair_extent      extent;
+    struct hair_hits        hits;
+    struct hair_listed      listed;
+    struct hair_expanded    expanded;
+    struct hair_fibres      fibres;
+    struct hair_motion      motion;
+    struct hair_sorted      sorted;
     struct hair_self_shadow self_shadow;
     struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
     GLuint                  uv, uv_texture;       // 0 until they are needed
@@ -127,6 +127,9 @@ void hair_draw_listed(struct hair_draw* draw);
 void      hair_draw_find_fastest(struct hair_draw* draw);
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
 int       hair_draw_is_shared(const hair_view* view);
+int       hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
+// lights.c: whether it has maps of bodies that block lights.
+int hair_draw_is_blocked(const hair_view* view);
 
 // cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
@@ -170,6 +173,14 @@ hair_result hair_draw_need_sorted(struct hair_draw* draw);
 void        hair_draw_free_sorted(struct hair_draw* draw);
 void        hair_draw_sort(struct hair_draw* draw);
 void        hair_draw_sorted(struct hair_draw* draw);
+
+// blend.c: from one to the other, what is drawn is blended by its alpha and writes no depth.
+struct hair_blend {
+    GLint     equation[2], factor[4];
+    GLboolean blends, writes_depth;
+};
+void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was);
+void hair_draw_end_blend(struct hair_gl* gl, const struct hair_blend* was);
 
 // Vertices of all followers read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
 // UINT32_MAX.

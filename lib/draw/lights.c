@@ -3,9 +3,10 @@
 
 #include <string.h>
 
-// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says.
+// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says. In perspective
+// depth is that of what is infinitely far away less what falls with the distance: its row is a multiple of that of w.
 static void write_map(const struct hair_draw* draw, const struct hair_pose* head, const hair_light* light,
-                      hair_mat4* shadow, float* absorption)
+                      hair_mat4* shadow, hair_vec4* map)
 {
     GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
     draw->gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
@@ -16,10 +17,12 @@ static void write_map(const struct hair_draw* draw, const struct hair_pose* head
     }
     float texture[16];
     hair_mat4_multiply(halve, light->shadow_matrix, texture);
-    *shadow = hair_mat4_from_head(texture, head);
-    // Depth per metre along the light turns absorption per metre into absorption per unit of depth.
-    float per_metre = hair_length(hair_v3(texture[2], texture[6], texture[10]));
-    *absorption     = per_metre > 0 ? draw->look.absorption / per_metre : 0;
+    *shadow          = hair_mat4_from_head(texture, head);
+    hair_vec3 z      = hair_v3(texture[2], texture[6], texture[10]);
+    hair_vec3 w      = hair_v3(texture[3], texture[7], texture[11]);
+    float     square = hair_dot(w, w), per_metre = hair_length(z);
+    map->z = per_metre > 0 ? 1 / per_metre : 0;
+    map->w = square > 0 ? hair_dot(z, w) / square : 0;
 }
 
 static void write_light(const hair_light* light, const struct hair_pose* head,
@@ -33,6 +36,7 @@ static void write_light(const hair_light* light, const struct hair_pose* head,
     out[HAIR_LIGHT_AXIS] =
         spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer)} : (hair_vec4){0, 0, 0, -1};
     out[HAIR_LIGHT_MORE] = (hair_vec4){spot ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
+    out[HAIR_LIGHT_MAP]  = (hair_vec4){HAIR_SHADOW_MAPS, light->body_bias, 0, 0};
     if (light->kind == HAIR_LIGHT_DIRECTIONAL) return;
     float at[3];
     for (int i = 0; i < 3; ++i) at[i] = (float)((double)light->position[i] - head->position[i]);
@@ -54,25 +58,40 @@ static void write_sky(const float* sky, int channel, float ambient, hair_mat4* o
     out->column[3].w += ambient;
 }
 
-uint32_t hair_view_maps(const hair_view* view, GLuint out[HAIR_SHADOW_MAPS])
+uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS])
 {
     uint32_t maps = 0;
-    for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i)
-        if (view->lights[i].shadow_texture) out[maps++] = view->lights[i].shadow_texture;
+    for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
+        const hair_light* light = &view->lights[i];
+        if (light->shadow_texture || light->body_texture)
+            out[maps++] = (struct hair_light_maps){i, light->shadow_texture, light->body_texture};
+    }
     return maps;
+}
+
+int hair_draw_is_blocked(const hair_view* view)
+{
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t               count = hair_view_maps(view, maps);
+    for (uint32_t i = 0; i < count; ++i)
+        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
+    return 0;
 }
 
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out)
 {
-    uint32_t maps = 0;
-    out->lights   = view->light_count;
-    for (uint32_t i = 0; i < view->light_count; ++i) {
-        hair_vec4* light = &out->light[i * HAIR_LIGHT_VECTORS];
-        write_light(&view->lights[i], head, light);
-        if (!view->lights[i].shadow_texture || maps == HAIR_SHADOW_MAPS) continue;
-        write_map(draw, head, &view->lights[i], &out->shadow[maps], &light[HAIR_LIGHT_MORE].z);
-        light[HAIR_LIGHT_MORE].w = (float)maps++;
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t               count = hair_view_maps(view, maps);
+    out->lights                  = view->light_count;
+    for (uint32_t i = 0; i < view->light_count; ++i)
+        write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
+        write_map(draw, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
+        light[HAIR_LIGHT_MORE].z = draw->look.absorption;
+        if (maps[i].shadow) light[HAIR_LIGHT_MORE].w = (float)i;
+        if (maps[i].body) light[HAIR_LIGHT_MAP].x = (float)i;
     }
     for (int channel = 0; channel < 3; ++channel)
         write_sky(view->sky, channel, view->ambient[channel], &out->sky[channel]);

@@ -49,7 +49,7 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     GLfloat viewport[4] = {0};
     GLint   samples     = 0;
     float   projection[16];
-    int     shares = view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_SHARES;
+    int     shares = hair_draw_covers(view);
     memcpy(projection, view->projection, sizeof projection);
     if (shares || view->jitter[0] != 0 || view->jitter[1] != 0)
         draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);

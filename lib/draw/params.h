@@ -11,10 +11,16 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
 // The world matrix `m` for positions from the head's origin: its last column gains m times that origin.
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
 
-// lights.c: of them what is about light; and the shadow maps, in their order, and how many there are.
+// The maps of a light of a view: which one, and of OpenGL what it shows of hair and of bodies, 0: nothing.
+struct hair_light_maps {
+    uint32_t light;
+    GLuint   shadow, body;
+};
+
+// lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
-uint32_t hair_view_maps(const hair_view* view, GLuint out[HAIR_SHADOW_MAPS]);
+uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
 
 // detail.c: of them what is about the level of detail. Those about the view are there.
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,

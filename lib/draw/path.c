@@ -24,16 +24,26 @@ void hair_draw_find_fastest(struct hair_draw* draw)
         ++draw->driver;
 }
 
-static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
-{
-    hair_path path = fastest[draw->driver].path[(view->primitive == HAIR_LINES) + 2 * (view->lod != NULL)];
-    uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
-    return path == HAIR_PATH_EXPANDED && vertices > MOST_EXPANDED ? HAIR_PATH_TESSELLATION : path;
-}
-
 int hair_draw_is_shared(const hair_view* view)
 {
     return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_SHARES;
+}
+
+int hair_draw_covers(const hair_view* view)
+{
+    return view->pass == HAIR_PASS_OPACITY || hair_draw_is_shared(view);
+}
+
+static int is_of_lines(const hair_view* view)
+{
+    return view->primitive == HAIR_LINES && !hair_draw_covers(view);
+}
+
+static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
+{
+    hair_path path     = fastest[draw->driver].path[is_of_lines(view) + 2 * (view->lod != NULL)];
+    uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
+    return path == HAIR_PATH_EXPANDED && vertices > MOST_EXPANDED ? HAIR_PATH_TESSELLATION : path;
 }
 
 // Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are

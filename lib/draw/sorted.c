@@ -59,46 +59,13 @@ void hair_draw_sort(struct hair_draw* draw)
     hair_gl_run(gl, HAIR_GL_PLACE, groups);
 }
 
-// What blending takes of the host's state is put back at once, as in prepass.c.
-struct saved {
-    GLint     equation[2], factor[4];
-    GLboolean blends, writes_depth;
-};
-
-static void enter(struct hair_gl* gl, struct saved* saved)
-{
-    static const GLenum factors[] = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA,
-                                     GL_BLEND_DST_ALPHA};
-    gl->GetIntegeri_v(GL_BLEND_EQUATION_RGB, 0, &saved->equation[0]);
-    gl->GetIntegeri_v(GL_BLEND_EQUATION_ALPHA, 0, &saved->equation[1]);
-    for (int i = 0; i < 4; ++i) gl->GetIntegeri_v(factors[i], 0, &saved->factor[i]);
-    gl->GetBooleanv(GL_DEPTH_WRITEMASK, &saved->writes_depth);
-    saved->blends = gl->IsEnabledi(GL_BLEND, 0);
-    gl->BlendEquationSeparatei(0, GL_FUNC_ADD, GL_FUNC_ADD);
-    gl->BlendFuncSeparatei(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl->Enablei(GL_BLEND, 0);
-    gl->DepthMask(0);
-}
-
-static void leave(struct hair_gl* gl, const struct saved* saved)
-{
-    const GLint* f = saved->factor;
-    gl->BlendEquationSeparatei(0, (GLenum)saved->equation[0], (GLenum)saved->equation[1]);
-    gl->BlendFuncSeparatei(0, (GLenum)f[0], (GLenum)f[1], (GLenum)f[2], (GLenum)f[3]);
-    (saved->blends ? gl->Enablei : gl->Disablei)(GL_BLEND, 0);
-    gl->DepthMask(saved->writes_depth);
-}
-
 void hair_draw_sorted(struct hair_draw* draw)
 {
     struct hair_gl* gl    = draw->gl;
     const char*     first = (const char*)NULL + 2 * sizeof(struct hair_draw_command);
-    struct saved    saved;
-    enter(gl, &saved);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindVertexArray(draw->sorted.vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
     gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_INT, first, 1, 0);
-    leave(gl, &saved);
 }

@@ -20,7 +20,8 @@ const char* hair_gl_work_label(hair_gl_work work)
 static hair_gl_work work_of(hair_gl_pass pass)
 {
     const char* label = hair_gl_row_label(pass);
-    if (pass & HAIR_GL_WITH(DEPTH)) return HAIR_GL_WORK_DEPTH;
+    if (pass & HAIR_GL_WITH(DEPTH))
+        return pass & HAIR_GL_WITH(SHARES) ? HAIR_GL_WORK_OPACITY : HAIR_GL_WORK_DEPTH;
     int work = 0;
     while (work < HAIR_GL_WORK_COLOR && strncmp(label, works[work].begins, strlen(works[work].begins)) != 0)
         ++work;

@@ -31,6 +31,7 @@ FEATURE(PAINTED, "HAIR_PAINTED")         // strands have colours of the groom
 FEATURE(IDS, "HAIR_IDS")                 // numbers in place of colour
 FEATURE(MOTION, "HAIR_MOTION")           // velocities in place of colour
 FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
+FEATURE(BLOCKED, "HAIR_BLOCKED")         // bodies block lights
 
 // A work group per guide and a thread per vertex: a group of 256 threads on guides of 32 vertices would wait for those that do
 // nothing.
@@ -40,7 +41,8 @@ FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
     SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(CURVED) | WITH(SOLIDS) | WITH(ANY) | \
         WITH(BODIES)
 #define DRAW_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS)
+    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
+        WITH(SHARES)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", 0, "field/voxelise.comp")
@@ -92,7 +94,7 @@ PASS(PREPASS_HIT, "interpolate/hit_gather", 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1
 PASS(REPAIR, "interpolate/repair", WITH(STYLED), "HAIR_FINDS_HITS=1 interpolate/repair.comp")
 PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
 PASS(INSTANCED, "draw/instanced", DRAW_FEATURES | WITH(HITS), "HAIR_LISTED=1 draw/strand.vert" DRAW_STAGES)
-PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION) | WITH(SHARES), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
+PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
 PASS(COUNT, "draw/count", 0, "HAIR_LISTED=1 draw/count.comp")
 PASS(LIST, "draw/list", 0, "HAIR_LISTED=1 draw/list.comp")
 PASS(BUCKET, "draw/bucket", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/bucket.comp")

@@ -1,5 +1,5 @@
 // works.inl - what an instance does, in order: its name in code, its name in reports, and how the labels of its passes
-// begin. The first row that fits is a pass's own; what draws depth is compiled to.
+// begin. The first row that fits is a pass's own; what draws depth or opacity is compiled to.
 WORK(PLACE, "place", "sim/reset")
 WORK(TURN, "turn", "sim/turn")
 WORK(SCALP, "scalp", "sim/scalp")
@@ -21,4 +21,5 @@ WORK(GUIDES, "guides", "draw/guides")
 WORK(AIR, "air", "draw/air")
 WORK(SOLIDS, "solids", "draw/s")
 WORK(DEPTH, "depth", "draw/depth")
+WORK(OPACITY, "opacity", "draw/opacity")
 WORK(COLOR, "color", "draw/")

@@ -108,3 +108,37 @@ double hair_reference_around(const struct hair_reference_grid* grid, const doubl
     around(*grid, place_of(*grid, at), values, out);
     return out;
 }
+
+void hair_reference_stop(struct hair_reference_rays* rays, const double a[2], const double b[2],
+                         double radius_a, double radius_b)
+{
+    const double way[2] = {b[0] - a[0], b[1] - a[1]}, square = way[0] * way[0] + way[1] * way[1];
+    const double most = std::max(radius_a, radius_b), step = rays->side / rays->count;
+    long         from[2], to[2];
+    if (square <= 0) return;
+    for (int i = 0; i < 2; ++i) {
+        from[i] = long(std::floor((std::min(a[i], b[i]) - most - rays->lower[i]) / step));
+        to[i]   = long(std::ceil((std::max(a[i], b[i]) + most - rays->lower[i]) / step));
+        from[i] = std::max(from[i], 0L), to[i] = std::min(to[i], long(rays->count));
+    }
+    for (long y = from[1]; y < to[1]; ++y)
+        for (long x = from[0]; x < to[0]; ++x) {
+            const double at[2] = {rays->lower[0] + (x + 0.5) * step - a[0],
+                                  rays->lower[1] + (y + 0.5) * step - a[1]};
+            const double t     = (at[0] * way[0] + at[1] * way[1]) / square;
+            const double off   = std::fabs(at[0] * way[1] - at[1] * way[0]) / std::sqrt(square);
+            if (t >= 0 && t < 1 && off <= radius_a + t * (radius_b - radius_a))
+                rays->stopped[size_t(y) * rays->count + size_t(x)] = 1;
+        }
+}
+
+double hair_reference_stopped(const struct hair_reference_rays* rays, double x, double y, double side)
+{
+    const long from[2] = {std::lround(x * rays->count), std::lround(y * rays->count)};
+    const long each    = std::max(std::lround(side * rays->count), 1L);
+    double     sum     = 0;
+    for (long k = from[1]; k < from[1] + each; ++k)
+        for (long i = from[0]; i < from[0] + each; ++i)
+            sum += rays->stopped[size_t(k) * rays->count + size_t(i)];
+    return sum / double(each * each);
+}

@@ -35,6 +35,22 @@ double hair_reference_sky(const struct hair_reference_grid* grid, const double f
 double hair_reference_around(const struct hair_reference_grid* grid, const double at[3],
                              const double* values);
 
+/// Parallel rays along z, in the middles of equal squares of a large one.
+struct hair_reference_rays {
+    double         lower[2]; ///< m.
+    double         side;     ///< m.
+    uint32_t       count;    ///< Along each side.
+    unsigned char* stopped;  ///< Per ray, row after row: 1: it has met a strand.
+};
+
+/// Stop those that meet the ribbon from a to b, x and y, of half so wide at both ends, which it turns to them.
+void hair_reference_stop(struct hair_reference_rays* rays, const double a[2], const double b[2],
+                         double radius_a, double radius_b);
+
+/// Of the rays through a part of the square, from `x`, `y` on and `side` wide, as shares of its sides, the share that is
+/// stopped.
+double hair_reference_stopped(const struct hair_reference_rays* rays, double x, double y, double side);
+
 #ifdef __cplusplus
 }
 #endif

@@ -332,7 +332,7 @@ static const struct member members[] = {
     VEC4(hair_draw_params, strand.curve[0]),
     UINT(hair_draw_params, strand.unused),
     VEC4(hair_draw_params, light[0]),
-    VEC4(hair_draw_params, light[63]),
+    VEC4(hair_draw_params, light[79]),
     MAT4(hair_draw_params, shadow[0]),
     MAT4(hair_draw_params, shadow[1]),
     MAT4(hair_draw_params, shadow[2]),

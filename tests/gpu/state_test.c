@@ -153,15 +153,18 @@ static hair_result draw(struct fixture* f)
         for (int k = 0; k < 4; ++k) {
             lights[k]                = hair_light_default();
             lights[k].shadow_texture = f->shadow;
+            lights[k].body_texture   = f->shadow;
         }
         view.lights      = i % 16 == 8 ? lights : NULL;
         view.light_count = view.lights ? 4 : 1;
         view.path        = (hair_path)(i / 16);
         result           = hair_draw(f->hair, &view);
     }
-    hair_view air = hair_view_default();
-    air.pass      = HAIR_PASS_WIND;
-    return result ? result : hair_draw(f->hair, &air);
+    hair_view other = hair_view_default();
+    other.pass      = HAIR_PASS_WIND;
+    if (!result) result = hair_draw(f->hair, &other);
+    other.pass = HAIR_PASS_OPACITY;
+    return result ? result : hair_draw(f->hair, &other);
 }
 static hair_result read_all(struct fixture* f)
 {
@@ -263,7 +266,7 @@ static int may_change(const char* name)
     if (strncmp(name, "GL_SHADER_STORAGE_BUFFER_", 25) == 0) return i < 8;
     if (strncmp(name, "GL_UNIFORM_BUFFER_", 18) == 0) return i < 3;
     if (strncmp(name, "GL_TEXTURE_BINDING_", 19) == 0 || strncmp(name, "GL_SAMPLER_BINDING", 18) == 0)
-        return i < 16 || i == 17;
+        return i < 23;
     if (strncmp(name, "GL_IMAGE_BINDING_", 17) == 0) return i < 2;
     return 0;
 }

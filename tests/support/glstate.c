@@ -205,7 +205,7 @@ static const struct row queries[] = {
 };
 
 #define COUNT(rows) (sizeof rows / sizeof *rows)
-#define UNITS 18
+#define UNITS 23
 
 static void put(struct hair_test_glstate* out, const char* name, int i, int64_t value)
 {

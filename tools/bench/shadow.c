@@ -1,9 +1,11 @@
 // shadow.c - the suite `shadow`: how near ways to find the light that hair leaves to itself come to counting strands ray by
-// ray. Pictures differ in that light alone; ways that the library does not have are worked out by the processor.
+// ray. Pictures differ in that light alone; ways that the library does not have are worked out by the processor. And how near
+// the area that hair shades of what it falls on comes to that of the rays that it stops.
 #include "tools/bench/picture.h"
 #include "tools/bench/scatter.h"
 #include "tools/bench/strand_light.h"
 #include "tools/bench/studio.h"
+#include "lib/reference/self_shadow.h"
 #include "tools/common/camera.h"
 
 #include <epoxy/gl.h>
@@ -16,7 +18,7 @@
 #define SEGMENTS 24
 #define RAYS 1024
 #define RAYS_OF_QUICK 64
-#define UNIT 20 // of textures: the first that is the host's
+#define UNIT 24 // of textures: the first that is the host's
 
 static const char* const columns[] = {
     "case", "method",   "cell",       "layers",        "ms",        "rays", "strands",  "size",  "flip",
@@ -24,7 +26,7 @@ static const char* const columns[] = {
     "bias", "bias_red", "bias_green", "bias_blue",     "bias_once", NULL};
 
 static const char table_glsl[] =
-    "layout(binding = 20) uniform samplerBuffer table;\n"
+    "layout(binding = 24) uniform samplerBuffer table;\n"
     "float own_through(hair_fragment f)\n"
     "{\n"
     "    int   each = int(draw.segments) + 1;\n"
@@ -228,12 +230,89 @@ static bool look(struct scene* scene, const struct method* method)
     return ok;
 }
 
+#define SHADE_RAYS 8192 // to each side
+
+// m^2 across the light.
+static bool shade_by_rays(const struct scene* scene, double* area)
+{
+    const struct bench_strands* s    = &scene->strands;
+    double                      r    = (double)s->radius;
+    struct hair_reference_rays  rays = {.count = SHADE_RAYS, .stopped = calloc(SHADE_RAYS, SHADE_RAYS)};
+    if (!rays.stopped) return false;
+    for (int k = 0; k < 2; ++k) {
+        rays.lower[k] = (double)s->lower[k] - r;
+        rays.side     = fmax(rays.side, (double)(s->upper[k] - s->lower[k]) + 2 * r);
+    }
+    for (uint32_t v = 0; v < s->count * s->each; ++v) {
+        const float* p    = s->seen + 3 * (size_t)v;
+        double       a[2] = {(double)p[0], (double)p[1]}, b[2];
+        if (v % s->each == s->each - 1) continue;
+        b[0] = (double)p[3], b[1] = (double)p[4];
+        hair_reference_stop(&rays, a, b, r, r);
+    }
+    *area = hair_reference_stopped(&rays, 0, 0, 1) * rays.side * rays.side;
+    free(rays.stopped);
+    return true;
+}
+
+// By a map of what hair takes, of `size` texels to each side.
+static bool shade_by_map(struct scene* scene, GLsizei size, double* area)
+{
+    struct bench_studio* studio = &scene->studio;
+    struct hair_matrices light;
+    hair_view            view = hair_view_default();
+    float                none = 0, *texels = malloc((size_t)size * (size_t)size * sizeof *texels);
+    double               texel = 2 * (double)studio->reach / size;
+    GLuint               framebuffer, texture;
+    hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_R16F, size, size);
+    glClearTexImage(texture, 0, GL_RED, GL_FLOAT, &none);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, size, size);
+    glDisable(GL_DEPTH_TEST);
+    view.pass = HAIR_PASS_OPACITY;
+    memcpy(view.view, light.view, sizeof view.view);
+    memcpy(view.projection, light.projection, sizeof view.projection);
+    bool ok = texels && !hair_draw(studio->hair, &view);
+    if (ok) glGetTextureImage(texture, 0, GL_RED, GL_FLOAT, size * size * (GLsizei)sizeof *texels, texels);
+    if (ok) *area = mean_of(texels, (size_t)size * (size_t)size) * size * size * texel * texel;
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    free(texels);
+    return ok;
+}
+
+static bool look_at_body(struct scene* scene, GLsizei size)
+{
+    double expected, area;
+    if (!shade_by_rays(scene, &expected) || !shade_by_map(scene, size, &area)) return false;
+    json_t* row = bench_rows_add(&scene->bench->rows);
+    bench_set_text(row, "case", "body");
+    bench_set_text(row, "method", "opacity");
+    bench_set_number(row, "cell", 2 * (double)scene->studio.reach / size);
+    bench_set_count(row, "strands", scene->studio.info.follower_count);
+    bench_set_count(row, "size", (uint32_t)size);
+    bench_set_number(row, "error", area / expected - 1);
+    return true;
+}
+
+static void measure_body(struct scene* scene)
+{
+    for (GLsizei size = 128; size <= 2048; size *= 4)
+        if (bench_begin(scene->bench, "body", "opacity") && (!need(scene) || !look_at_body(scene, size)))
+            bench_refuse(scene->bench, "body", "opacity");
+}
+
 static void run_suite(struct bench* bench)
 {
     struct scene scene = {.bench = bench};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; ++i)
         if (bench_begin(bench, "long", methods[i].name) && (!need(&scene) || !look(&scene, &methods[i])))
             bench_refuse(bench, "long", methods[i].name);
+    measure_body(&scene);
     bench_picture_free(&scene.truth);
     bench_strands_free(&scene.strands);
     free(scene.light);

@@ -146,6 +146,7 @@ void bench_studio_free(struct bench_studio* studio)
     hair_destroy(studio->hair);
     hair_groom_destroy(studio->groom);
     if (studio->shot.samples) hair_targets_delete(&studio->targets);
+    hair_shadow_map_delete(&studio->map);
     glUseProgram(0); // A program that is deleted while current is gone as soon as another is.
     for (int i = 0; i < 3; ++i) glDeleteProgram(studio->programs[i]);
     glDeleteVertexArrays(2, studio->arrays);
@@ -199,11 +200,16 @@ bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot
     return true;
 }
 
+static bool shows_head(const struct bench_studio* studio)
+{
+    return studio->indices && !studio->bare;
+}
+
 static void draw_head(const struct bench_studio* studio, unsigned program,
                       const struct hair_matrices* matrices)
 {
     bool whole = studio->scene.subject == HAIR_SUBJECT_FUR;
-    if (!studio->indices || studio->bare) return;
+    if (!shows_head(studio)) return;
     glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, studio->transform);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
@@ -251,7 +257,10 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
 {
     hair_light lit = studio->scene.settings.light;
     hair_light_clip(light, lit.shadow_matrix);
-    if (view->pass == HAIR_PASS_COLOR && !studio->shot.unmapped) lit.shadow_texture = studio->targets.shadow;
+    if (view->pass == HAIR_PASS_COLOR && !studio->shot.unmapped) {
+        lit.shadow_texture = studio->map.texture[HAIR_SHADOW_HAIR];
+        lit.body_texture   = shows_head(studio) ? studio->map.texture[HAIR_SHADOW_BODY] : 0;
+    }
     view->lights = &lit;
     memcpy(view->view, matrices->view, sizeof view->view);
     memcpy(view->projection, matrices->projection, sizeof view->projection);
@@ -265,18 +274,15 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
 static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
                         const struct hair_matrices* light)
 {
-    static const float far         = 1;
-    unsigned           framebuffer = studio->targets.framebuffer[HAIR_TARGET_SHADOW];
-    hair_view          view        = studio->shot.view;
-    hair_lod           lod         = studio->shot.lod;
-    view.pass                      = HAIR_PASS_DEPTH;
+    hair_view view = studio->shot.view;
+    hair_lod  lod  = studio->shot.lod;
+    view.pass      = HAIR_PASS_DEPTH;
     lod.importance *= importance_of_shadow(studio, camera, light);
     if (studio->shot.has_lod) view.lod = &lod;
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
-    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
-    glEnable(GL_DEPTH_TEST);
+    if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY)) return false;
+    hair_shadow_map_begin(&studio->map, HAIR_SHADOW_BODY);
     draw_head(studio, studio->programs[DEPTH], light);
+    hair_shadow_map_begin(&studio->map, HAIR_SHADOW_HAIR);
     return draw_hair(studio, &view, light, light);
 }
 

@@ -6,6 +6,7 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/timer.h"
 #include "tools/common/rig.h"
+#include "tools/common/shadow_map.h"
 #include "tools/common/targets.h"
 
 #define STUDIO_FPS 60
@@ -25,24 +26,25 @@ struct bench_shot {
 };
 
 struct bench_studio {
-    struct bench*       bench;
-    struct hair_scene   scene;
-    hair_groom*         groom;
-    hair_groom_info     info;
-    float               fewer; // times: than the scene's followers
-    hair_instance*      hair;
-    uint32_t            size; // of a picture, pixels to each side
-    float               transform[16], reach;
-    uint32_t            frame;
-    bool                bare;       // the head is not drawn
-    bool                timed;      // what is under way is
-    bool                counts;     // and
-    uint64_t            primitives; // that the last picture has of hair, two to a ribbon's segment
-    struct bench_shot   shot;       // the last that was set
-    struct bench_timer  timer;
-    struct hair_targets targets;
-    unsigned            programs[3], arrays[2], buffers[2], query;
-    uint32_t            indices;
+    struct bench*          bench;
+    struct hair_scene      scene;
+    hair_groom*            groom;
+    hair_groom_info        info;
+    float                  fewer; // times: than the scene's followers
+    hair_instance*         hair;
+    uint32_t               size; // of a picture, pixels to each side
+    float                  transform[16], reach;
+    uint32_t               frame;
+    bool                   bare;       // the head is not drawn
+    bool                   timed;      // what is under way is
+    bool                   counts;     // and
+    uint64_t               primitives; // that the last picture has of hair, two to a ribbon's segment
+    struct bench_shot      shot;       // the last that was set
+    struct bench_timer     timer;
+    struct hair_targets    targets;
+    struct hair_shadow_map map;
+    unsigned               programs[3], arrays[2], buffers[2], query;
+    uint32_t               indices;
 };
 
 // What differs from the scene; 0: nothing.

@@ -90,28 +90,70 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
     memcpy(out->projection, projection, sizeof projection);
 }
 
+static void find_direction(const hair_light* light, vec3 out)
+{
+    copy_in(light->to, out);
+    if (glm_vec3_norm(out) < 1e-12f) out[1] = 1;
+    glm_vec3_normalize(out);
+}
+
 void hair_light_direction(const struct hair_scene* scene, float out[3])
 {
     vec3 to;
-    copy_in(scene->settings.light.to, to);
-    if (glm_vec3_norm(to) < 1e-12f) to[1] = 1;
-    glm_vec3_normalize(to);
+    find_direction(&scene->settings.light, to);
     memcpy(out, to, sizeof to);
+}
+
+static void put(mat4 view, mat4 projection, struct hair_matrices* out)
+{
+    memcpy(out->view, view, sizeof out->view);
+    memcpy(out->projection, projection, sizeof out->projection);
+}
+
+static void look_from_afar(const hair_light* light, vec3 centre, float reach, struct hair_matrices* out)
+{
+    vec3 to, eye;
+    mat4 view, projection;
+    find_direction(light, to);
+    glm_vec3_copy(centre, eye);
+    glm_vec3_muladds(to, 2 * reach, eye);
+    look(eye, centre, view);
+    glm_ortho(-reach, reach, -reach, reach, reach, 3 * reach, projection);
+    put(view, projection, out);
 }
 
 void hair_light_matrices(const struct hair_scene* scene, const float transform[16], float reach,
                          struct hair_matrices* out)
 {
-    vec3 to, centre, eye;
-    mat4 view, projection;
-    hair_light_direction(scene, to);
+    vec3 centre;
     carry_pivot(scene, transform, centre);
-    glm_vec3_copy(centre, eye);
-    glm_vec3_muladds(to, 2 * reach, eye);
+    look_from_afar(&scene->settings.light, centre, reach, out);
+}
+
+// As wide as all that the head reaches is seen, but for a lamp that is among it.
+static float find_angle(float distance, float reach)
+{
+    const float widest = 1.3f;
+    return distance * sinf(widest) > reach ? asinf(reach / distance) : widest;
+}
+
+float hair_lamp_matrices(const struct hair_scene* scene, const hair_light* lamp, const float transform[16],
+                         float reach, struct hair_matrices* out)
+{
+    vec3 centre, eye;
+    mat4 view, projection;
+    carry_pivot(scene, transform, centre);
+    if (lamp->kind == HAIR_LIGHT_DIRECTIONAL) {
+        look_from_afar(lamp, centre, reach, out);
+        return 2 * reach;
+    }
+    copy_in(lamp->position, eye);
+    if (glm_vec3_distance(eye, centre) < 1e-4f) centre[1] -= 1;
+    float distance = glm_vec3_distance(eye, centre), angle = find_angle(distance, reach);
     look(eye, centre, view);
-    glm_ortho(-reach, reach, -reach, reach, reach, 3 * reach, projection);
-    memcpy(out->view, view, sizeof view);
-    memcpy(out->projection, projection, sizeof projection);
+    glm_perspective(2 * angle, 1, fmaxf(distance - reach, 0.02f * reach), distance + reach, projection);
+    put(view, projection, out);
+    return 2 * distance * tanf(angle);
 }
 
 void hair_light_clip(const struct hair_matrices* light, float out[16])

@@ -26,7 +26,11 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
 void hair_light_matrices(const struct hair_scene* scene, const float transform[16], float reach,
                          struct hair_matrices* out);
 
-// World to clip space, and to texture coordinates and depth in [0, 1].
+// Of any light: from a lamp's place in perspective. Returns how wide it sees where the head is, m.
+float hair_lamp_matrices(const struct hair_scene* scene, const hair_light* lamp, const float transform[16],
+                         float reach, struct hair_matrices* out);
+
+// World to clip space, and to texture coordinates and depth in [0, 1], all times w.
 void hair_light_clip(const struct hair_matrices* light, float out[16]);
 void hair_light_texture(const struct hair_matrices* light, float out[16]);
 void hair_light_direction(const struct hair_scene* scene, float out[3]); // unit, towards it

@@ -1,6 +1,7 @@
-// render.c - the picture around the hair: background, head, shadow map, many samples, and the way to 8 bits.
+// render.c - the picture around the hair: background, head, shadow maps, many samples, and the way to 8 bits.
 #include "tools/common/render.h"
 #include "tools/common/file.h"
+#include "tools/common/frame_lights.h"
 #include "tools/common/shaders.h"
 #include "tools/common/subject.h"
 #include "tools/common/targets.h"
@@ -22,6 +23,8 @@ struct hair_render {
     uint32_t                tile; // side, in the picture's pixels
     GLuint                  program[PROGRAM_COUNT];
     struct hair_targets     targets;
+    struct hair_shadow_map  map[HAIR_SCENE_SHADOWS]; // as many as lights have needed
+    GLuint                  shadow_sampler;
     GLuint                  vertex_array, nothing; // nothing: a vertex array without vertices
     GLuint                  buffer[BUFFER_COUNT];
     uint32_t                indices;
@@ -60,8 +63,9 @@ static int make(struct hair_render* render)
     if (!make_programs(render)) return HAIR_EXIT_OPENGL;
     glCreateVertexArrays(1, &render->vertex_array);
     glCreateVertexArrays(1, &render->nothing);
-    uint32_t width  = desc->width < render->tile ? desc->width : render->tile;
-    uint32_t height = desc->height < render->tile ? desc->height : render->tile;
+    render->shadow_sampler = hair_shadow_sampler();
+    uint32_t width         = desc->width < render->tile ? desc->width : render->tile;
+    uint32_t height        = desc->height < render->tile ? desc->height : render->tile;
     if (!hair_targets_make(&render->targets, width, height, desc->supersample, desc->samples)) {
         hair_complain(render->tool, "OpenGL has no memory for %u x %u pixels of %u samples", desc->width,
                       desc->height, desc->samples);
@@ -104,6 +108,8 @@ void hair_render_destroy(struct hair_render* render)
     for (int i = 0; i < PROGRAM_COUNT; ++i) glDeleteProgram(render->program[i]);
     glDeleteVertexArrays(2, vertex_arrays);
     hair_targets_delete(&render->targets);
+    for (int i = 0; i < HAIR_SCENE_SHADOWS; ++i) hair_shadow_map_delete(&render->map[i]);
+    glDeleteSamplers(1, &render->shadow_sampler);
     delete_mesh(render);
     free(render->image.encoded);
     free(render->image.linear);
@@ -156,8 +162,7 @@ struct tile {
 struct frame {
     const struct hair_scene* scene;
     const float*             transform;
-    struct hair_matrices     light;
-    float                    texel; // of the shadow map, m
+    struct hair_frame_lights lights;
     uint32_t                 number;
     hair_instance*           hair;
 };
@@ -172,10 +177,15 @@ static void set_mat4(GLuint program, GLint at, const float value[16])
     glProgramUniformMatrix4fv(program, at, 1, GL_FALSE, value);
 }
 
+static bool shows_mesh(const struct hair_render* render, const struct frame* frame)
+{
+    return render->indices && (frame->scene->show & HAIR_SHOW_HEAD);
+}
+
 static void draw_mesh(const struct hair_render* render, GLuint program, const struct frame* frame,
                       const struct hair_matrices* matrices)
 {
-    if (!render->indices || !(frame->scene->show & HAIR_SHOW_HEAD)) return;
+    if (!shows_mesh(render, frame)) return;
     set_mat4(program, HAIR_AT_HEAD, frame->transform);
     set_mat4(program, HAIR_AT_VIEW, matrices->view);
     set_mat4(program, HAIR_AT_PROJECTION, matrices->projection);
@@ -187,40 +197,65 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
     glDisable(GL_CULL_FACE);
 }
 
-static hair_result draw_hair(const struct frame* frame, const struct hair_matrices* matrices, hair_pass pass,
-                             GLuint shadow)
+// Seen from the eye, lights have maps; what they see themselves has none.
+static hair_result draw_hair(const struct hair_render* render, const struct frame* frame,
+                             const struct hair_matrices* matrices, hair_pass pass)
 {
     hair_view  view = frame->scene->settings.view;
     hair_light light[HAIR_SCENE_LIGHTS];
     view.pass        = pass;
     view.frame       = frame->number; // Its tiles share what light there is.
     view.lod         = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
-    view.light_count = 1 + frame->scene->lights.count;
+    view.light_count = frame->lights.count;
     view.lights      = light;
-    light[0]         = frame->scene->settings.light;
-    memcpy(light + 1, frame->scene->lights.light, frame->scene->lights.count * sizeof *light);
-    light[0].shadow_texture = shadow;
+    memcpy(light, frame->lights.light, sizeof light);
+    for (uint32_t i = 0; i < frame->lights.shadows && pass == HAIR_PASS_COLOR; ++i) {
+        hair_light* of     = &light[frame->lights.shadow[i].light];
+        of->shadow_texture = render->map[i].texture[HAIR_SHADOW_HAIR];
+        of->body_texture   = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
+        hair_light_clip(&frame->lights.shadow[i].matrices, of->shadow_matrix);
+    }
     if (pass == HAIR_PASS_DEPTH && !view.lod)
         view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
-    hair_light_clip(&frame->light, light[0].shadow_matrix);
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
     return hair_draw(frame->hair, &view);
 }
 
-static hair_result draw_shadow(const struct hair_render* render, const struct frame* frame)
+// What the body and hair leave of each other's light; of what is not shown, or falls on nothing that is, nothing.
+static hair_result draw_shadow(const struct hair_render* render, const struct frame* frame, uint32_t i)
 {
-    static const float far = 1;
-    glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_SHADOW]);
-    glViewport(0, 0, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
-    glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_SHADOW], GL_DEPTH, 0, &far);
-    glEnable(GL_DEPTH_TEST);
-    glEnable(GL_POLYGON_OFFSET_FILL); // A surface does not shade itself.
-    glPolygonOffset(2, 4);
-    draw_mesh(render, render->program[DEPTH], frame, &frame->light);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    return frame->scene->show & HAIR_SHOW_HAIR ? draw_hair(frame, &frame->light, HAIR_PASS_DEPTH, 0)
-                                               : HAIR_OK;
+    const struct hair_shadow_map* map      = &render->map[i];
+    const struct hair_matrices*   matrices = &frame->lights.shadow[i].matrices;
+    bool        mesh = shows_mesh(render, frame), hair = frame->scene->show & HAIR_SHOW_HAIR;
+    hair_result result = HAIR_OK;
+    if (mesh) {
+        hair_shadow_map_begin(map, HAIR_SHADOW_BODY);
+        glEnable(GL_POLYGON_OFFSET_FILL); // A surface does not shade itself.
+        glPolygonOffset(2, 4);
+        draw_mesh(render, render->program[DEPTH], frame, matrices);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+    hair_shadow_map_begin(map, HAIR_SHADOW_HAIR);
+    if (hair) result = draw_hair(render, frame, matrices, HAIR_PASS_DEPTH);
+    if (!mesh || result) return result;
+    hair_shadow_map_begin(map, HAIR_SHADOW_OPACITY);
+    return hair ? draw_hair(render, frame, matrices, HAIR_PASS_OPACITY) : HAIR_OK;
+}
+
+static hair_result draw_shadows(struct hair_render* render, const struct frame* frame)
+{
+    hair_result result = HAIR_OK;
+    for (uint32_t i = 0; i < frame->lights.shadows && !result; ++i) {
+        bool mesh = shows_mesh(render, frame);
+        if (!hair_shadow_map_make(&render->map[i], mesh ? HAIR_SHADOW_PARTS : HAIR_SHADOW_OPACITY)) {
+            hair_complain(render->tool, "OpenGL has no memory for the shadow maps of %u lights",
+                          frame->lights.shadows);
+            return HAIR_ERROR_MEMORY;
+        }
+        result = draw_shadow(render, frame, i);
+    }
+    return result;
 }
 
 static void draw_background(const struct hair_render* render, const struct frame* frame,
@@ -238,34 +273,15 @@ static void draw_background(const struct hair_render* render, const struct frame
     glEnable(GL_DEPTH_TEST);
 }
 
-static void set_lights(GLuint program, const struct hair_scene* scene)
-{
-    GLint count = 1 + (GLint)scene->lights.count;
-    for (GLint i = 0; i < count; ++i) {
-        struct hair_lit lit = hair_lit_of(i ? &scene->lights.light[i - 1] : &scene->settings.light);
-        glProgramUniform4fv(program, HAIR_AT_LIGHT_TO + i, 1, lit.to);
-        glProgramUniform4fv(program, HAIR_AT_LIGHT + i, 1, lit.color);
-        glProgramUniform4fv(program, HAIR_AT_AXIS + i, 1, lit.axis);
-        glProgramUniform2fv(program, HAIR_AT_MORE + i, 1, lit.more);
-    }
-    glProgramUniform1i(program, HAIR_AT_LIGHTS, count);
-}
-
 static void draw_skin(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
     GLuint           program = render->program[SKIN];
     const hair_view* view    = &frame->scene->settings.view;
-    float            shadow[16];
-    hair_light_texture(&frame->light, shadow);
     set_vec3(program, HAIR_AT_EYE, frame->scene->eye);
-    set_lights(program, frame->scene);
     set_vec3(program, HAIR_AT_AMBIENT, view->ambient);
-    set_mat4(program, HAIR_AT_SHADOW, shadow);
-    glProgramUniform1f(program, HAIR_AT_TEXEL, frame->texel);
-    glBindTextureUnit(0, render->targets.shadow);
-    glBindSampler(0, render->targets.shadow_sampler);
+    hair_frame_lights_set(program, &frame->lights, render->map, render->shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);
-    glBindSampler(0, 0);
+    hair_frame_lights_unset(&frame->lights);
 }
 
 // Average the samples, then the pixels of a supersampled one, and encode.
@@ -323,7 +339,7 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
     hair_result result = HAIR_OK;
     for (int i = 0; i < 4 && !result; ++i)
         if (frame->scene->show & passes[i].show)
-            result = draw_hair(frame, &tile->camera, passes[i].pass, render->targets.shadow);
+            result = draw_hair(render, frame, &tile->camera, passes[i].pass);
     if (result) return result;
     develop(render, frame, tile);
     read_pixels(render, tile);
@@ -356,10 +372,9 @@ int hair_render_frame(struct hair_render* render, const struct hair_scene* scene
     struct frame         frame = {.scene = scene, .transform = transform, .hair = hair};
     struct hair_matrices camera;
     frame.number = ++render->frames;
-    frame.texel  = 2 * reach / HAIR_SHADOW_SIZE;
-    hair_light_matrices(scene, transform, reach, &frame.light);
+    hair_frame_lights_find(scene, transform, reach, &frame.lights);
     hair_camera_matrices(scene, transform, reach, &camera);
-    hair_result result = draw_shadow(render, &frame);
+    hair_result result = draw_shadows(render, &frame);
     if (!result) result = draw_tiles(render, &frame, &camera);
     GLenum error = glGetError();
     if (!result && error) hair_complain(render->tool, "OpenGL error 0x%04x while drawing", error);

@@ -24,6 +24,7 @@ void hair_scene_default(struct hair_scene* scene)
                                             .field_of_view = 27,
                                             .background = {{0.085f, 0.09f, 0.1f}, {0.018f, 0.019f, 0.022f}},
                                             .exposure   = 1,
+                                            .shadow     = true,
                                             .motion     = {.pivot = {0, 1.50f, -0.01f}},
                                             .fps        = 30,
                                             .frames     = 120,
@@ -167,7 +168,7 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
 static const entry light[] = {HAIR_NUMBERS("to", AT(settings.light.to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                               HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
                               HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR),
-                              HAIR_END};
+                              HAIR_BOOLEAN("shadow", AT(shadow)), HAIR_END};
 static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
                                    HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
 static const entry whole[]      = {HAIR_OTHER("style", read_style),
@@ -206,6 +207,11 @@ static bool read_scene(const char* tool, const char* path, const json_t* root, s
     hair_scene_default(scene);
     struct hair_json json = {tool, path, ""};
     if (!hair_json_object(&json, "", root, whole, scene)) return false;
+    uint32_t shadows = scene->shadow;
+    for (uint32_t i = 0; i < scene->lights.count; ++i) shadows += scene->lights.at[i].shadow;
+    if (shadows > HAIR_SCENE_SHADOWS)
+        return hair_json_wrong(&json, "lights",
+                               "given with at most 4 lights, the first among them, that have a shadow");
     scene->head_is_said  = json_object_get(root, "head");
     scene->pivot_is_said = json_object_get(root, "pivot");
     if (!scene->head_is_said) scene->head = scene->subject == HAIR_SUBJECT_STYLE;

@@ -46,6 +46,7 @@ struct hair_scene {
     struct hair_scene_solid  solids[HAIR_SCENE_SOLIDS];
     struct hair_bullet_list  bullet;
     struct hair_scene_maps   maps;
+    bool                     shadow; // settings.light has one
     struct hair_scene_lights lights; // beside settings.light
     struct hair_scene_wind   wind;   // beside settings.wind
     float                    settle; // s of hanging still before frame 0

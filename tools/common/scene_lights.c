@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#define AT(member) offsetof(hair_light, member)
+#define AT(member) offsetof(struct hair_scene_light, light.member)
 #define FAR 1e6
 
 static bool read_kind(const struct hair_json* json, const char* key, const json_t* value, void* out)
@@ -14,7 +14,7 @@ static bool read_kind(const struct hair_json* json, const char* key, const json_
     const char*              name    = json_is_string(value) ? json_string_value(value) : "";
     for (int i = 0; i <= HAIR_LIGHT_SPOT; ++i)
         if (strcmp(name, names[i]) == 0) {
-            ((hair_light*)out)->kind = (hair_light_kind)i;
+            ((struct hair_scene_light*)out)->light.kind = (hair_light_kind)i;
             return true;
         }
     return hair_json_wrong(json, key, "\"directional\", \"point\" or \"spot\"");
@@ -23,17 +23,20 @@ static bool read_kind(const struct hair_json* json, const char* key, const json_
 bool hair_scene_read_lights(const struct hair_json* json, const char* key, const json_t* value,
                             struct hair_scene_lights* out)
 {
-    static const struct hair_json_entry entries[] = {HAIR_OTHER("kind", read_kind),
-                                                     HAIR_NUMBERS("to", AT(to), 3, -FAR, FAR),
-                                                     HAIR_NUMBERS("position", AT(position), 3, -FAR, FAR),
-                                                     HAIR_NUMBERS("color", AT(color), 3, 0, FAR),
-                                                     HAIR_NUMBERS("range", AT(range), 1, 0, FAR),
-                                                     HAIR_NUMBERS("size", AT(size), 1, 0.001, 1000),
-                                                     HAIR_NUMBERS("inner", AT(inner), 1, 0, 1.57),
-                                                     HAIR_NUMBERS("outer", AT(outer), 1, 0, 1.57),
-                                                     HAIR_END};
-    for (int i = 0; i < HAIR_SCENE_LIGHTS - 1; ++i) out->light[i] = hair_light_default();
-    return hair_json_array(json, key, value, entries, out->light, sizeof *out->light, HAIR_SCENE_LIGHTS - 1,
+    static const struct hair_json_entry entries[] = {
+        HAIR_OTHER("kind", read_kind),
+        HAIR_NUMBERS("to", AT(to), 3, -FAR, FAR),
+        HAIR_NUMBERS("position", AT(position), 3, -FAR, FAR),
+        HAIR_NUMBERS("color", AT(color), 3, 0, FAR),
+        HAIR_NUMBERS("range", AT(range), 1, 0, FAR),
+        HAIR_NUMBERS("size", AT(size), 1, 0.001, 1000),
+        HAIR_NUMBERS("inner", AT(inner), 1, 0, 1.57),
+        HAIR_NUMBERS("outer", AT(outer), 1, 0, 1.57),
+        HAIR_BOOLEAN("shadow", offsetof(struct hair_scene_light, shadow)),
+        HAIR_END};
+    for (int i = 0; i < HAIR_SCENE_LIGHTS - 1; ++i)
+        out->at[i] = (struct hair_scene_light){.light = hair_light_default()};
+    return hair_json_array(json, key, value, entries, out->at, sizeof *out->at, HAIR_SCENE_LIGHTS - 1,
                            &out->count);
 }
 

@@ -7,11 +7,18 @@
 #include "tools/common/json.h"
 
 #define HAIR_SCENE_LIGHTS 16
+#define HAIR_SCENE_SHADOWS 4 // of those, at most
+
+// With a shadow it has maps of depth and of what hair takes of it, else it shines through everything.
+struct hair_scene_light {
+    hair_light light;
+    bool       shadow;
+};
 
 // Lights beside the first, which is a setting.
 struct hair_scene_lights {
-    uint32_t   count;
-    hair_light light[HAIR_SCENE_LIGHTS - 1];
+    uint32_t                count;
+    struct hair_scene_light at[HAIR_SCENE_LIGHTS - 1];
 };
 
 bool hair_scene_read_lights(const struct hair_json* json, const char* key, const json_t* value,

@@ -55,8 +55,8 @@ const char hair_mesh_vert[] = HEAD
 
 const char hair_nothing_frag[] = HEAD "void main() {}\n";
 
-// Skin lets red light farther round the terminator than blue; its gloss, of the first light, is faint and wide. Shadows are an
-// average over Vogel's spiral, turned from pixel to pixel (interleaved gradient noise, Jimenez 2014). `tone`
+// Skin lets red light farther round the terminator than blue; its gloss, of the first light, is faint and wide. What the
+// body and, where some is before it, hair leave of a light is an average over Vogel's spiral, turned from pixel to pixel (interleaved gradient noise, Jimenez 2014). `tone`
 // keeps the bust darker than its paint, so that what is seen first is the hair.
 const char hair_skin_frag[] = HEAD
     AT(HAIR_AT_EYE) "vec3 eye;\n"
@@ -66,26 +66,33 @@ const char hair_skin_frag[] = HEAD
     AT(HAIR_AT_AXIS) "vec4 light_axis[16];\n"
     AT(HAIR_AT_MORE) "vec2 light_more[16];\n"
     AT(HAIR_AT_AMBIENT) "vec3 ambient;\n"
-    AT(HAIR_AT_SHADOW) "mat4 shadow;\n" // World to texture and depth.
-    AT(HAIR_AT_TEXEL) "float texel;\n"  // Of the shadow map, m.
-    "layout(binding = 0) uniform sampler2DShadow shadow_map;\n"
+    AT(HAIR_AT_MAP) "int light_map[16];\n"
+    AT(HAIR_AT_SHADOW) "mat4 shadow[4];\n" // World to texture and depth, times w.
+    AT(HAIR_AT_TEXEL) "float texel[4];\n"  // Of the maps, m.
+    "layout(binding = 0) uniform sampler2DShadow body_map[4];\n"
+    "layout(binding = 4) uniform sampler2D hair_map[4];\n"
+    "layout(binding = 8) uniform sampler2D opacity_map[4];\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in vec3 albedo;\n"
     "layout(location = 0) out vec4 color;\n"
-    "float lit(vec3 n)\n"
+    "float lit(int map, vec3 n)\n"
     "{\n"
-    "    vec3  at    = (shadow * vec4(position + 3.0 * texel * n, 1.0)).xyz;\n"
-    "    vec2  size  = 1.0 / vec2(textureSize(shadow_map, 0));\n"
+    "    if (map < 0) return 1.0;\n"
+    "    vec4  clip  = shadow[map] * vec4(position + 3.0 * texel[map] * n, 1.0);\n"
+    "    vec3  at    = clip.xyz / max(clip.w, 1e-6);\n"
+    "    vec2  size  = 1.0 / vec2(textureSize(body_map[map], 0));\n"
     "    float turn  = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));\n"
     "    float sum   = 0.0;\n"
     "    for (int i = 0; i < 16; ++i) {\n"
-    "        float r     = 7.0 * sqrt((float(i) + 0.5) / 16.0);\n"
-    "        float theta = 6.2831853 * turn + 2.399963 * float(i);\n"
-    "        vec2  tap   = at.xy + r * size * vec2(cos(theta), sin(theta));\n"
-    "        sum += texture(shadow_map, vec3(tap, at.z));\n"
+    "        float r      = 7.0 * sqrt((float(i) + 0.5) / 16.0);\n"
+    "        float theta  = 6.2831853 * turn + 2.399963 * float(i);\n"
+    "        vec2  tap    = at.xy + r * size * vec2(cos(theta), sin(theta));\n"
+    "        float body   = textureLod(body_map[map], vec3(tap, at.z), 0.0);\n"
+    "        float before = textureLod(hair_map[map], tap, 0.0).r < at.z ? 1.0 : 0.0;\n"
+    "        sum += body * (1.0 - before * textureLod(opacity_map[map], tap, 0.0).r);\n"
     "    }\n"
-    "    return sum / 16.0;\n"
+    "    return clip.w > 0.0 ? sum / 16.0 : 1.0;\n"
     "}\n"
     "void main()\n"
     "{\n"
@@ -95,7 +102,6 @@ const char hair_skin_frag[] = HEAD
     "    vec3  to_eye  = normalize(eye - position);\n"
     "    float grazing = pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 5.0);\n"
     "    vec3  sum     = ambient * (0.65 + 0.35 * n.y) * (tone * albedo + 0.05 * grazing);\n"
-    "    float first   = lit(n);\n"
     "    for (int i = 0; i < lights; ++i) {\n"
     "        vec3  way     = light_to[i].xyz - light_to[i].w * position;\n"
     "        float square  = max(dot(way, way), 1e-8), cone, reach = square * light_more[i].y;\n"
@@ -107,7 +113,7 @@ const char hair_skin_frag[] = HEAD
     "        float facing  = dot(n, to);\n"
     "        vec3  diffuse = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);\n"
     "        float gloss   = i > 0 ? 0.0 : (0.015 + 0.2 * grazing) * pow(max(dot(n, halfway), 0.0), 18.0) * max(facing, 0.0);\n"
-    "        sum += light * (i == 0 ? first : 1.0) * (tone * albedo * diffuse + gloss);\n"
+    "        sum += light * lit(light_map[i], n) * (tone * albedo * diffuse + gloss);\n"
     "    }\n"
     "    color         = vec4(sum, 1.0);\n"
     "}\n";

@@ -10,8 +10,6 @@
 #define HAIR_AT_EYE 4
 #define HAIR_AT_LIGHTS 5 // how many
 #define HAIR_AT_AMBIENT 7
-#define HAIR_AT_SHADOW 8
-#define HAIR_AT_TEXEL 9
 #define HAIR_AT_TILE 10
 #define HAIR_AT_CENTRE 11
 #define HAIR_AT_EDGE 12
@@ -24,11 +22,15 @@
 #define HAIR_AT_LIGHT 48
 #define HAIR_AT_AXIS 64
 #define HAIR_AT_MORE 80
+#define HAIR_AT_MAP 96 // of which the first three of struct hair_shadow_map are; -1: none
+// Of 4 maps each.
+#define HAIR_AT_SHADOW 112
+#define HAIR_AT_TEXEL 116
 
 extern const char hair_whole_vert[];      // all of the picture, no vertices needed
 extern const char hair_background_frag[]; // a calm gradient
 extern const char hair_mesh_vert[];       // what moves with the head
-extern const char hair_skin_frag[];       // lit, in the shadow of the hair
+extern const char hair_skin_frag[];       // lit, past itself and through hair
 extern const char hair_nothing_frag[];    // depth alone
 extern const char hair_tone_frag[];       // from light to 8 bits
 

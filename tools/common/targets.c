@@ -1,4 +1,4 @@
-// targets.c - what a capture draws into: the shadow map, the samples, the picture.
+// targets.c - what a capture draws into: the samples, the picture.
 #include "tools/common/targets.h"
 
 #include <epoxy/gl.h>
@@ -23,23 +23,6 @@ static GLuint make_samples(GLenum format, GLsizei samples, GLsizei width, GLsize
     return buffer;
 }
 
-// What the hair's own shadows and the head's share: depth from the light, compared only for the head.
-static void make_shadow(struct hair_targets* targets)
-{
-    GLuint framebuffer = targets->framebuffer[HAIR_TARGET_SHADOW];
-    targets->shadow    = make_texture(GL_DEPTH_COMPONENT32F, HAIR_SHADOW_SIZE, HAIR_SHADOW_SIZE);
-    glCreateSamplers(1, &targets->shadow_sampler);
-    GLuint sampler = targets->shadow_sampler;
-    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glSamplerParameteri(sampler, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, targets->shadow, 0);
-    glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
-}
-
 bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t height, uint32_t supersample,
                        uint32_t samples)
 {
@@ -51,7 +34,6 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     if (count == 1) count = 0;
 
     glCreateFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
-    make_shadow(targets);
     targets->color_samples = make_samples(GL_RGBA16F, count, wide, high);
     targets->depth_samples = make_samples(GL_DEPTH_COMPONENT32F, count, wide, high);
     targets->resolved      = make_texture(GL_RGBA16F, wide, high);
@@ -75,10 +57,9 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
 
 void hair_targets_delete(struct hair_targets* targets)
 {
-    const GLuint textures[]      = {targets->shadow, targets->resolved, targets->encoded, targets->linear};
+    const GLuint textures[]      = {targets->resolved, targets->encoded, targets->linear};
     const GLuint renderbuffers[] = {targets->color_samples, targets->depth_samples};
     glDeleteFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
-    glDeleteTextures(4, textures);
+    glDeleteTextures(3, textures);
     glDeleteRenderbuffers(2, renderbuffers);
-    glDeleteSamplers(1, &targets->shadow_sampler);
 }

@@ -1,14 +1,11 @@
-// targets.h - what a capture draws into: the shadow map, the samples, the picture.
+// targets.h - what a capture draws into: the samples, the picture.
 #ifndef HAIR_TOOLS_COMMON_TARGETS_H
 #define HAIR_TOOLS_COMMON_TARGETS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#define HAIR_SHADOW_SIZE 2048
-
 enum hair_target {
-    HAIR_TARGET_SHADOW,
     HAIR_TARGET_DRAWN,    // many samples a pixel
     HAIR_TARGET_RESOLVED, // one
     HAIR_TARGET_ENCODED,  // supersampling undone: 8 bits, and the light they come from
@@ -19,8 +16,7 @@ enum hair_target {
 struct hair_targets {
     unsigned framebuffer[HAIR_TARGET_COUNT];
     unsigned color_samples, depth_samples;
-    unsigned shadow, resolved, encoded, linear;
-    unsigned shadow_sampler;
+    unsigned resolved, encoded, linear;
 };
 
 // False: OpenGL has no memory for them. Delete them also then.

@@ -1,0 +1,285 @@
+// opacity_test.c - what hair takes of a light, for what it falls on: as many rays as are counted, whatever the size of texels, the
+// width of strands, the level of detail and the path; only hair before the first body; and the host's state is as it was.
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+#include "lib/reference/self_shadow.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+
+#define HALF 0.2f // of what is seen, m
+#define RAYS 4096
+#define MOST 1024 // texels
+
+struct fixture {
+    struct hair_test*          test;
+    hair_groom*                groom;
+    hair_instance*             hair;
+    hair_view                  view;
+    struct hair_reference_rays rays;
+    GLuint                     framebuffer, opacity, depth;
+    GLsizei                    texels;
+    float                      pixels[MOST * MOST];
+};
+
+static struct fixture* start(void** state, uint32_t followers, float radius)
+{
+    struct fixture*           f      = calloc(1, sizeof *f);
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc                 desc   = hair_desc_default();
+    hair_look                 look   = hair_look_default();
+    wanted.followers                 = followers;
+    wanted.guides                    = 40;
+    f->test                          = *state;
+    f->view                          = hair_view_default();
+    look.segments = 12, look.radius = radius;
+    desc.look             = &look;
+    f->groom              = hair_test_groom(&f->test->host.host, wanted);
+    f->view.pass          = HAIR_PASS_OPACITY;
+    f->view.projection[0] = f->view.projection[5] = 1 / HALF;
+    f->view.projection[10]                        = -1;
+    hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
+    glCreateFramebuffers(1, &f->framebuffer);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    glDeleteFramebuffers(1, &f->framebuffer);
+    glDeleteTextures(1, &f->opacity);
+    glDeleteTextures(1, &f->depth);
+    free(f->rays.stopped);
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+    free(f);
+}
+
+// A map with so many texels to each side, of the format that hair.h says will do.
+static void make_map(struct fixture* f, GLsizei texels)
+{
+    glDeleteTextures(1, &f->opacity);
+    glDeleteTextures(1, &f->depth);
+    glCreateTextures(GL_TEXTURE_2D, 1, &f->opacity);
+    glCreateTextures(GL_TEXTURE_2D, 1, &f->depth);
+    glTextureStorage2D(f->opacity, 1, GL_R16F, texels, texels);
+    glTextureStorage2D(f->depth, 1, GL_DEPTH_COMPONENT32F, texels, texels);
+    glNamedFramebufferTexture(f->framebuffer, GL_COLOR_ATTACHMENT0, f->opacity, 0);
+    glNamedFramebufferTexture(f->framebuffer, GL_DEPTH_ATTACHMENT, f->depth, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, f->framebuffer);
+    glViewport(0, 0, texels, texels);
+    glEnable(GL_DEPTH_TEST);
+    f->texels = texels;
+}
+
+// The left half of it has bodies at a depth.
+static void draw(struct fixture* f, float bodies)
+{
+    static const float far_away = 1, none = 0;
+    glClearTexImage(f->opacity, 0, GL_RED, GL_FLOAT, &none);
+    glClearTexImage(f->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
+    glClearTexSubImage(f->depth, 0, 0, 0, 0, f->texels / 2, f->texels, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       &bodies);
+    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    glGetTextureImage(f->opacity, 0, GL_RED, GL_FLOAT, sizeof f->pixels, f->pixels);
+}
+
+// Those that meet strands no farther back than z = `behind`.
+static void count_rays(struct fixture* f, double behind)
+{
+    uint32_t each = f->hair->draw.look.segments + 1, count = f->hair->draw.followers * each;
+    f->view.path = HAIR_PATH_EXPANDED; // Which leaves vertices and radii.
+    make_map(f, 16);
+    draw(f, 1);
+    hair_vec4* vertices = malloc(count * sizeof *vertices);
+    glGetNamedBufferSubData(f->hair->draw.expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
+                            vertices);
+    free(f->rays.stopped);
+    f->rays = (struct hair_reference_rays){.lower   = {-(double)HALF, -(double)HALF},
+                                           .side    = 2 * (double)HALF,
+                                           .count   = RAYS,
+                                           .stopped = calloc(RAYS, RAYS)};
+    for (uint32_t v = 0; v < count; ++v) {
+        if (v % each == each - 1) continue;
+        const hair_vec4 *p = &vertices[v], *q = p + 1;
+        double           a[2] = {(double)p->x, (double)p->y}, b[2] = {(double)q->x, (double)q->y};
+        if (0.5 * (double)(p->z + q->z) >= behind)
+            hair_reference_stop(&f->rays, a, b, (double)p->w, (double)q->w);
+    }
+    free(vertices);
+}
+
+struct found {
+    double mean, expected, off; // opacity over all of it; root of the mean square over texels that have any
+};
+
+static struct found compare(const struct fixture* f)
+{
+    struct found found = {0};
+    double       share = 1.0 / f->texels, square = 0;
+    uint32_t     count = 0;
+    for (int i = 0; i < f->texels * f->texels; ++i) {
+        double taken = (double)f->pixels[i];
+        double expected =
+            hair_reference_stopped(&f->rays, i % f->texels * share, i / f->texels * share, share);
+        assert_true(taken >= 0 && taken <= 1);
+        found.mean += taken * share * share;
+        found.expected += expected * share * share;
+        if (expected <= 0 && taken <= 0) continue;
+        square += pow(taken - expected, 2);
+        ++count;
+    }
+    found.off = sqrt(square / count);
+    return found;
+}
+
+// Hair of which some places take nearly all light. By how far apart strands are in a texel they are told no better than by
+// chance, of which clumps are not: texels of 12.5 mm are as wide as a whole lock.
+static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
+{
+    static const float   radii[]  = {4e-5f, 2e-4f, 1e-3f};
+    static const GLsizei texels[] = {32, 128, 512, 1024};
+    for (int r = 0; r < 3; ++r) {
+        struct fixture* f = start(state, 1500, radii[r]);
+        count_rays(f, -1);
+        for (int t = 0; t < 4; ++t) {
+            make_map(f, texels[t]);
+            draw(f, 1);
+            struct found found = compare(f);
+            double       error = found.mean / found.expected - 1;
+            print_message(
+                "    strands of %g mm, texels of %.2f mm: %.4f, by rays %.4f: %+.1f %%; texels %.3f off\n",
+                2e3 * (double)radii[r], 2e3 * (double)HALF / texels[t], found.mean, found.expected,
+                100 * error, found.off);
+            hair_test_near("opacity", (size_t)(4 * r + t), error, 0, t ? 0.01 : 0.05);
+        }
+        finish(f);
+    }
+}
+
+static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** state)
+{
+    struct fixture* f    = start(state, 1500, 2e-4f);
+    hair_lod        part = hair_lod_default();
+    double          all  = 0;
+    part.dynamic         = 0;
+    count_rays(f, -1);
+    make_map(f, 256);
+    for (int path = 0; path <= HAIR_PATH_EXPANDED; ++path)
+        for (int k = 0; k < 4; ++k) {
+            static const float shares[] = {1, 0.5f, 0.2f, 0.1f};
+            part.strands = shares[k], part.segments = k ? 0.5f : 1.0f;
+            f->view.path      = (hair_path)path;
+            f->view.lod       = k ? &part : NULL;
+            f->view.primitive = k % 2 ? HAIR_LINES : HAIR_RIBBONS; // It has ribbons either way.
+            draw(f, 1);
+            struct found found = compare(f);
+            double       error = found.mean / found.expected - 1;
+            print_message("    path %d, %g of the strands: %+.1f %%\n", path, (double)shares[k], 100 * error);
+            hair_test_near("opacity", (size_t)(4 * path + k), error, 0, k ? 0.05 : 0.01);
+            if (!path && !k) all = found.mean;
+            if (!k) hair_test_near("path", (size_t)path, found.mean, all, 1e-4 * all);
+        }
+    f->view.opacity = 0.25f, f->view.lod = NULL;
+    draw(f, 1);
+    double weak = compare(f).mean;
+    assert_true(weak > 0.25 * all &&
+                weak < 0.5 * all); // Of strands alone a quarter, of two a bit less than twice that.
+    finish(f);
+}
+
+// Hair in front of the head's origin; then with a body there, of which the right half of the map knows nothing.
+static void only_hair_before_the_first_body_counts(void** state)
+{
+    struct fixture* f = start(state, 1500, 1e-4f);
+    count_rays(f, 0);
+    make_map(f, 128);
+    draw(f, 0.5f);
+    struct found found = {0};
+    double       all = 0, share = 1.0 / 128;
+    for (int i = 0; i < 128 * 128; ++i) {
+        if (i % 128 >= 64) continue;
+        found.mean += (double)f->pixels[i];
+        found.expected += hair_reference_stopped(&f->rays, i % 128 * share, i / 128 * share, share);
+    }
+    print_message("    %+.2f %% off where a body is\n", 100 * (found.mean / found.expected - 1));
+    hair_test_near("before the body", 0, found.mean / found.expected, 1, 0.02);
+    draw(f, 1);
+    for (int i = 0; i < 128 * 128; ++i) all += i % 128 < 64 ? (double)f->pixels[i] : 0;
+    assert_true(all > 1.3 * found.mean);
+    draw(f, 0);
+    for (int i = 0; i < 128 * 128; ++i)
+        if (i % 128 < 64) assert_true(f->pixels[i] == 0);
+    finish(f);
+}
+
+static void blending_and_depth_are_as_they_were(void** state)
+{
+    static const float near = 0.7f;
+    static float       depths[64 * 64];
+    struct fixture*    f = start(state, 64, 1e-3f);
+    make_map(f, 64);
+    hair_test_blend_begin();
+    draw(f, near);
+    assert_true(hair_test_blend_end());
+    glGetTextureImage(f->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof depths, depths);
+    double taken = 0;
+    for (int i = 0; i < 64 * 64; ++i) {
+        assert_true(depths[i] == (i % 64 < 32 ? near : 1));
+        taken += (double)f->pixels[i];
+    }
+    assert_true(taken > 1);
+    finish(f);
+}
+
+static const hair_report_row* find_row(struct fixture* f, const char* work)
+{
+    static hair_report_row rows[64];
+    hair_report_info       info  = hair_report_info_default();
+    uint32_t               count = 0;
+    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    for (uint32_t i = 0; i < count; ++i)
+        if (strcmp(rows[i].work, work) == 0) return &rows[i];
+    fail_msg("there is no row %s", work);
+    return rows;
+}
+
+static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void** state)
+{
+    struct fixture* f      = start(state, 64, 1e-3f);
+    hair_memory     before = hair_memory_default(), after = hair_memory_default();
+    make_map(f, 64);
+    f->view.pass = HAIR_PASS_DEPTH;
+    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    draw(f, 1);
+    assert_int_equal(find_row(f, "opacity")->runs, 0);
+    assert_int_equal(find_row(f, "opacity")->why, HAIR_WHY_NOT_CALLED);
+    hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
+    f->view.pass = HAIR_PASS_OPACITY;
+    draw(f, 1);
+    assert_int_equal(find_row(f, "opacity")->runs, 1);
+    assert_int_equal(find_row(f, "depth")->runs, 1);
+    hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
+    assert_int_equal(before.bytes, after.bytes);
+    f->view.view[12] = 9;
+    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    draw(f, 1);
+    assert_int_equal(find_row(f, "opacity")->why, HAIR_WHY_OUT_OF_VIEW);
+    finish(f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(it_is_what_rays_count_at_any_size_of_texels_and_width),
+        HAIR_TEST(it_is_the_same_by_every_path_and_kept_by_levels_of_detail),
+        HAIR_TEST(only_hair_before_the_first_body_counts),
+        HAIR_TEST(blending_and_depth_are_as_they_were),
+        HAIR_TEST(it_is_reported_and_nothing_of_it_is_there_where_none_is_asked),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
