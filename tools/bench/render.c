@@ -19,11 +19,11 @@
 #define MOST_RADIUS 0.01f        // m: hair_look's
 #define LEAST_RATIO 5            // of a reported error and that of the reference
 
-static const char* const columns[] = {"case",          "width",   "method", "primitive",   "lod",
-                                      "segments",      "samples", "msaa",   "supersample", "size",
-                                      "strands",       "radius",  "ms",     "ms_min",      "ms_max",
-                                      "runs",          "flip",    "psnr",   "pixels",      "coverage_error",
-                                      "halves_differ", "front",   NULL};
+static const char* const columns[] = {
+    "case",    "width",          "method",        "primitive",  "lod",     "segments",
+    "samples", "msaa",           "supersample",   "size",       "strands", "radius",
+    "ms",      "ms_min",         "ms_max",        "runs",       "flip",    "psnr",
+    "pixels",  "coverage_error", "halves_differ", "to_ribbons", "front",   NULL};
 
 // A case: a scene from some distance; or one whose strands are so wide everywhere, in pixels, and so many in a picture of 256
 // to each side, that they cover about as much.
@@ -209,16 +209,25 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
+// Of widths it is how strands are drawn that counts: how many, in how many segments, by two paths, one thing changed at
+// a time where samples are many.
+static bool is_wanted_of_width(const struct bench* bench, const struct setting* setting)
+{
+    bool usual = setting->segments->count == 32, all = setting->lod == lods;
+    if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
+    if (bench->options.quick && !(usual && setting->lod->quick)) return false;
+    if (setting->samples->supersample > 1) return usual && all;
+    return all ? setting->segments->count >= 8 && setting->segments->count <= 32 : usual;
+}
+
 // All of it by one path; that the others draw the same is seen by fewer. Shares are drawn by one path alone, and are asked
-// for instead of more samples. Of widths it is how they are drawn that counts.
+// for instead of more samples.
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
     bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
     if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
         return false;
-    if (subject->width > 0)
-        return setting->lod == lods && setting->segments->count == 32 &&
-               (shares || setting->path->path == HAIR_PATH_TESSELLATION);
+    if (subject->width > 0) return is_wanted_of_width(bench, setting);
     return (!bench->options.quick && setting->path == paths) ||
            (setting->lod->quick && setting->segments->quick && setting->samples->quick);
 }
@@ -250,11 +259,45 @@ static void measure_subject(struct bench* bench, const struct subject* subject)
     if (scene.alive) bench_studio_free(&scene.studio);
 }
 
+static double number(const json_t* row, const char* key)
+{
+    return json_number_value(json_object_get(row, key));
+}
+
+static bool is_of_lines(const json_t* row)
+{
+    return !strcmp(json_string_value(json_object_get(row, "primitive")), "lines");
+}
+
+// Of lines of a width: their error over the least of what is as wide as it should be and takes no longer.
+static void compare_with_ribbons(json_t* rows)
+{
+    size_t  i, j;
+    json_t *lines, *ribbons;
+    json_array_foreach(rows, i, lines)
+    {
+        if (!json_is_number(json_object_get(lines, "width")) || !is_of_lines(lines) ||
+            !json_is_number(json_object_get(lines, "flip")))
+            continue;
+        double least = INFINITY;
+        json_array_foreach(rows, j, ribbons)
+        {
+            if (json_equal(json_object_get(lines, "case"), json_object_get(ribbons, "case")) &&
+                !is_of_lines(ribbons) && number(ribbons, "ms") <= number(lines, "ms") &&
+                json_is_number(json_object_get(ribbons, "flip")))
+                least = fmin(least, number(ribbons, "flip"));
+        }
+        if (least < INFINITY) bench_set_number(lines, "to_ribbons", number(lines, "flip") / least);
+    }
+}
+
 static void run_suite(struct bench* bench)
 {
     for (size_t i = 0; i < COUNT(subjects); ++i)
         if (subjects[i].quick || !bench->options.quick) measure_subject(bench, &subjects[i]);
-    if (!bench->planning) bench_mark_front(bench->rows.rows, "ms", "flip");
+    if (bench->planning) return;
+    compare_with_ribbons(bench->rows.rows);
+    bench_mark_front(bench->rows.rows, "ms", "flip");
 }
 
 const struct bench_suite bench_render = {"render", "run time against image error, over ways to draw", columns,
