@@ -141,25 +141,38 @@ static hair_result teleport(struct fixture* f)
     desc.transform[12] = 3;
     return hair_teleport(f->hair, desc.transform);
 }
+// One of the ways to draw: 16 by each path.
+#define DRAWS (16 * 3)
+static hair_result draw_as(struct fixture* f, int i)
+{
+    hair_view  view = hair_view_default();
+    hair_light lights[4];
+    view.pass      = (hair_pass)(i % 4);
+    view.primitive = (hair_primitive)(i / 4 % 2);
+    view.slice     = (hair_slice)(i / 4 % 2);
+    for (int k = 0; k < 4; ++k) {
+        lights[k]                = hair_light_default();
+        lights[k].shadow_texture = f->shadow;
+        lights[k].body_texture   = f->shadow;
+    }
+    view.lights      = i % 16 == 8 ? lights : NULL;
+    view.light_count = view.lights ? 4 : 1;
+    view.path        = (hair_path)(i / 16);
+    return hair_draw(f->hair, &view);
+}
+static hair_result draw_again(struct fixture* f)
+{
+    static const int some[] = {0, 1, 2, 3, 8, 16, 32};
+    hair_result      result = HAIR_OK;
+    for (size_t i = 0; i < sizeof some / sizeof *some && !result; ++i) result = draw_as(f, some[i]);
+    return result;
+}
+// However hair is simulated it is drawn the same: all ways to draw are seen of one, for they compile for long.
 static hair_result draw(struct fixture* f)
 {
-    hair_result result = HAIR_OK;
-    for (int i = 0; i < 16 * 3 && !result; ++i) {
-        hair_view view = hair_view_default();
-        view.pass      = (hair_pass)(i % 4);
-        view.primitive = (hair_primitive)(i / 4 % 2);
-        view.slice     = (hair_slice)(i / 4 % 2);
-        hair_light lights[4];
-        for (int k = 0; k < 4; ++k) {
-            lights[k]                = hair_light_default();
-            lights[k].shadow_texture = f->shadow;
-            lights[k].body_texture   = f->shadow;
-        }
-        view.lights      = i % 16 == 8 ? lights : NULL;
-        view.light_count = view.lights ? 4 : 1;
-        view.path        = (hair_path)(i / 16);
-        result           = hair_draw(f->hair, &view);
-    }
+    int         all    = !f->way && f->promise == HAIR_GL_RESTORE;
+    hair_result result = all ? HAIR_OK : draw_again(f);
+    for (int i = 0; i < DRAWS && !result && all; ++i) result = draw_as(f, i);
     hair_view other = hair_view_default();
     other.pass      = HAIR_PASS_WIND;
     if (!result) result = hair_draw(f->hair, &other);
@@ -236,7 +249,7 @@ static const struct {
     {"hair_timings", time_all},
     {"hair_get_health", ask_health},
     {"hair_context_reload", reload},
-    {"hair_draw after a reload", draw},
+    {"hair_draw after a reload", draw_again},
     {"hair_destroy", destroy},
     {"hair_context_destroy", destroy_context},
 };
