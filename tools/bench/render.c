@@ -215,7 +215,9 @@ static bool is_wanted_of_width(const struct bench* bench, const struct setting* 
 {
     bool usual = setting->segments->count == 32, all = setting->lod == lods;
     if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
-    if (bench->options.quick && !(usual && setting->lod->quick)) return false;
+    bool quick = usual && setting->lod->quick && setting->samples->quick &&
+                 (setting->path == paths || setting->primitive->coverage == HAIR_COVERAGE_SHARES);
+    if (bench->options.quick && !quick) return false;
     if (setting->samples->supersample > 1) return usual && all;
     return all ? setting->segments->count >= 8 && setting->segments->count <= 32 : usual;
 }
