@@ -65,7 +65,8 @@ static bool is_wanted(struct turn* turn, hair_shadow shadow)
 // At an even speed from the second key to the third, facing the camera's way in the middle of that.
 static bool make(struct turn* turn)
 {
-    uint32_t                 size  = turn->bench->options.size ? turn->bench->options.size : SIZE;
+    uint32_t                 whole = turn->bench->options.quick ? SIZE / 2 : SIZE;
+    uint32_t                 size  = turn->bench->options.size ? turn->bench->options.size : whole;
     uint32_t                 asked = turn->bench->options.strands;
     struct bench_studio_desc desc  = {
          .scene = "demo", .size = size, .followers = asked ? asked : (uint32_t)(STRANDS_OF_720 * size / 720)};
