@@ -16,7 +16,7 @@ import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from suites import SUITES
 
 # Okabe and Ito 2008: told apart by all kinds of colour vision; and markers, for who sees none.
@@ -119,6 +119,10 @@ def plot(panels, style):
         else:
             ax.set_yscale(scale)
             ax.yaxis.set_minor_formatter(NullFormatter())
+        for axis, (low, high) in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
+            if axis.get_scale() == "log" and high < 30 * low:  # Powers of ten alone may be one, or none.
+                axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+                axis.set_major_formatter(StrMethodFormatter("{x:g}"))
         ax.set(title=title, xlabel=style["across"], ylabel=style.get("down", ""))
         ax.grid(True, which="major", color="#ddd", linewidth=0.6)
     axes[-1, 0].axis("off")

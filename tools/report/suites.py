@@ -153,7 +153,7 @@ SUITES = [
         "shown": lambda row: True, "shown_title": "its cells, and how this library is set by default",
         "columns": ["case", "method", "fps", "paper_fps", "ms", "to_near", "paper_to_near", "flip", "runs"],
     },
-    {"name": "paths", "title": "Paths of drawing", "text": "A frame, moved and drawn, by each path; `auto` is what the library takes.",
+    {"name": "paths", "title": "Paths of drawing", "text": "A frame, moved and drawn, by each path; <code>auto</code> is what the library takes.",
      "shown": lambda row: True, "shown_title": "each path"},
     {
         "name": "scale", "title": "How cost grows",
