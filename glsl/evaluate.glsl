@@ -13,7 +13,7 @@ hair_point switch_at(hair_follower follower, float t, float hit)
 {
     float x = clamp((t - hit) / HAIR_SWITCH_ZONE + 1.0, 0.0, 1.0);
     float freed = x * x * (3.0 - 2.0 * x), slope = 6.0 * x * (1.0 - x) / HAIR_SWITCH_ZONE;
-    return interpolate(follower, t, repair(vec3(0.0), vec3(0.0), freed, slope));
+    return interpolate(follower, t, repair(vec3(0.0), vec3(0.0), draw.led * freed, draw.led * slope));
 }
 
 #ifdef HAIR_HITS
@@ -23,8 +23,9 @@ hair_point evaluate(hair_follower follower, uint number, float t)
     if (hit > float(draw.segments)) return interpolate(follower, t, UNTOUCHED);
     if (draw.collision == HAIR_COLLISION_IS_SWITCH) return switch_at(follower, t, hit / float(draw.segments));
     int   first = int(number) * HAIR_REPAIR_CONTROLS;
-    float at    = t * (1.0 + repair_control(first, 0).x);
-    return interpolate(follower, at, repair_at(first, at));
+    float at    = t * (1.0 + draw.led * repair_control(first, 0).x);
+    repair r    = repair_at(first, at);
+    return interpolate(follower, at, repair(draw.led * r.away, draw.led * r.away_slope, draw.led * r.freed, draw.led * r.freed_slope));
 }
 #else
 hair_point evaluate(hair_follower follower, uint number, float t) { return interpolate(follower, t, UNTOUCHED); }

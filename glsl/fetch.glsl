@@ -1,6 +1,7 @@
 // fetch.glsl - the smoothed guides and the followers, read as textures; with HAIR_STORED as storage buffers, which a GPU
 // reads several times as fast, but which stages that draw are not promised.
 #include "shared.h"
+#include "position_texture.glsl"
 
 #ifdef HAIR_STORED
 layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer { vec4 stored_position[]; };
@@ -15,7 +16,6 @@ vec4          fetch_tangent(int at) { return stored_tangent[at]; }
 vec4          fetch_turn(int at) { return stored_frame[at]; }
 hair_follower fetch_whole(uint number) { return stored_follower[number]; }
 #else
-#include "position_texture.glsl"
 layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
 layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
 layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;

@@ -34,3 +34,13 @@ hair_patch_lines find_lines(uint number)
                             1.0 - (float(strands) - wanted), thickness * detail.thickness);
 #endif
 }
+
+// The first of a patch's followers and how many, whose vertices passes go over: all of them, or those that are drawn. Where the
+// next one is about to be, it may be already in another stage, which rounds differently.
+uvec2 find_strands(uint number)
+{
+    uvec2 all = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch
+    if (draw.drawn_only == 0u) return all;
+    hair_patch_lines lines = find_lines(number);
+    return uvec2(all.x, min(lines.strands + uint(lines.fading > 0.999), all.y));
+}

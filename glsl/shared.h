@@ -679,7 +679,9 @@ struct hair_draw_params {
     hair_uint textured;  // 1: there is a texture of colours
     hair_uint lit;       // numbers of a vertex at HAIR_UNIT_LIGHT; 0: there are none
     hair_uint culls;     // 1: patches of which `sides` cut off all are left out
-    hair_uint unused0, unused1, unused2;
+    hair_uint drawn_only; // 1: passes over vertices of followers leave out those that the view does not draw
+    hair_uint chunks;     // work groups that share a patch there
+    float     led;        // share of what leads followers round solids that the view shows
     hair_vec4 map_weights; // of the sets of maps: their sum is 1
     // Of the level of detail.
     hair_mat4 sides;           // of what is seen, as planes: xyz: unit normals, inwards; w: distance, m

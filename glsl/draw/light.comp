@@ -1,10 +1,12 @@
-// light.comp - how much light comes to each vertex of a strand past all others and past solids. One thread per vertex.
+// light.comp - how much light comes to each vertex of a strand past all others and past solids. Work groups as run.glsl has
+// them.
 //
 // What is met is summed in two steps of a cell, their middles from a cell off, and from where there is hair next, which is
 // looked for in ever longer steps, what nodes around know; it counts as strands that lie as this one does. Of a light with a shadow map, the share
 // that meets nothing is known better: of places along the half segments beside the vertex and across the strand, those that
 // nothing hides in the map. Written for the sky and for each light, as halves: that share; what is met.
 #version 450 core
+#include "run.glsl"
 #include "density.glsl"
 #include "lights.glsl"
 #include "maps.glsl"
@@ -99,11 +101,9 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
     return open / float(TAPS);
 }
 
-void main()
+void light(density_grid grid, uint vertex)
 {
-    uint vertex = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x, each = draw.segments + 1u;
-    if (vertex >= draw.followers * each) return;
-    uint       k  = vertex % each;
+    uint       each = draw.segments + 1u, k = vertex % each;
     vec4       at = strand_vertex[vertex];
     strand_bit s;
     s.at      = at.xyz;
@@ -112,7 +112,6 @@ void main()
     s.tangent = direction_or(s.after - s.before, vec3(0.0, 1.0, 0.0));
     s.radius  = at.w;
     s.seed    = vertex / each;
-    density_grid grid = find_grid();
     find_corners(grid, place_in(grid, s.at));
     light_of_vertex[vertex * draw.lit] = packHalf2x16(vec2(around(0u), 0.0));
     for (uint i = 0u; i < draw.lights; ++i) {
@@ -124,4 +123,12 @@ void main()
         float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, i, to, s) : exp(-met);
         light_of_vertex[vertex * draw.lit + 1u + i] = packHalf2x16(vec2(open, met));
     }
+}
+
+void main()
+{
+    vertex_run run = find_run();
+    if (run.first >= run.end) return;
+    density_grid grid = find_grid();
+    for (uint vertex = run.first; vertex < run.end; vertex += run.stride) light(grid, vertex);
 }

@@ -1,15 +1,17 @@
-// light_box.comp - the box around all hair, in the head's frame. One thread per follower vertex.
+// light_box.comp - the box around all hair that vertices are written of, in the head's frame. Work groups as run.glsl has them.
 #version 450 core
+#include "run.glsl"
 #include "density.glsl"
 
 shared uint own[6]; // of this group
 
 void main()
 {
-    uint i = gl_LocalInvocationID.x, vertex = hair_group() * HAIR_GROUP_SIZE + i;
+    uint       i   = gl_LocalInvocationID.x;
+    vertex_run run = find_run();
     if (i < 6u) own[i] = 0xffffffffu;
     synchronise();
-    if (vertex < draw.followers * (draw.segments + 1u)) {
+    for (uint vertex = run.first; vertex < run.end; vertex += run.stride) {
         vec3  at = in_head(strand_vertex[vertex].xyz);
         uvec3 u  = to_ordered(at);
         for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 // light_nodes.comp - how many strands, and solids, each light meets on its way to every node of the grid that holds hair,
-// and how much of the sky is left there. One thread per node.
+// and how much of the sky is left there. Each thread goes over several nodes.
 //
 // Steps of a cell, their middles from a cell off, so that a strand does not shade itself; all of what is there counts as if
 // it lay across the light.
@@ -45,11 +45,8 @@ float sky_at_node(density_grid grid, vec3 place, vec3 position)
     return sum / float(SKY_WAYS);
 }
 
-void main()
+void light(density_grid grid, uint node)
 {
-    density_grid grid = find_grid();
-    uint         node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (node >= grid.nodes.x * grid.nodes.y * grid.nodes.z || density[node] == 0u) return;
     vec3 place    = vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
     vec3 position = rotate(draw.head, grid.lower + grid.cell * place);
     light_of_node[node * draw.lit] = sky_at_node(grid, place, position);
@@ -58,4 +55,12 @@ void main()
         float reach = at.w > 0.0 ? length(at.xyz - position) : 1e9;
         light_of_node[node * draw.lit + 1u + i] = met_towards(grid, place, position, beam_at(i, position).to, reach);
     }
+}
+
+void main()
+{
+    density_grid grid = find_grid();
+    uint         end = grid.nodes.x * grid.nodes.y * grid.nodes.z, stride = gl_NumWorkGroups.x * gl_NumWorkGroups.y * HAIR_GROUP_SIZE;
+    for (uint node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; node < end; node += stride)
+        if (density[node] > 0u) light(grid, node);
 }

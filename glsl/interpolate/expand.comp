@@ -1,7 +1,8 @@
-// expand.comp - followers written out as vertices, segments + 1 each, to be drawn or read back. One thread per vertex.
+// expand.comp - followers written out as vertices, segments + 1 each, to be drawn or read back. Work groups as run.glsl has
+// them.
 #version 450 core
 #include "evaluate.glsl"
-#include "workgroup.glsl"
+#include "run.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_EXPANDED) writeonly restrict buffer expanded_buffer { vec4 expanded[]; };
@@ -9,11 +10,12 @@ layout(std430, binding = HAIR_BIND_EXPANDED_TANGENT) writeonly restrict buffer e
 
 void main()
 {
-    uint i    = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-    uint each = draw.segments + 1u;
-    if (i >= draw.followers * each) return;
-    hair_point point = evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
-    vec3       share    = point.tangent * 0.5 + 0.5;
-    expanded[i]         = vec4(point.position, point.radius);
-    expanded_tangent[i] = uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
+    vertex_run run  = find_run();
+    uint       each = draw.segments + 1u;
+    for (uint i = run.first; i < run.end; i += run.stride) {
+        hair_point point = evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
+        vec3       share    = point.tangent * 0.5 + 0.5;
+        expanded[i]         = vec4(point.position, point.radius);
+        expanded_tangent[i] = uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
+    }
 }

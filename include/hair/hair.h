@@ -788,7 +788,9 @@ typedef enum hair_coverage {
 typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
 
 /// Level of detail: how much of the hair is drawn. Of the strands that are left out those that are drawn make up the
-/// width, so that they cover as much; lines, which have no width, cannot. All changes continuously.
+/// width, so that they cover as much; lines, which have no width, cannot. All changes continuously. HAIR_SHADOW_STRANDS finds
+/// light for what is drawn only. Dynamic, its cells are no smaller than 2 pixels, and followers are led round solids as far as 5 mm
+/// are more than a pixel, in full where they are 2: where no view shows that, it is not found out either.
 typedef struct hair_lod {
     hair_made made;
     float     strands;  ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.

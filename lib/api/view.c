@@ -159,11 +159,17 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
     return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
 }
 
-// Followers that are inside solids are found and led out before they are looked at.
+// Followers that are inside solids are found and led out before they are looked at, unless nobody can see that. Light is held up
+// by solids all the same.
 static hair_result meet_solids(hair_instance* hair)
 {
     struct hair_draw* draw = &hair->draw;
     if (hair_draw_has_met_solids(draw, &hair->smooth)) return HAIR_OK;
+    if (draw->led <= 0) {
+        hair_result result = draw->look.shadow == HAIR_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
+        draw->hits.field   = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+        return result;
+    }
     int         wanted = draw->look.collision != HAIR_COLLISION_NONE && draw->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
@@ -230,6 +236,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         result = own.pass == HAIR_PASS_SOLIDS ? draw_solids(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
+        hair_draw_look(&hair->draw, &hair->sim.at_step, &own);
         if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
         hair->draw.bounded =
             (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
@@ -304,6 +311,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
+    hair_draw_look(&hair->draw, &hair->sim.at_step, NULL);
     hair_result result = meet_solids(hair);
     if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);

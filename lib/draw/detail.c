@@ -41,10 +41,52 @@ static float find_scale(const struct hair_draw* draw, const float projection[16]
     return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
 }
 
+#define CELL 2.0f  // pixels: as fine as light need be
+#define LED 0.005f // m: what leads followers round solids moves them so far
+
+// Nearest to the eye; everywhere with an orthographic projection.
+static float pixels_of(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view)
+{
+    const hair_vec3 middle =
+        hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
+    hair_mat4 matrix = hair_mat4_from_head(view->view, head);
+    float     in_eye[16], clip[16];
+    memcpy(in_eye, &matrix, sizeof in_eye);
+    hair_mat4_multiply(view->projection, in_eye, clip);
+    hair_vec3 along = hair_v3(clip[3], clip[7], clip[11]);
+    float     w     = hair_dot(along, middle) + clip[15] - hair_length(along) * draw->reach.w;
+    return find_scale(draw, view->projection) / fmaxf(w, 1e-6f);
+}
+
+void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view)
+{
+    const hair_lod* lod = view ? view->lod : NULL;
+    draw->pixels        = 0;
+    draw->led           = 1;
+    if (!lod || !lod->dynamic || hair_draw_path(draw, view) == HAIR_PATH_EXPANDED) return;
+    draw->pixels = fmaxf(lod->importance * pixels_of(draw, head, view), 1e-6f);
+    draw->led    = fminf(fmaxf(LED * draw->pixels - 1, 0), 1);
+}
+
+float hair_draw_cell(const struct hair_draw* draw, const hair_view* view)
+{
+    return view->lod && draw->pixels > 0 ? fmaxf(draw->look.voxel, CELL / draw->pixels) : draw->look.voxel;
+}
+
+// Of all strands, about.
+static double find_share(const struct hair_draw* draw, const hair_lod* lod)
+{
+    float width = 2 * draw->look.radius * draw->pixels;
+    if (!lod) return 1;
+    return (double)(lod->strands *
+                    (draw->pixels > 0 ? fminf(fmaxf(width / lod->strand_pixels, lod->least), 1) : 1));
+}
+
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out)
 {
     const hair_lod* lod = view ? view->lod : NULL;
+    out->chunks         = hair_draw_chunks(draw, find_share(draw, lod));
     out->strand_share   = lod ? lod->strands : 1;
     out->segment_share  = lod ? lod->segments : 1;
     out->width_power    = lod ? lod->width : 0;

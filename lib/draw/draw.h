@@ -50,6 +50,9 @@ struct hair_draw {
     uint32_t        driver;  // row of paths.inl
     hair_vec4       skull;   // of the groom
     int             bounded; // roots are held: no strand leaves its patch's reach
+    // Of the view: how many pixels a metre is at most to its level of detail, 0: that does not matter; and the share of what
+    // leads followers round solids that it shows.
+    float    pixels, led;
     int      held;   // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
     uint32_t seated; // for which run of smooth.comp followers are
     struct hair_extent      extent;
@@ -131,6 +134,10 @@ int       hair_draw_covers(const hair_view* view); // or these alone, of a light
 // lights.c: whether it has maps of bodies that block lights.
 int hair_draw_is_blocked(const hair_view* view);
 
+// detail.c: `view` is what is drawn or lit next; NULL: all followers are asked for as they are. What leads them round solids is
+// shown where it moves them by two pixels, and not at all where by one: then they need not meet any.
+void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view);
+
 // cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
 int  hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
@@ -155,7 +162,12 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
                           const struct hair_pose* head, const hair_view* view);
 
 // expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
-hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth);
+// drawn: parameters of a view, then only of those that it draws, each time. Whether those of all are there; and how many
+// work groups of a pass over such a share of them are for each patch.
+hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                    const struct hair_draw_params* drawn);
+int         hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
+uint32_t    hair_draw_chunks(const struct hair_draw* draw, double share);
 void        hair_draw_free_expanded(struct hair_draw* draw);
 void        hair_draw_bind_expanded(struct hair_draw* draw);
 

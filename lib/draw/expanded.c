@@ -2,6 +2,10 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
+#include <math.h>
+
+#define MOST_ROUNDS 4096 // of a thread: Mesa's software rasteriser leaves loops after 65,535
+
 static size_t count_vertices(const struct hair_draw* draw)
 {
     return (size_t)draw->followers * (draw->look.segments + 1);
@@ -51,7 +55,21 @@ static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smoo
            expanded->made == draw->gl->made;
 }
 
-hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth)
+int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
+{
+    return draw->expanded.vertices == count_vertices(draw) && is_fresh(draw, smooth);
+}
+
+uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
+{
+    double each = draw->look.segments + 1.0;
+    double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
+    double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);
+    return 1 + (uint32_t)fmax(mean, most);
+}
+
+hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                    const struct hair_draw_params* drawn)
 {
     draw->used[HAIR_DRAW_EXPANDED] = draw->frame;
     struct hair_gl*       gl       = draw->gl;
@@ -62,18 +80,19 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     if (result || is_fresh(draw, smooth)) return result;
     struct hair_draw_params params;
     hair_draw_write_params(draw, NULL, NULL, &params);
-    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    if (!drawn) drawn = &params;
+    hair_gl_write_uniform(gl, draw->params, sizeof params, drawn);
     hair_draw_bind(draw, smooth);
     hair_draw_keep_shown(draw);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, buffers);
-    hair_gl_run(gl, pass, (uint32_t)((expanded->vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE));
+    hair_gl_run(gl, pass, draw->patches * drawn->chunks);
     // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, NULL);
     ++expanded->writes;
-    expanded->there = 1;
+    expanded->there = !drawn->drawn_only;
     expanded->met   = draw->hits.met;
     expanded->made  = gl->made;
     return HAIR_OK;
@@ -88,11 +107,11 @@ void hair_draw_bind_expanded(struct hair_draw* draw)
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)
 {
     struct hair_gl* gl       = draw->gl;
-    int             kept     = draw->expanded.there;
+    int             kept     = draw->expanded.vertices > 0;
     size_t          count    = count_vertices(draw);
     hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
-    hair_result result = hair_draw_need_expanded(draw, smooth);
+    hair_result result = hair_draw_need_expanded(draw, smooth, NULL);
     if (!result)
         gl->GetNamedBufferSubData(draw->expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
                                   vertices);

@@ -8,7 +8,7 @@ struct hair_expanded {
     GLuint   position, tangent;                 // buffers, as in shared.h; 0 until they are needed
     GLuint   position_texture, tangent_texture; // of them, for what draws
     size_t   vertices;                          // that there is room for
-    int      there;                             // vertices have been written,
+    int      there;                             // vertices of all followers have been written,
     uint32_t met, made;                         // for these counts of hair_hits.met and hair_gl.made
     uint32_t writes;                            // of vertices, so far
 };

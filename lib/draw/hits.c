@@ -113,7 +113,7 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
 
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    if (draw->hits.active) pass = hair_gl_with(pass, HAIR_GL_WITH(HITS));
+    if (draw->hits.active && draw->led > 0) pass = hair_gl_with(pass, HAIR_GL_WITH(HITS));
     return hair_draw_styled(draw, pass);
 }
 

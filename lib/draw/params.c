@@ -92,7 +92,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     out->view   = hair_mat4_from_head(view->view, head);
     out->eye    = find_eye(&out->view, view->projection);
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
-                              draw->look.voxel};
+                              hair_draw_cell(draw, view)};
     out->head   = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     out->lit    = hair_draw_lit(draw, view);
     write_clip(draw, head, view, out);
@@ -135,6 +135,7 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->smooth_vertices = draw->smooth_vertices;
     out->followers       = draw->followers;
     out->collision       = look->collision;
+    out->led             = view ? draw->led : 1;
     out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
     hair_draw_write_detail(draw, head, view, out);
     hair_draw_write_tint(look, &out->tint);

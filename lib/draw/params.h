@@ -22,7 +22,9 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
                             struct hair_draw_params* out);
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
 
-// detail.c: of them what is about the level of detail. Those about the view are there.
+// detail.c: side of the cells in which light is found for a view, m; and of them what is about the level of detail. Those about
+// the view are there.
+float hair_draw_cell(const struct hair_draw* draw, const hair_view* view);
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
 // Leave out what the view does not show, though no level of detail does: of paths that ask for each patch in each view.

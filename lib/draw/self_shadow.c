@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#define NODE_GROUPS 1024 // work groups, whose threads go over all nodes that there are
+
 static int is_wanted(const struct hair_draw* draw, const hair_view* view)
 {
     return view->pass == HAIR_PASS_COLOR && draw->look.shadow == HAIR_SHADOW_STRANDS;
@@ -92,6 +94,13 @@ static int is_found(struct hair_draw* draw, const hair_view* view, const struct 
     return same;
 }
 
+// What a level of detail leaves out needs no light, and what is drawn makes up for it in the grid. Of written vertices
+// that views share there are all.
+static int is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view)
+{
+    return view->lod && !draw->motion.buffer && !hair_draw_is_expanded(draw, smooth);
+}
+
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
                                  const struct hair_pose* head, const hair_view* view)
 {
@@ -100,25 +109,30 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     if (own->density && draw->look.shadow != HAIR_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
     if (!is_wanted(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
-    hair_result result                = hair_draw_need_expanded(draw, smooth);
-    if (!result) result = make(draw, hair_draw_lit(draw, view));
-    if (result) return result;
     struct hair_draw_params params;
+    int                     part  = is_of_a_part(draw, smooth, view);
     hair_view               whole = *view;
     whole.lod                     = NULL; // All views of a step share the grid.
-    hair_draw_write_params(draw, head, &whole, &params);
+    hair_draw_write_params(draw, head, part ? view : &whole, &params);
+    params.drawn_only  = (uint32_t)part;
+    params.culls       = 0; // What is out of view and hidden casts shadows too.
+    params.skull.w     = 0;
+    hair_result result = hair_draw_need_expanded(draw, smooth, part ? &params : NULL);
+    if (!result) result = make(draw, hair_draw_lit(draw, view));
+    if (result) return result;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     hair_draw_bind_shadows(draw, view);
-    uint32_t groups    = (uint32_t)((draw->expanded.vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    uint32_t groups    = draw->patches * params.chunks;
     GLuint   grid[]    = {own->density, own->box};
     GLuint   strands[] = {own->nodes, draw->expanded.position, own->light};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, strands);
     if (own->filled != draw->expanded.writes) fill(draw, groups);
     if (is_found(draw, view, &params)) return HAIR_OK;
+    if (part) own->frame = 0; // Another view draws others.
     if (draw->hits.field) hair_field_bind(draw->hits.field);
-    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT_NODES), HAIR_DENSITY_NODES / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT_NODES), NODE_GROUPS);
     hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT), groups);
     return HAIR_OK;
 }

@@ -220,6 +220,44 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
     finish(&f);
 }
 
+// Where what leads followers round a solid moves them by a pixel, that begins to be shown, by two all of it is; on either side of
+// both the pictures are the same but for little. As long as none is shown no follower has been looked at.
+static void nothing_pops_where_followers_need_not_be_led_round_solids(void** state)
+{
+    static struct picture picture[4];
+    static const float    pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f}; // of 5 mm
+    struct fixture        f         = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    hair_view             view      = view_from(0.9f, 0.5f);
+    hair_lod              lod       = hair_lod_default();
+    hair_solid            solid     = hair_solid_default();
+    hair_vec4             skull     = f.groom->skull;
+    solid.position[0] = skull.x, solid.position[1] = skull.y, solid.position[2] = skull.z;
+    solid.size[0] = 1.3f * skull.w;
+    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    lod.strand_pixels  = 0.01f; // All of them,
+    lod.segment_pixels = 0.1f;  // whole.
+    view.lod           = &lod;
+    for (int i = 0; i < 4; ++i) {
+        lod.importance = 1;
+        draw(&f, &view, NULL, &picture[i]); // It says how many pixels a metre has.
+        lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels);
+        hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof solid));
+        hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+        uint32_t met = f.hair->draw.hits.met;
+        draw(&f, &view, NULL, &picture[i]);
+        assert_int_equal(f.hair->draw.hits.met - met, i > 0);
+    }
+    for (int i = 0; i < 3; ++i) {
+        double sum = 0;
+        for (int j = 0; j < 4 * PIXELS; ++j)
+            sum += (double)fabsf(picture[i].pixels[j] - picture[i + 1].pixels[j]) / (4 * PIXELS);
+        print_message("    from %g to %g pixels: %.2g of a pixel's value\n", (double)pixels[i],
+                      (double)pixels[i + 1], sum);
+        assert_true(i == 1 ? sum > 1e-3 : sum < 1e-4);
+    }
+    finish(&f);
+}
+
 static int differ(const struct picture* a, const struct picture* b)
 {
     return memcmp(a->pixels, b->pixels, sizeof a->pixels) != 0;
@@ -321,6 +359,7 @@ int main(void)
         HAIR_TEST(fewer_strands_cover_as_much),
         HAIR_TEST(walking_away_shows_no_step),
         HAIR_TEST(nothing_pops_where_segments_or_strands_become_fewer),
+        HAIR_TEST(nothing_pops_where_followers_need_not_be_led_round_solids),
         HAIR_TEST(what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing),
         HAIR_TEST(what_the_head_hides_is_not_drawn),
     };

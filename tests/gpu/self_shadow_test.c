@@ -319,6 +319,45 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
     finish(&f);
 }
 
+// Of a quarter of the strands: only they are lit, and the grid holds as much hair, for they are as much wider.
+static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(void** state)
+{
+    static const uint32_t none    = 0xffffffffu;
+    struct fixture        f       = start(state, FOLLOWERS);
+    hair_lod              lod     = hair_lod_default();
+    double                area[2] = {0};
+    uint32_t              lit     = 0;
+    lod.dynamic                   = 0;
+    lod.strands                   = 0.25f;
+    for (int i = 0; i < 2; ++i) {
+        f.view.lod = i ? &lod : NULL;
+        hair_test_ok(f.test, hair_step(f.hair, 0.01f));
+        if (i)
+            glClearNamedBufferData(f.hair->draw.self_shadow.light, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                                   &none);
+        draw(&f);
+        look_inside(&f);
+        for (size_t n = 0; n < node_count(&f); ++n) area[i] += f.density[n] * f.grid.cell * f.grid.cell;
+        if (i) break;
+        free(f.density);
+        free(f.met);
+        free(f.position);
+    }
+    for (uint32_t p = 0; p < f.groom->info.patch_count; ++p) {
+        const struct hair_patch* patch = &f.groom->patches[p];
+        uint32_t drawn = 1 + (uint32_t)(0.25 * patch->count); // The next one may be about to be.
+        for (uint32_t s = 0; s < patch->count; ++s)
+            for (uint32_t k = 0; k < (SEGMENTS + 1) * EACH; ++k) {
+                int is = f.numbers[(patch->first + s) * (SEGMENTS + 1) * EACH + k] != none;
+                assert_int_equal(is, s < drawn);
+                lit += (uint32_t)is;
+            }
+    }
+    print_message("    %u of %u lit, %.3f of the hair\n", lit / EACH, VERTICES, area[1] / area[0]);
+    hair_test_near("area", 0, area[1] / area[0], 1, 0.1);
+    finish(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -326,6 +365,7 @@ int main(void)
         HAIR_TEST(light_is_that_of_the_twin_in_double_precision),
         HAIR_TEST(a_map_hides_what_lies_behind_it),
         HAIR_TEST(a_strand_does_not_shade_itself),
+        HAIR_TEST(what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere),
         HAIR_TEST(views_of_a_frame_share_it_and_without_it_there_is_none),
     };
     if (hair_test_skips()) return 0;

@@ -1,0 +1,16 @@
+// run.glsl - the vertices of followers that a work group goes over, of draw.chunks that share a patch.
+#include "patch.glsl"
+#include "workgroup.glsl"
+
+struct vertex_run {
+    uint first, end, stride; // of all vertices
+};
+
+vertex_run find_run()
+{
+    uint number = hair_group() / draw.chunks, each = draw.segments + 1u, stride = draw.chunks * HAIR_GROUP_SIZE;
+    if (number >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return vertex_run(0u, 0u, stride);
+    uvec2 strands = find_strands(number);
+    uint  own     = hair_group() % draw.chunks * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    return vertex_run(strands.x * each + own, (strands.x + strands.y) * each, stride);
+}
