@@ -11,6 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TEXELS 4      // of a shadow map to a pixel, at least
+#define LEAST_MAP 256 // texels to each side
+
 enum { MESH, DEPTH, AVERAGE };
 
 // GLSL keeps its own lines.
@@ -243,13 +246,23 @@ float bench_studio_scale(const struct bench_studio* studio, float away)
     return scale_of(&camera, distance_of(studio, away), studio->size);
 }
 
-// A shadow need be no finer than the picture.
-static float importance_of_shadow(const struct bench_studio* studio, const struct hair_matrices* camera,
-                                  const struct hair_matrices* light)
+// Pixels of the picture to a texel of a shadow map of such a size.
+static float pixels_of_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
+                             const struct hair_matrices* light, uint32_t size)
 {
     uint32_t pixels   = studio->size * studio->shot.supersample;
     float    distance = distance_of(studio, studio->shot.away);
-    return fminf(1, scale_of(camera, distance, pixels) / scale_of(light, 1, HAIR_SHADOW_SIZE));
+    return scale_of(camera, distance, pixels) / scale_of(light, 1, size);
+}
+
+// A shadow need not be much finer than the picture. Where that has levels of detail, so has its map.
+static uint32_t size_of_map(const struct bench_studio* studio, const struct hair_matrices* camera,
+                            const struct hair_matrices* light)
+{
+    uint32_t size = HAIR_SHADOW_SIZE;
+    if (!studio->shot.has_lod || !studio->shot.lod.dynamic) return size;
+    while (size > LEAST_MAP && TEXELS * pixels_of_texel(studio, camera, light, size / 2) <= 1) size /= 2;
+    return size;
 }
 
 static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct hair_matrices* matrices,
@@ -276,12 +289,15 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
 {
     hair_view view = studio->shot.view;
     hair_lod  lod  = studio->shot.lod;
+    uint32_t  size = size_of_map(studio, camera, light);
     view.pass      = HAIR_PASS_DEPTH;
-    lod.importance *= importance_of_shadow(studio, camera, light);
+    lod.importance *= fminf(1, pixels_of_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
-    if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY)) return false;
-    hair_shadow_map_begin(&studio->map, HAIR_SHADOW_BODY);
-    draw_head(studio, studio->programs[DEPTH], light);
+    if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;
+    if (shows_head(studio)) {
+        hair_shadow_map_begin(&studio->map, HAIR_SHADOW_BODY);
+        draw_head(studio, studio->programs[DEPTH], light);
+    }
     hair_shadow_map_begin(&studio->map, HAIR_SHADOW_HAIR);
     return draw_hair(studio, &view, light, light);
 }
@@ -346,8 +362,8 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
     studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
-    shift(&light, studio->shot.shadow_jitter, HAIR_SHADOW_SIZE);
     aim(studio, &camera);
+    shift(&light, studio->shot.shadow_jitter, size_of_map(studio, &camera, &light));
     if (!draw_shadow(studio, &camera, &light)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, size, size);

@@ -248,7 +248,8 @@ static hair_result draw_shadows(struct hair_render* render, const struct frame* 
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < frame->lights.shadows && !result; ++i) {
         bool mesh = shows_mesh(render, frame);
-        if (!hair_shadow_map_make(&render->map[i], mesh ? HAIR_SHADOW_PARTS : HAIR_SHADOW_OPACITY)) {
+        if (!hair_shadow_map_make(&render->map[i], mesh ? HAIR_SHADOW_PARTS : HAIR_SHADOW_OPACITY,
+                                  HAIR_SHADOW_SIZE)) {
             hair_complain(render->tool, "OpenGL has no memory for the shadow maps of %u lights",
                           frame->lights.shadows);
             return HAIR_ERROR_MEMORY;
