@@ -4,6 +4,7 @@
 // HAIR_DENSITY_NODES nodes to suffice. A node holds, in HAIR_DENSITY_UNITS, the area that strands around it would shade
 // of a light across them, over the side of a cell: what light meets on the way through a cell.
 #include "draw_params.glsl"
+#include "ordered.glsl"
 #include "rotation.glsl"
 #ifdef HAIR_SOLIDS
 #include "field.glsl"
@@ -29,17 +30,6 @@ bool is_inside(vec3 from_origin)
 }
 
 vec3 in_head(vec3 from_origin) { return rotate(quat_conjugate(draw.head), from_origin); }
-
-uvec3 to_ordered(vec3 x)
-{
-    uvec3 b = floatBitsToUint(x);
-    return mix(b | 0x80000000u, ~b, notEqual(b & 0x80000000u, uvec3(0u)));
-}
-
-vec3 from_ordered(uvec3 u)
-{
-    return uintBitsToFloat(mix(~u, u & 0x7fffffffu, notEqual(u & 0x80000000u, uvec3(0u))));
-}
 
 struct density_grid {
     vec3  lower; // node 0, m

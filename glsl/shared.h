@@ -96,6 +96,11 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_EXPANDED, never written
 #define HAIR_BIND_LIGHT 5          // uint[]      per follower vertex: of the sky, then of each light; see light.comp
 
+// Of the passes that find which patches the host's depth hides:
+#define HAIR_BIND_HIDE_DEPTH 0 // float[]      farthest depth of every texel of every level: see glsl/hide.glsl
+#define HAIR_BIND_HIDE_BOX 1   // hair_vec4[]  per guide and part of it: its lower corner, then its upper, m
+#define HAIR_BIND_HIDE_PATCH 2 // hair_patch[]
+
 // Of the passes of the fluid, which read what they do not write as textures:
 #define HAIR_BIND_VELOCITY 0 // float[]     per axis and slot: of the face along the axis, m/s; see glsl/wind/fluid.glsl
 #define HAIR_BIND_WALL 1     // float[]     likewise: of what closes it
@@ -125,6 +130,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_LEVEL 1        // and hair_fluid_level
 #define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, likewise
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids, the field and air
+#define HAIR_BIND_HIDE 0         // hair_hide_params, of the passes that find what is hidden
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -168,6 +174,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_SHADOW 12 // and the three after it: the host's shadow maps
 #define HAIR_UNIT_LIGHT 18   // uint per follower vertex and light, unsigned: HAIR_BIND_LIGHT
 #define HAIR_UNIT_BODY 19    // and the three after it: the host's depth maps of bodies
+#define HAIR_UNIT_HIDDEN 23  // the host's depth of what hides hair
 #define HAIR_UNIT_GUST 8     // of what knows air, in place of the field: gusts of deviation 1,
 #define HAIR_UNIT_VOLUME 9   // and the application's velocities of the air, m/s
 #define HAIR_UNIT_WORK 0     // hair_field_solid[], of the pass that writes the field, in place of the first
@@ -220,6 +227,11 @@ typedef uint32_t hair_uint;
 
 #define HAIR_DENSITY_NODES 1048576u // of the grid of how much hair there is, at most
 #define HAIR_DENSITY_UNITS 65536.0  // of hair that is worth one side of a cell
+
+#define HAIR_HIDE_PARTS 4 // of strands, which are hidden each for itself
+#define HAIR_HIDE_FIRST 8 // texels of the host's depth, along each axis, that are one of the first level,
+#define HAIR_HIDE_NEXT 4  // of a level that are one of the next,
+#define HAIR_HIDE_TEXELS 8 // and that a box is looked up in, at most
 
 #define HAIR_NO_HIT 1e9
 #define HAIR_HIT_THREADS 32     // of a work group that looks at one follower
@@ -411,6 +423,24 @@ struct hair_crowd_params {
 };
 HAIR_SIZE(hair_crowd_params, 80)
 
+// Of the passes that find which patches the host's depth hides.
+struct hair_hide_params {
+    hair_mat4 to_texture; // from the head's origin: xy texture coordinates, z depth that grows away from the eye, times w
+    hair_uint width, height;   // of the host's texture
+    hair_uint first_x, first_y; // texel of its first level, were all of it made, where that begins;
+    hair_uint columns, rows;   // and so many of them there are
+    hair_uint levels;
+    hair_uint level;    // that is made of the one before it
+    float     sign;     // times the host's depth: that grows away from the eye
+    float     most;     // the farthest there is, so
+    float     slack;    // what depth is rounded by
+    float     thick;    // m: of strands, that maps and the groom make no thicker, at most
+    float     beside_x, beside_y; // of texture coordinates: by which what is drawn is wider than that
+    hair_uint clips;    // 1: what is outside of the texture is not seen
+    hair_uint guides;
+};
+HAIR_SIZE(hair_hide_params, 128)
+
 // How the guides are looked at that may have come to rest.
 struct hair_stir_params {
     hair_uint vertices; // of all guides
@@ -488,7 +518,7 @@ struct hair_patch {
     float     reach;         // m: no follower gets farther from there
     float     length;        // m: of its longest follower
     float     importance;    // as a multiple
-    hair_uint unused;
+    hair_uint hidden;        // 1: of what was last asked for, by what the host has drawn
 };
 HAIR_SIZE(hair_patch, 64)
 

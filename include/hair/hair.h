@@ -238,7 +238,7 @@ typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
     ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
-    ///< buffer textures of units 17 and 18, 2D textures, samplers of units 12-16 and 19-22, 3D textures, samplers of units 8-11, image units 0-1.
+    ///< buffer textures of units 17 and 18, 2D textures, samplers of units 12-16 and 19-23, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
 /// Where a host keeps programs as its driver has compiled them, so that they need not be compiled in every run: bytes under
@@ -900,6 +900,13 @@ typedef struct hair_view {
     /// Of OpenGL: 2D, linear colours that those of strands are multiplied by, where hair_groom_desc.scalp_uvs have their
     /// roots, as the texture itself filters them. 0, or a groom without uvs: none.
     uint32_t color_texture;
+    /// Of OpenGL: 2D, depth of what you have drawn that is opaque, as that may be bound to be drawn to as well: patches of strands
+    /// that are wholly behind it are not drawn, by any path. Of any size; all of it is what the viewport is. Its depth may be
+    /// reversed, by the matrix or glDepthRange; that and glClipControl are as they were when it was drawn. 0: none.
+    uint32_t depth_texture;
+    /// World to clip space of that, as of the frame before: what since has come out from behind something is drawn a frame late,
+    /// and what was not in that picture is drawn. All 0: the view's own, projection times view. Default 0.
+    float depth_matrix[16];
 } hair_view;
 HAIR_DESC(hair_view)
 

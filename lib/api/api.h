@@ -24,6 +24,7 @@ struct hair_asked {
     uint32_t views[3],
         unseen[3]; // in colour, in depth only, of opacity: of hair, and of them those that show none of it
     int listed, expanded; // by a path that takes that
+    int hides;            // with what may hide hair
 };
 
 struct hair_instance {
@@ -51,6 +52,9 @@ hair_result hair_check_current(const hair_context* context);
 // Rigid, and not too far.
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out);
+
+// lent.c: textures of the host's, as far as a draw of `view` reads them.
+hair_result hair_check_lent(const hair_instance* hair, const hair_view* view);
 
 // report.c: enter the context for work that is written down; and the frame under way, after which the next begins.
 void               hair_enter(hair_instance* hair);

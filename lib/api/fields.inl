@@ -8,7 +8,7 @@
 #define FOUR(S, member, a, b, c, d, min, max) \
     FIELD(S, member[a], FLOAT, 0, min, max) FIELD(S, member[b], FLOAT, 0, min, max) \
     FIELD(S, member[c], FLOAT, 0, min, max) FIELD(S, member[d], FLOAT, 0, min, max)
-#define TURN(S, member, min, max) \
+#define SIXTEEN(S, member, min, max) \
     FOUR(S, member, 0, 1, 2, 3, min, max) FOUR(S, member, 4, 5, 6, 7, min, max) \
     FOUR(S, member, 8, 9, 10, 11, min, max) FOUR(S, member, 12, 13, 14, 15, min, max)
 BEGIN(hair_import)
@@ -120,8 +120,8 @@ FIELD(hair_look, curl_lock_phase, FLOAT, 1, 0, 1)
 FIELD(hair_look, curl_phase, FLOAT, 0.1, 0, 1)
 FIELD(hair_look, curl_spread, FLOAT, 0.1, 0, 0.9)
 FIELD(hair_look, curls, UINT, HAIR_CURLS_HELIX, 0, HAIR_CURLS_EXAMPLE)
-TURN(hair_look, curl_x, -1, 1)
-TURN(hair_look, curl_z, -1, 1)
+SIXTEEN(hair_look, curl_x, -1, 1)
+SIXTEEN(hair_look, curl_z, -1, 1)
 FIELD(hair_look, absorption, FLOAT, 200, 0, 10000)
 FIELD(hair_look, density, FLOAT, 1, 0, 1)
 FIELD(hair_look, segments, UINT, 32, 1, 256)
@@ -222,6 +222,7 @@ FIELD(hair_view, jitter[1], FLOAT, 0, -64, 64)
 FIELD(hair_view, frame, UINT, 0, 0, UINT32_MAX)
 MATRIX(hair_view, before_view)
 MATRIX(hair_view, before_projection)
+SIXTEEN(hair_view, depth_matrix, -FLT_MAX, FLT_MAX)
 END(hair_view)
 BEGIN(hair_shader_desc)
 FIELD(hair_shader_desc, at, UINT, HAIR_SHADE_VERTICES, 0, HAIR_SHADE_PIXELS)
@@ -245,4 +246,4 @@ BEGIN(hair_asset_info)
 END(hair_asset_info)
 #undef CURVE
 #undef FOUR
-#undef TURN
+#undef SIXTEEN

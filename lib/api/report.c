@@ -63,6 +63,14 @@ static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked
     return HAIR_WHY_OUT_OF_VIEW;
 }
 
+// Where hair was in none of the pictures that are to hide it, nothing of it is hidden.
+static hair_why why_not_hidden(const struct hair_asked* asked)
+{
+    hair_why shown = why_not_shown(asked);
+    if (shown != HAIR_WHY_UNCHANGED) return shown;
+    return asked->hides ? HAIR_WHY_OUT_OF_VIEW : HAIR_WHY_NOT_WANTED;
+}
+
 static hair_why why_not_simulated(const struct hair_asked* asked, int wanted)
 {
     if (!wanted) return HAIR_WHY_NOT_WANTED;
@@ -90,6 +98,7 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
         return asked->expanded || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
     case HAIR_GL_WORK_LIGHT:
         return hair->draw.look.shadow != HAIR_SHADOW_STRANDS ? HAIR_WHY_NOT_WANTED : shown;
+    case HAIR_GL_WORK_HIDE: return why_not_hidden(asked);
     case HAIR_GL_WORK_COUNT_STRANDS:
     case HAIR_GL_WORK_LIST: return asked->listed || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
     case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
@@ -130,6 +139,7 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                     [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->motion.buffer},
                     [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
                                             draw->self_shadow.light},
+                    [HAIR_GL_WORK_HIDE]  = {draw->hidden.params, draw->hidden.depth, draw->hidden.box},
                     [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
                                             draw->listed.index},
                     [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,

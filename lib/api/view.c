@@ -104,40 +104,6 @@ static hair_result check_framebuffer(const hair_instance* hair)
                      status == GL_FRAMEBUFFER_UNDEFINED ? ", there is none" : "");
 }
 
-// Binding what is no texture would raise the host's error flag; one of another target would stay bound.
-static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
-{
-    const struct hair_gl* gl     = &hair->context->gl;
-    GLint                 target = 0;
-    if (!texture) return HAIR_OK;
-    if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-    if (target == GL_TEXTURE_2D) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture",
-                     hair->label, light, name, texture);
-}
-
-static hair_result check_shadows(const hair_instance* hair, const hair_view* view)
-{
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
-        result = check_map(hair, view->lights[i].shadow_texture, i, "shadow_texture");
-        if (!result) result = check_map(hair, view->lights[i].body_texture, i, "body_texture");
-    }
-    return result;
-}
-
-static hair_result check_color(const hair_instance* hair, const hair_view* view)
-{
-    const struct hair_gl* gl     = &hair->context->gl;
-    GLint                 target = 0;
-    if (!view->color_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
-    if (gl->IsTexture(view->color_texture))
-        gl->GetTextureParameteriv(view->color_texture, GL_TEXTURE_TARGET, &target);
-    if (target == GL_TEXTURE_2D) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
-                     hair->label, view->color_texture);
-}
-
 // Only a slice needs the field, and forms, which shaders read from where the field has put them.
 static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 {
@@ -215,6 +181,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     hair_path path = hair_draw_path(&hair->draw, view);
     asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
     asked->expanded |= !unseen && path == HAIR_PATH_EXPANDED;
+    asked->hides |= !unseen && hair_draw_hides(view);
     return !unseen && hair->draw.look.density > 0;
 }
 
@@ -226,8 +193,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     struct loan   loan;
     hair_result   result = take_view(hair, view, &own, &loan);
     if (!result) result = hair_check_current(context);
-    if (!result) result = check_shadows(hair, &own);
-    if (!result) result = check_color(hair, &own);
+    if (!result) result = hair_check_lent(hair, &own);
     if (!result) result = check_framebuffer(hair);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);

@@ -31,17 +31,28 @@ void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groo
     }
 }
 
+double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
+{
+    double width = (double)(draw->look.radius * hair_curve_most(&draw->look.taper));
+    if (!lod) return width;
+    return width *
+           pow(fmax((double)(lod->strands * (lod->dynamic ? lod->least : 1)), 1e-6), -(double)lod->width);
+}
+
 // Beyond the box of roots, m.
 static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
 {
-    const hair_look* look  = &draw->look;
-    double           width = (double)(look->radius * hair_curve_most(&look->taper)) * WIDEST;
-    if (lod)
-        width *=
-            pow(fmax((double)(lod->strands * (lod->dynamic ? lod->least : 1)), 1e-6), -(double)lod->width);
+    const hair_look* look = &draw->look;
     double reach = (double)(GIVE * fmaxf(hair_curve_most(&look->clump_width), 1) * draw->extent.reach);
     return reach + (double)(hair_look_most_stray(look) * draw->extent.length + hair_look_most_aside(look)) +
-           width;
+           WIDEST * hair_draw_thickest(draw, lod);
+}
+
+static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)
+{
+    float r = (float)reach;
+    return hair_v3(i & 1 ? e->upper.x + r : e->lower.x - r, i & 2 ? e->upper.y + r : e->lower.y - r,
+                   i & 4 ? e->upper.z + r : e->lower.z - r);
 }
 
 // In double, since far out the head's place and what it is multiplied by nearly cancel.
@@ -70,24 +81,41 @@ static unsigned find_outside(const double clip[4], const double edge[2])
 int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
                              const hair_view* view)
 {
-    const struct hair_gl*     gl          = draw->gl;
-    const struct hair_extent* e           = &draw->extent;
-    GLfloat                   viewport[4] = {0};
-    double                    edge[2], reach = reach_of(draw, view->lod);
-    unsigned                  outside = (1u << SIDES) - 1;
-    float                     r       = (float)reach;
+    const struct hair_gl* gl          = draw->gl;
+    GLfloat               viewport[4] = {0};
+    double                edge[2], reach = reach_of(draw, view->lod);
+    unsigned              outside = (1u << SIDES) - 1;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
         double clip[4];
-        find_corner(view, head,
-                    hair_v3(i & 1 ? e->upper.x + r : e->lower.x - r, i & 2 ? e->upper.y + r : e->lower.y - r,
-                            i & 4 ? e->upper.z + r : e->lower.z - r),
-                    clip);
+        find_corner(view, head, corner_of(&draw->extent, reach, i), clip);
         outside &= find_outside(clip, edge);
     }
     // Depth may be clamped, and then nothing is cut off near or far.
     if (outside & (1u << FAR | 1u << NEAR))
         if (gl->IsEnabled(GL_DEPTH_CLAMP)) outside &= ~(1u << FAR | 1u << NEAR);
     return outside != 0;
+}
+
+void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
+                           const hair_mat4* to_texture, float window[4])
+{
+    float  matrix[16], all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    double reach = reach_of(draw, lod);
+    memcpy(matrix, to_texture, sizeof matrix);
+    for (int i = 0; i < 8; ++i) {
+        hair_vec3 at        = hair_rotate(head->rotation, corner_of(&draw->extent, reach, i));
+        float     placed[4] = {at.x, at.y, at.z, 1}, out[4] = {0};
+        for (int k = 0; k < 16; ++k) out[k % 4] += matrix[k] * placed[k / 4];
+        if (!(out[3] > 0)) return; // Beside the eye, hair may be anywhere.
+        for (int k = 0; k < 2; ++k) {
+            all[k]     = fminf(all[k], out[k] / out[3]);
+            all[2 + k] = fmaxf(all[2 + k], out[k] / out[3]);
+        }
+    }
+    for (int k = 0; k < 2; ++k) {
+        window[k]     = fmaxf(window[k], all[k]);
+        window[2 + k] = fminf(window[2 + k], all[2 + k]);
+    }
 }

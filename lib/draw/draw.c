@@ -46,6 +46,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_expanded(draw);
     hair_draw_free_sorted(draw);
     hair_draw_free_self_shadow(draw);
+    hair_draw_free_hidden(draw);
     hair_draw_free_uvs(draw);
     hair_seats_release(draw->seats);
     draw->seats = NULL;
@@ -120,9 +121,11 @@ void hair_draw_patches(struct hair_draw* draw)
 
 // What is drawn with: a program, and the pass that it counts as.
 struct drawn {
-    hair_gl_pass pass;
-    hair_path    path;
-    GLuint       program;
+    hair_gl_pass            pass;
+    hair_path               path;
+    GLuint                  program;
+    int                     hides; // patches may be hidden, as `hide` has it
+    struct hair_hide_params hide;
 };
 
 static const hair_gl_pass row_of_path[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
@@ -170,6 +173,7 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
     struct hair_gl* gl = draw->gl;
     out->path          = hair_draw_path(draw, view);
     out->pass          = hair_draw_choose(draw, row_of_path[out->path] | features_of(draw, view, shader));
+    if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
     if (shader) return hair_gl_need_own(gl, shader, out->pass, &out->program);
     hair_result result = hair_gl_need(gl, out->pass);
     if (!result) out->program = hair_gl_find(gl, out->pass)->program;
@@ -189,16 +193,18 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     hair_path       path    = hair_draw_path(draw, view);
     int             meets   = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
     int             lit     = hair_draw_lit(draw, view) > 0;
+    uint32_t        hides   = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
     hair_gl_pass    strands = hair_draw_styled(draw, row_of_path[path] | features_of(draw, view, shader));
     hair_gl_pass    expand  = hair_draw_styled(draw, HAIR_GL_EXPAND);
     hair_result     result  = HAIR_OK;
-    if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, 0);
+    if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
         uint32_t with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
-        result        = need_program(draw, hair_gl_with(strands, with), shader);
+        result        = need_program(draw, hair_gl_with(strands, with | hides), shader);
+        if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
         if (!result && (lit || path == HAIR_PATH_EXPANDED))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
         if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
@@ -221,7 +227,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     struct hair_gl*   gl     = draw->gl;
     int               listed = with->path != HAIR_PATH_TESSELLATION;
     struct hair_blend was;
-    if (listed) hair_draw_list(draw, smooth, params);
+    if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     if (hair_draw_is_shared(view)) hair_draw_sort(draw);
@@ -240,11 +246,13 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
                               const struct hair_pose* head, const hair_view* view,
                               struct hair_gl_shader* shader, struct drawn* out)
 {
-    int         motion = view->pass == HAIR_PASS_MOTION;
+    int motion         = view->pass == HAIR_PASS_MOTION;
+    out->hides         = hair_draw_find_hiding(draw, head, view, &out->hide);
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw);
+    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
+    if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
     if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth, NULL);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
@@ -270,6 +278,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     params.textured = (uint32_t)is_textured(draw, view);
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
+    if (with.hides) hair_draw_hide(draw, view, &with.hide);
     if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
     if (wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
     if (is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);

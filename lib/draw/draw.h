@@ -4,6 +4,7 @@
 
 #include "lib/draw/fibre.h"
 #include "lib/draw/expanded.h"
+#include "lib/draw/hidden.h"
 #include "lib/draw/hits.h"
 #include "lib/draw/listed.h"
 #include "lib/draw/motion.h"
@@ -34,6 +35,7 @@ enum {
     HAIR_DRAW_FIBRES,
     HAIR_DRAW_UVS,
     HAIR_DRAW_SELF_SHADOW,
+    HAIR_DRAW_HIDDEN,
     HAIR_DRAW_PARTS
 };
 
@@ -63,6 +65,7 @@ struct hair_draw {
     struct hair_motion      motion;
     struct hair_sorted      sorted;
     struct hair_self_shadow self_shadow;
+    struct hair_hidden      hidden;
     struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
     GLuint                  uv, uv_texture;       // 0 until they are needed
     GLuint                  paint, paint_texture; // colours of the groom; 0: it has none
@@ -119,11 +122,11 @@ void        hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // listed.c: what draws without a tessellator. With everything bound that makes followers, list those that are drawn; draw
 // them with the program that is current.
-hair_result hair_draw_make_listed(struct hair_draw* draw);
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
 void        hair_draw_free_listed(struct hair_draw* draw);
-// Unless they are listed, as `params` and the smoothed guides have them.
+// Unless they are listed, as `params` and the smoothed guides have them; without those that are hidden, where that was asked.
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
-                    const struct hair_draw_params* params);
+                    const struct hair_draw_params* params, int hides);
 void hair_draw_listed(struct hair_draw* draw);
 
 // path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
@@ -185,6 +188,15 @@ hair_result hair_draw_need_sorted(struct hair_draw* draw);
 void        hair_draw_free_sorted(struct hair_draw* draw);
 void        hair_draw_sort(struct hair_draw* draw);
 void        hair_draw_sorted(struct hair_draw* draw);
+
+// hidden.c: whether `view` has what may hide hair; and where, if hair can be there at all. Programs and buffers for that; and with
+// everything bound that makes followers, find what patches are hidden.
+int hair_draw_hides(const hair_view* view);
+int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                          struct hair_hide_params* out);
+hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
+void        hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params);
+void        hair_draw_free_hidden(struct hair_draw* draw);
 
 // blend.c: from one to the other, what is drawn is blended by its alpha and writes no depth.
 struct hair_blend {

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static hair_result make_lists(struct hair_draw* draw)
+static hair_result make_lists(struct hair_draw* draw, int hides)
 {
     struct hair_gl*     gl     = draw->gl;
     struct hair_listed* listed = &draw->listed;
@@ -23,7 +23,8 @@ static hair_result make_lists(struct hair_draw* draw)
     if (!result && !listed->command)
         result = hair_gl_storage(gl, "hair commands", 3 * sizeof(struct hair_draw_command), NULL,
                                  &listed->command);
-    return result ? result : hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, 0);
+    return result ? result
+                  : hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides ? HAIR_GL_WITH(HIDDEN) : 0);
 }
 
 // Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them.
@@ -66,10 +67,10 @@ static hair_result make_indices(struct hair_draw* draw)
     return HAIR_OK;
 }
 
-hair_result hair_draw_make_listed(struct hair_draw* draw)
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides)
 {
     draw->used[HAIR_DRAW_LISTED] = draw->frame;
-    hair_result result           = make_lists(draw);
+    hair_result result           = make_lists(draw, hides);
     return result ? result : make_indices(draw);
 }
 
@@ -111,16 +112,18 @@ static struct hair_listing describe(const struct hair_gl* gl, const struct hair_
 }
 
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
-                    const struct hair_draw_params* params)
+                    const struct hair_draw_params* params, int hides)
 {
     struct hair_gl*     gl        = draw->gl;
     struct hair_listed* listed    = &draw->listed;
     GLuint              buffers[] = {listed->start, listed->strand, listed->command};
     struct hair_listing of        = describe(gl, smooth, params);
-    if (memcmp(&of, listed->of, sizeof of) == 0) return;
+    uint32_t            with      = hides ? HAIR_GL_WITH(HIDDEN) : 0;
+    if (!hides && memcmp(&of, listed->of, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
-    hair_gl_run(gl, HAIR_GL_COUNT, 1);
-    hair_gl_run(gl, HAIR_GL_LIST, draw->patches);
+    hair_gl_run(gl, HAIR_GL_COUNT | with, 1);
+    hair_gl_run(gl, HAIR_GL_LIST | with, draw->patches);
+    if (hides) of.made = 0; // No other view hides the same.
     *listed->of = of;
 }
 

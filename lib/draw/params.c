@@ -21,7 +21,7 @@ hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 
 // The eye is where the view matrix maps to the origin: -R^-1 t. With an orthographic projection, whose last row is
 // (0, 0, 0, 1), every ray goes one way instead.
-static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
+hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;
     hair_vec3        x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
@@ -33,9 +33,14 @@ static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
     return (hair_vec4){-hair_dot(x, t), -hair_dot(y, t), -hair_dot(z, t), 1};
 }
 
-// Moves what is drawn by so many pixels.
-static void jitter(float projection[16], const float by[2], const float viewport[4])
+// Jitter moves what is drawn by so many pixels.
+void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16])
 {
+    GLfloat      viewport[4] = {0};
+    const float* by          = view->jitter;
+    memcpy(projection, view->projection, sizeof view->projection);
+    if (by[0] == 0 && by[1] == 0) return;
+    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int column = 0; column < 4; ++column)
         for (int i = 0; i < 2; ++i)
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
@@ -49,13 +54,10 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     GLfloat viewport[4] = {0};
     GLint   samples     = 0;
     float   projection[16];
-    int     shares = hair_draw_covers(view);
-    memcpy(projection, view->projection, sizeof projection);
-    if (shares || view->jitter[0] != 0 || view->jitter[1] != 0)
-        draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    if (view->jitter[0] != 0 || view->jitter[1] != 0) jitter(projection, view->jitter, viewport);
+    hair_draw_project(draw, view, projection);
     memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
-    if (!shares) return;
+    if (!hair_draw_covers(view)) return;
+    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     draw->gl->GetIntegerv(GL_SAMPLES, &samples);
     // With samples, all of a pixel must be within the ribbon.
     out->viewport =
@@ -90,7 +92,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
                        struct hair_draw_params* out)
 {
     out->view   = hair_mat4_from_head(view->view, head);
-    out->eye    = find_eye(&out->view, view->projection);
+    out->eye    = hair_draw_find_eye(&out->view, view->projection);
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
                               hair_draw_cell(draw, view)};
     out->head   = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};

@@ -17,6 +17,10 @@ struct hair_light_maps {
     GLuint   shadow, body;
 };
 
+// Where a view looks from: w 1; w 0: the way there, orthographic. And its projection with the jitter, for the viewport that is set.
+hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16]);
+void      hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
+
 // lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
@@ -37,6 +41,11 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
 
 // cull.c: where a picture of so many pixels ends with what may reach into it, as a multiple of w.
 double hair_draw_edge(float pixels, float jitter);
+// How thick strands are at most, m, which a map and the groom make some thicker than. And what of `window`, the lower corner and the upper of
+// texture coordinates, hair can be in that is held.
+double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod);
+void   hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
+                             const hair_mat4* to_texture, float window[4]);
 
 // strand.c: of the above, what a look makes of a strand's way; and how far it takes it from there at most, in its lengths
 // and, beside that, in m.

@@ -29,7 +29,7 @@ typedef uint32_t hair_gl_pass;
 #define HAIR_GL_BIT(feature) (1u << (HAIR_GL_ROW_BITS + 2 + (feature)))
 #define HAIR_GL_WITH(feature) HAIR_GL_BIT(HAIR_GL_FEATURE_##feature)
 
-#define HAIR_GL_UNITS (HAIR_UNIT_BODY + HAIR_SHADOW_MAPS)
+#define HAIR_GL_UNITS (HAIR_UNIT_HIDDEN + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 

@@ -32,6 +32,7 @@ FEATURE(IDS, "HAIR_IDS")                 // numbers in place of colour
 FEATURE(MOTION, "HAIR_MOTION")           // velocities in place of colour
 FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
 FEATURE(BLOCKED, "HAIR_BLOCKED")         // bodies block lights
+FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the host has drawn
 
 // A work group per guide and a thread per vertex: a group of 256 threads on guides of 32 vertices would wait for those that do
 // nothing.
@@ -92,11 +93,15 @@ PASS(HIT_GROUP, "interpolate/hit_group", WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_S
 PASS(PREPASS, "interpolate/hit_prepass", WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
 PASS(PREPASS_HIT, "interpolate/hit_gather", 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 interpolate/hit.comp")
 PASS(REPAIR, "interpolate/repair", WITH(STYLED), "HAIR_FINDS_HITS=1 interpolate/repair.comp")
-PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
+PASS(HIDE_FIRST, "draw/hide_first", 0, "draw/hide_first.comp")
+PASS(HIDE_NEXT, "draw/hide_next", 0, "draw/hide_next.comp")
+PASS(HIDE_GUIDES, "draw/hide_guides", 0, "draw/hide_guides.comp")
+PASS(HIDE_PATCHES, "draw/hide_patches", WITH(HITS), "draw/hide_patches.comp")
+PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS) | WITH(HIDDEN), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
 PASS(INSTANCED, "draw/instanced", DRAW_FEATURES | WITH(HITS), "HAIR_LISTED=1 draw/strand.vert" DRAW_STAGES)
 PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
-PASS(COUNT, "draw/count", 0, "HAIR_LISTED=1 draw/count.comp")
-PASS(LIST, "draw/list", 0, "HAIR_LISTED=1 draw/list.comp")
+PASS(COUNT, "draw/count", WITH(HIDDEN), "HAIR_LISTED=1 draw/count.comp")
+PASS(LIST, "draw/list", WITH(HIDDEN), "HAIR_LISTED=1 draw/list.comp")
 PASS(BUCKET, "draw/bucket", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/bucket.comp")
 PASS(BUCKETS, "draw/buckets", 0, "HAIR_LISTED=1 draw/buckets.comp")
 PASS(PLACE, "draw/place", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PLACES=1 draw/bucket.comp")

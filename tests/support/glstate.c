@@ -205,7 +205,7 @@ static const struct row queries[] = {
 };
 
 #define COUNT(rows) (sizeof rows / sizeof *rows)
-#define UNITS 23
+#define UNITS 24
 
 static void put(struct hair_test_glstate* out, const char* name, int i, int64_t value)
 {

@@ -1,0 +1,142 @@
+// hide_patches.comp - which patches are hidden: those every part of whose followers is behind all that the host has drawn where
+// it is. A work group per patch.
+#version 450 core
+#include "hide.glsl"
+#include "fetch.glsl"
+#include "look.glsl"
+#include "ordered.glsl"
+#ifdef HAIR_HITS
+layout(binding = HAIR_UNIT_HIT) uniform samplerBuffer hit_texture;
+layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
+#endif
+
+layout(std430, binding = HAIR_BIND_HIDE_BOX) readonly restrict buffer hide_box_buffer { vec4 box[]; };
+layout(std430, binding = HAIR_BIND_HIDE_PATCH) restrict buffer hide_patch_buffer { hair_patch patches[]; };
+
+#define GIVE 1.1 // as in detail.glsl
+#define TURNS (HAIR_GROUP_SIZE / HAIR_HIDE_PARTS) // threads that look a part up
+#define DIAGONAL 1.4142136 // of what goes aside along two axes
+
+shared uint lower[HAIR_HIDE_PARTS][3], upper[HAIR_HIDE_PARTS][3]; // of all followers: see ordered.glsl; the latter turned round
+shared uint seen;
+
+// What solids do to a follower: by how far it is moved, m; by what share of it it is longer; and whether it is freed of other
+// guides than its own.
+vec3 find_repair(uint number)
+{
+    vec3 most = vec3(0.0);
+#ifdef HAIR_HITS
+    if (texelFetch(hit_texture, int(number)).x > float(draw.segments)) return most;
+    most.z = 1.0;
+    if (draw.collision == HAIR_COLLISION_IS_SWITCH) return most;
+    int first = int(number) * HAIR_REPAIR_CONTROLS;
+    most.y    = max(texelFetch(repair_texture, first).x, 0.0);
+    for (int i = 1; i < HAIR_REPAIR_CONTROLS; ++i) most.x = max(most.x, length(texelFetch(repair_texture, first + i).xyz));
+#endif
+    return most;
+}
+
+// Of a curve along a strand, which never goes beyond what it is given at even places, between two t.
+float most_of(int curve, float from, float to)
+{
+    float most = 0.0;
+    for (int k = int(from * float(HAIR_CURVE_INTERVALS)); k < int(ceil(to * float(HAIR_CURVE_INTERVALS))); ++k)
+        most = max(most, max(curve_at(curve, float(k) / float(HAIR_CURVE_INTERVALS)).x,
+                             curve_at(curve, float(k + 1) / float(HAIR_CURVE_INTERVALS)).x));
+    return most;
+}
+
+// How far a follower is from where its guides are at most, between two t. m
+float find_beside(hair_follower f, float length_, float freed, float from, float to)
+{
+    float offset = 0.0, clump = max(most_of(HAIR_CURVE_CLUMP, from, to), freed);
+    for (int i = 0; i < 4; ++i) offset = max(offset, length(f.offset[i].xyz));
+    vec2  own    = random_pair(f.seed + 1u); // As in stray.
+    float strays = 0.0;
+    if (own.x < draw.strand.tip_strays) strays += most_of(HAIR_CURVE_TIP_STRAY, from, to);
+    if (own.y < draw.strand.strays) strays += most_of(HAIR_CURVE_STRAY, from, to);
+    offset *= (1.0 - f.multi * (1.0 - clump)) * most_of(HAIR_CURVE_CLUMP_WIDTH, from, to);
+    if (f.multi > 0.0) offset += length(vec3(f.offset[1].w, f.offset[2].w, f.offset[3].w));
+    return offset + DIAGONAL * strays * length_ + draw.strand.most_aside;
+}
+
+void widen(uint part, uint guide, float by)
+{
+    uint  at = 2u * (guide * HAIR_HIDE_PARTS + part);
+    uvec3 low = to_ordered(box[at].xyz - by), high = ~to_ordered(box[at + 1u].xyz + by);
+    for (int k = 0; k < 3; ++k) {
+        atomicMin(lower[part][k], low[k]);
+        atomicMin(upper[part][k], high[k]);
+    }
+}
+
+// A follower is where its guides are, as far as they go, but for what takes it aside. Beyond their tips it goes straight on.
+void widen(uint number, float thickness)
+{
+    hair_follower f       = fetch_whole(number);
+    vec3          repair  = find_repair(number);
+    float         length_ = GIVE * f.length_ratio * box[2u * (f.guide0 * HAIR_HIDE_PARTS + HAIR_HIDE_PARTS) - 1u].w;
+    float         last    = f.length_ratio * (1.0 + repair.y), each = 1.0 / (float(HAIR_HIDE_PARTS) * f.length_ratio);
+    for (uint part = 0u; part < HAIR_HIDE_PARTS; ++part) {
+        bool  ends = part == HAIR_HIDE_PARTS - 1u;
+        float from = float(part) * each, to = ends ? 1.0 : min(from + each, 1.0);
+        if (float(part) > last * float(HAIR_HIDE_PARTS)) break;
+        float by = find_beside(f, length_, repair.z, min(from, 0.999), to) + repair.x + hide.thick * thickness * f.offset[0].w;
+        if (ends) by += length_ * (1.0 + repair.y) * max(1.0 - 1.0 / last, 0.0);
+        widen(part, f.guide0, by);
+        if (f.multi > 0.0) widen(part, f.guide1, by);
+        if (f.multi > 0.0) widen(part, f.guide2, by);
+    }
+}
+
+// Whether a box is, by the texels whose turn it is, in a level of which it covers few. What crosses the eye's plane, is partly
+// outside or is no number is not hidden.
+bool is_hidden(vec3 low, vec3 high, int turn)
+{
+    vec2  from = vec2(NOWHERE), to = vec2(-NOWHERE);
+    float near = NOWHERE;
+    for (int i = 0; i < 8; ++i) {
+        vec4 at = hide.to_texture * vec4(mix(low, high, notEqual(i & ivec3(1, 2, 4), ivec3(0))), 1.0);
+        if (!(at.w > 0.0)) return false;
+        from = min(from, at.xy / at.w);
+        to   = max(to, at.xy / at.w);
+        near = min(near, at.z / at.w);
+    }
+    vec2 beside = vec2(hide.beside_x, hide.beside_y), texels = vec2(hide.width, hide.height) / float(HAIR_HIDE_FIRST);
+    from = hide.clips != 0u ? max(from - beside, 0.0) : from - beside;
+    to   = hide.clips != 0u ? min(to + beside, 1.0) : to + beside;
+    if (!(all(greaterThanEqual(from, vec2(0.0))) && all(lessThanEqual(to, vec2(1.0))) && all(lessThan(from, to)))) return false;
+    ivec2 first = ivec2(hide.first_x, hide.first_y), most = ivec2(ceil(texels)) - 1;
+    ivec2 a = min(ivec2(from * texels), most) - first, b = min(ivec2(to * texels), most) - first;
+    hide_level level = first_level();
+    if (any(lessThan(a, ivec2(0))) || any(greaterThanEqual(b, level.size))) return false;
+    for (uint k = 1u; k < hide.levels && any(greaterThanEqual(b - a, ivec2(HAIR_HIDE_TEXELS))); ++k) {
+        level = next_level(level);
+        a /= HAIR_HIDE_NEXT, b /= HAIR_HIDE_NEXT;
+    }
+    float far = -NOWHERE;
+    ivec2 count = b - a + 1;
+    for (int k = turn; k < count.x * count.y; k += TURNS)
+        far = max(far, farthest[level.first + (a.y + k / count.x) * level.size.x + a.x + k % count.x]);
+    return near < NOWHERE && min(near, hide.most) > far + hide.slack;
+}
+
+void main()
+{
+    uint number = hair_group(), i = gl_LocalInvocationID.x;
+    if (number >= uint(patches.length())) return;
+    if (i < HAIR_HIDE_PARTS)
+        for (int k = 0; k < 3; ++k) lower[i][k] = upper[i][k] = 0xffffffffu;
+    if (i == 0u) seen = 0u;
+    synchronise();
+    float thickness = dot(patches[number].map_thickness, draw.map_weights);
+    for (uint k = i; k < patches[number].count; k += HAIR_GROUP_SIZE) widen(patches[number].first + k, thickness);
+    synchronise();
+    uint  part = i / TURNS;
+    uvec3 low = uvec3(lower[part][0], lower[part][1], lower[part][2]);
+    uvec3 high = ~uvec3(upper[part][0], upper[part][1], upper[part][2]);
+    bool  there = low.x <= high.x;
+    if (there && !is_hidden(from_ordered(low), from_ordered(high), int(i % TURNS))) atomicOr(seen, 1u);
+    synchronise();
+    if (i == 0u) patches[number].hidden = 1u - seen;
+}

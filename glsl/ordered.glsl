@@ -1,0 +1,16 @@
+// ordered.glsl - bits that are in the order of the numbers that they stand for, for what is the least and the most.
+#ifndef HAIR_ORDERED_GLSL
+#define HAIR_ORDERED_GLSL
+
+uvec3 to_ordered(vec3 x)
+{
+    uvec3 b = floatBitsToUint(x);
+    return mix(b | 0x80000000u, ~b, notEqual(b & 0x80000000u, uvec3(0u)));
+}
+
+vec3 from_ordered(uvec3 u)
+{
+    return uintBitsToFloat(mix(~u, u & 0x7fffffffu, notEqual(u & 0x80000000u, uvec3(0u))));
+}
+
+#endif

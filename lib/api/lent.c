@@ -1,0 +1,68 @@
+// lent.c - textures that the host lends a view: what is none of the kind would raise the host's error flag, or stay bound.
+#include "lib/api/api.h"
+
+// 0: there is no such texture. Mesa takes it for an error to be asked for the target of a texture of a buffer.
+static GLenum find_target(const struct hair_gl* gl, GLuint texture)
+{
+    GLint target = 0, buffer = 0;
+    if (!gl->IsTexture(texture)) return 0;
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
+    if (buffer) return GL_TEXTURE_BUFFER;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    return (GLenum)target;
+}
+
+static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
+{
+    const struct hair_gl* gl = &hair->context->gl;
+    if (!texture || find_target(gl, texture) == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture",
+                     hair->label, light, name, texture);
+}
+
+static hair_result check_maps(const hair_instance* hair, const hair_view* view)
+{
+    hair_result result = HAIR_OK;
+    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
+        result = check_map(hair, view->lights[i].shadow_texture, i, "shadow_texture");
+        if (!result) result = check_map(hair, view->lights[i].body_texture, i, "body_texture");
+    }
+    return result;
+}
+
+static hair_result check_color(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl = &hair->context->gl;
+    if (!view->color_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
+    if (find_target(gl, view->color_texture) == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
+                     hair->label, view->color_texture);
+}
+
+// What shaders read of it is depth.
+static int is_depth(const struct hair_gl* gl, GLuint texture)
+{
+    GLint base = 0, type = GL_NONE, stencil = 0, reads = GL_DEPTH_COMPONENT;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_TYPE, &type);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_STENCIL_SIZE, &stencil);
+    if (stencil) gl->GetTextureParameteriv(texture, GL_DEPTH_STENCIL_TEXTURE_MODE, &reads);
+    return type != GL_NONE && reads == GL_DEPTH_COMPONENT;
+}
+
+static hair_result check_depth(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl      = &hair->context->gl;
+    GLuint                texture = view->depth_texture;
+    if (!hair_draw_hides(view)) return HAIR_OK;
+    if (find_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                     "%s: hair_view.depth_texture is %u, not a 2D texture of depth", hair->label, texture);
+}
+
+hair_result hair_check_lent(const hair_instance* hair, const hair_view* view)
+{
+    hair_result result = check_maps(hair, view);
+    if (!result) result = check_color(hair, view);
+    return result ? result : check_depth(hair, view);
+}

@@ -1,0 +1,197 @@
+// hidden.c - which patches a view need not draw, since the host has drawn something in front of all that they can reach.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+#define BESIDE 2.0f           // pixels, by which what is drawn of a strand may be wider than the strand
+#define ROUNDED 2.3841858e-7f // 2^-22: what arithmetic leaves of depth; a texture may leave less
+
+int hair_draw_hides(const hair_view* view)
+{
+    return view->depth_texture && view->pass != HAIR_PASS_GUIDES;
+}
+
+void hair_draw_free_hidden(struct hair_draw* draw)
+{
+    struct hair_hidden* hidden = &draw->hidden;
+    hair_gl_free_buffer(draw->gl, &hidden->params);
+    hair_gl_free_buffer(draw->gl, &hidden->depth);
+    hair_gl_free_buffer(draw->gl, &hidden->box);
+    hidden->room = 0;
+}
+
+static double find_minor(const float m[16], int a, int b, int c, int row0, int row1, int row2)
+{
+    const double x[3] = {(double)m[4 * a + row0], (double)m[4 * b + row0], (double)m[4 * c + row0]};
+    const double y[3] = {(double)m[4 * a + row1], (double)m[4 * b + row1], (double)m[4 * c + row1]};
+    const double z[3] = {(double)m[4 * a + row2], (double)m[4 * b + row2], (double)m[4 * c + row2]};
+    return x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0]) +
+           x[2] * (y[0] * z[1] - y[1] * z[0]);
+}
+
+// 1: depth grows away from the eye; -1: it falls; 0: there is no saying. In perspective x, y and w are 0 at the eye, so that depth
+// along a ray from there is what it is infinitely far away and z of the eye over w: the eye, times its z, is the third column of the
+// inverse. Orthographic, `back` is the way to the eye.
+static float find_sign(const float m[16], hair_vec3 back)
+{
+    double determinant = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int other[3] = {i == 0, i <= 1 ? 2 : 1, i <= 2 ? 3 : 2};
+        double    part     = (double)m[4 * i + 3] * find_minor(m, other[0], other[1], other[2], 0, 1, 2);
+        determinant += i % 2 ? part : -part;
+    }
+    if (!(fabs(determinant) > 0) || !isfinite(determinant)) return 0;
+    double grows = find_minor(m, 0, 1, 2, 0, 1, 3) * determinant;
+    if (m[3] == 0 && m[7] == 0 && m[11] == 0)
+        grows = -(double)hair_dot(hair_v3(m[2], m[6], m[10]), back) * (double)m[15];
+    return grows > 0 ? 1.0f : grows < 0 ? -1.0f : 0.0f;
+}
+
+// From clip space to the texture: xy to [0, 1], z to what the host has in it.
+static void write_texture(struct hair_gl* gl, float to_texture[16], float range[2])
+{
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    range[0] = 0, range[1] = 1;
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    gl->GetFloatv(GL_DEPTH_RANGE, range);
+    float far = range[1] - range[0], half[16] = {[0] = 0.5f, [5] = 0.5f, [12] = 0.5f, [13] = 0.5f, [15] = 1};
+    half[10] = mode == GL_ZERO_TO_ONE ? far : 0.5f * far;
+    half[14] = mode == GL_ZERO_TO_ONE ? range[0] : 0.5f * (range[0] + range[1]);
+    memcpy(to_texture, half, sizeof half);
+}
+
+static int is_given(const float matrix[16])
+{
+    for (int i = 0; i < 16; ++i)
+        if (matrix[i] != 0) return 1;
+    return 0;
+}
+
+// What the texture was drawn with, from the head's origin.
+static void find_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                      const hair_mat4* own, float clip[16])
+{
+    float     projection[16], placed[16];
+    hair_mat4 given = hair_mat4_from_head(view->depth_matrix, head);
+    memcpy(placed, own, sizeof placed);
+    hair_draw_project(draw, view, projection);
+    if (is_given(view->depth_matrix))
+        memcpy(clip, &given, sizeof given);
+    else
+        hair_mat4_multiply(projection, placed, clip);
+}
+
+// From what is seen from, roughly, to it.
+static hair_vec3 find_back(const struct hair_draw* draw, const struct hair_pose* head, hair_vec4 eye)
+{
+    hair_vec3 middle = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
+    hair_vec3 at     = {eye.x, eye.y, eye.z};
+    return eye.w > 0 ? hair_sub(at, middle) : at;
+}
+
+static void find_size(struct hair_gl* gl, GLuint texture, struct hair_hide_params* out)
+{
+    GLint base = 0, size[2] = {0}, bits = 0;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_WIDTH, &size[0]);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_HEIGHT, &size[1]);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_SIZE, &bits);
+    out->width  = (uint32_t)size[0];
+    out->height = (uint32_t)size[1];
+    out->slack  = fmaxf(ROUNDED, ldexpf(1, -bits));
+}
+
+// Texels of the first level that hair reaches to, where that can be told; else all of them.
+static int find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                       struct hair_hide_params* out)
+{
+    float          window[4] = {0, 0, 1, 1};
+    const float    beside[2] = {out->beside_x, out->beside_y};
+    const uint32_t size[2]   = {out->width, out->height};
+    uint32_t       first[2], end[2];
+    if (draw->held) hair_draw_find_window(draw, head, view->lod, &out->to_texture, window);
+    for (int k = 0; k < 2; ++k) {
+        float    texels = (float)size[k] / HAIR_HIDE_FIRST;
+        uint32_t most   = (size[k] + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
+        float    from = fmaxf(window[k] - beside[k], 0), to = fminf(window[2 + k] + beside[k], 1);
+        if (!(from < to)) return 0;
+        first[k] = (uint32_t)(from * texels);
+        end[k]   = (uint32_t)(to * texels) + 1;
+        if (end[k] > most) end[k] = most;
+        if (first[k] >= end[k]) first[k] = end[k] - 1;
+    }
+    out->first_x = first[0], out->first_y = first[1];
+    out->columns = end[0] - first[0], out->rows = end[1] - first[1];
+    out->levels = hair_pyramid_levels(out->columns, out->rows);
+    return 1;
+}
+
+int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                          struct hair_hide_params* out)
+{
+    struct hair_gl* gl  = draw->gl;
+    hair_mat4       own = hair_mat4_from_head(view->view, head);
+    float           clip[16], to_texture[16], matrix[16], range[2];
+    GLfloat         viewport[4] = {0};
+    memset(out, 0, sizeof *out);
+    if (!hair_draw_hides(view)) return 0;
+    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    find_size(gl, view->depth_texture, out);
+    find_clip(draw, head, view, &own, clip);
+    write_texture(gl, to_texture, range);
+    hair_mat4_multiply(to_texture, clip, matrix);
+    out->sign = find_sign(matrix, find_back(draw, head, hair_draw_find_eye(&own, view->projection)));
+    for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
+    memcpy(&out->to_texture, matrix, sizeof matrix);
+    out->most     = fmaxf(out->sign * range[0], out->sign * range[1]);
+    out->thick    = (float)hair_draw_thickest(draw, view->lod);
+    out->beside_x = BESIDE / fmaxf(viewport[2], 1) + 1 / (float)out->width;
+    out->beside_y = BESIDE / fmaxf(viewport[3], 1) + 1 / (float)out->height;
+    out->clips    = !is_given(view->depth_matrix);
+    out->guides   = draw->guides;
+    return out->sign != 0 && find_texels(draw, head, view, out);
+}
+
+hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params)
+{
+    draw->used[HAIR_DRAW_HIDDEN] = draw->frame;
+    struct hair_gl*     gl       = draw->gl;
+    struct hair_hidden* hidden   = &draw->hidden;
+    size_t              texels   = hair_pyramid_texels(params->columns, params->rows);
+    size_t              boxes    = (size_t)draw->guides * HAIR_HIDE_PARTS * 2;
+    hair_result         result   = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
+                                           draw->hits.active ? HAIR_GL_WITH(HITS) : 0);
+    if (!result && texels > hidden->room) {
+        // So many as all of the texture may want, that it need not be made again when hair comes nearer.
+        uint32_t columns = (params->width + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
+        uint32_t rows    = (params->height + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
+        size_t   room    = hair_pyramid_texels(columns, rows);
+        hair_gl_free_buffer(gl, &hidden->depth);
+        hidden->room = 0;
+        result       = hair_gl_storage(gl, "hair hidden depth", room * sizeof(float), NULL, &hidden->depth);
+        if (!result) hidden->room = room;
+    }
+    if (!result && !hidden->box)
+        result = hair_gl_storage(gl, "hair hidden boxes", boxes * sizeof(hair_vec4), NULL, &hidden->box);
+    if (!result && !hidden->params)
+        result = hair_gl_uniform(gl, "hair hidden", sizeof *params, &hidden->params);
+    return result;
+}
+
+void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params)
+{
+    struct hair_gl*     gl        = draw->gl;
+    struct hair_hidden* hidden    = &draw->hidden;
+    GLuint              buffers[] = {hidden->depth, hidden->box, draw->patch};
+    uint32_t            parts     = draw->guides * HAIR_HIDE_PARTS;
+    hair_gl_pass        patches   = HAIR_GL_HIDE_PATCHES;
+    if (draw->hits.active) patches = hair_gl_with(patches, HAIR_GL_WITH(HITS));
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HIDE, 1, &hidden->params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIDE_DEPTH, 3, buffers);
+    gl->BindTextureUnit(HAIR_UNIT_HIDDEN, view->depth_texture);
+    gl->BindSampler(HAIR_UNIT_HIDDEN, gl->shadow_sampler);
+    hair_pyramid_run(gl, hidden->params, params);
+    hair_gl_run(gl, HAIR_GL_HIDE_GUIDES, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, patches, draw->patches);
+}

@@ -1,0 +1,41 @@
+// pyramid.c - the farthest depth of what the host has drawn, of ever larger texels: see glsl/hide.glsl.
+#include "lib/draw/hidden.h"
+
+static uint32_t next(uint32_t texels)
+{
+    return (texels + HAIR_HIDE_NEXT - 1) / HAIR_HIDE_NEXT;
+}
+
+// A box is looked up in HAIR_HIDE_TEXELS texels along each axis: a level that has no more needs none above it.
+uint32_t hair_pyramid_levels(uint32_t columns, uint32_t rows)
+{
+    uint32_t levels = 1;
+    for (; columns > HAIR_HIDE_TEXELS || rows > HAIR_HIDE_TEXELS; ++levels) {
+        columns = next(columns);
+        rows    = next(rows);
+    }
+    return levels;
+}
+
+size_t hair_pyramid_texels(uint32_t columns, uint32_t rows)
+{
+    size_t texels = 0;
+    for (uint32_t levels = hair_pyramid_levels(columns, rows); levels > 0; --levels) {
+        texels += (size_t)columns * rows;
+        columns = next(columns);
+        rows    = next(rows);
+    }
+    return texels;
+}
+
+void hair_pyramid_run(struct hair_gl* gl, GLuint uniform, struct hair_hide_params* params)
+{
+    uint32_t columns = params->columns, rows = params->rows;
+    for (params->level = 0; params->level < params->levels; ++params->level) {
+        uint32_t groups = (uint32_t)(((size_t)columns * rows + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+        hair_gl_write_uniform(gl, uniform, sizeof *params, params);
+        hair_gl_run(gl, params->level ? HAIR_GL_HIDE_NEXT : HAIR_GL_HIDE_FIRST, groups);
+        columns = next(columns);
+        rows    = next(rows);
+    }
+}
