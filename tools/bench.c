@@ -204,9 +204,7 @@ static int print_table(const struct bench* bench)
     if ((options->json && !strcmp(options->json, "-")) || (options->csv && !strcmp(options->csv, "-")))
         return HAIR_EXIT_OK;
     bench_write_table(&bench->rows, stdout);
-    if (!fflush(stdout)) return HAIR_EXIT_OK;
-    hair_complain(BENCH_TOOL, "cannot write the table");
-    return HAIR_EXIT_RUNTIME;
+    return hair_flush(BENCH_TOOL);
 }
 
 static int run(struct bench* bench)

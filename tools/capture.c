@@ -336,9 +336,7 @@ static int print_hashes(const struct capture* capture)
     if (!capture->options.hash) return HAIR_EXIT_OK;
     printf("strands %016llx\npixels %016llx\n", (unsigned long long)XXH3_64bits_digest(capture->strands),
            (unsigned long long)XXH3_64bits_digest(capture->pixels));
-    if (!fflush(stdout)) return HAIR_EXIT_OK;
-    hair_complain(TOOL, "cannot write the hashes");
-    return HAIR_EXIT_RUNTIME;
+    return hair_flush(TOOL);
 }
 
 static int run(struct capture* capture)

@@ -59,7 +59,7 @@ static int print_help(void)
                 "  --version     the version of the library\n\n"
                 "It runs in the repository's root. A row is a line of tools/gallery.inl.\n"
                 "Exit status: 0 done, 1 failed while running, 2 wrong use.\n");
-    return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+    return hair_flush(TOOL);
 }
 
 // Where everything goes ---------------------------------------------------------------------------------------
@@ -236,7 +236,7 @@ static int print_list(const struct gallery* gallery)
         else
             printf("  %s: %s\n", entries[i].caption, entries[i].arguments);
     }
-    return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+    return hair_flush(TOOL);
 }
 
 static bool wrong(const char* option, const char* text, const char* must)
@@ -291,7 +291,7 @@ int main(int count, char** arguments)
         if (found == 'h') return print_help();
         if (found == 'v') {
             printf(TOOL " %d.%d.%d\n", HAIR_VERSION_MAJOR, HAIR_VERSION_MINOR, HAIR_VERSION_PATCH);
-            return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+            return hair_flush(TOOL);
         }
         lists |= found == 'l';
         if (found != 'l' && !take(&gallery, found, optarg)) return HAIR_EXIT_USAGE;

@@ -406,10 +406,6 @@ static int run(int count, char** arguments)
 int main(int count, char** arguments)
 {
     signal(SIGPIPE, SIG_IGN); // A reader that went away is a failed write, not a death.
-    int code = run(count, arguments);
-    if (fflush(stdout) || ferror(stdout)) {
-        hair_complain(TOOL, "cannot write to the standard output: %s", strerror(errno));
-        return code ? code : HAIR_EXIT_RUNTIME;
-    }
-    return code;
+    int code = run(count, arguments), printed = hair_flush(TOOL);
+    return code ? code : printed;
 }

@@ -81,14 +81,14 @@ static int print_help(void)
     }
     printf("\nFILE may be \"-\", the standard output, which then has no table.\n"
            "Exit status: 0 done, 1 failed while running, 2 wrong use, 3 no OpenGL 4.5.\n");
-    return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+    return hair_flush(BENCH_TOOL);
 }
 
 static int print_version(void)
 {
     uint32_t version = hair_version();
     printf(BENCH_TOOL " %u.%u.%u\n", version / 10000, version / 100 % 100, version % 100);
-    return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+    return hair_flush(BENCH_TOOL);
 }
 
 static int misuse(void)

@@ -114,7 +114,7 @@ static int print_help(const char* tool)
     hair_settings_print(stdout);
     printf(
         "\nExit status: 0 done, 1 failed while running, 2 wrong use, 3 no OpenGL 4.5, 4 unusable input.\n");
-    return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+    return hair_flush(tool);
 }
 
 // Values ----------------------------------------------------------------------------------------------------
@@ -270,7 +270,7 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
         if (row->option == VERSION) {
             uint32_t version = hair_version();
             printf("%s %u.%u.%u\n", tool, version / 10000, version / 100 % 100, version % 100);
-            return fflush(stdout) ? HAIR_EXIT_RUNTIME : HAIR_EXIT_OK;
+            return hair_flush(tool);
         }
         if (!take(tool, row, optarg, said, out)) return HAIR_EXIT_USAGE;
     }

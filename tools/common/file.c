@@ -10,6 +10,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// What does not fit into its buffer has been written earlier, and failed then.
+int hair_flush(const char* tool)
+{
+    if (!fflush(stdout) && !ferror(stdout)) return HAIR_EXIT_OK;
+    hair_complain(tool, "cannot write to the standard output: %s", strerror(errno));
+    return HAIR_EXIT_RUNTIME;
+}
+
 void hair_complain(const char* tool, const char* format, ...)
 {
     char    sentence[1024];

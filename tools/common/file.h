@@ -18,6 +18,9 @@ void hair_print_log(hair_log_level level, const char* sentence, void* tool);
 // "TOOL: PATH", to be such a user while a file is read, so that one sentence says which. Lives until the next call.
 const char* hair_log_name(const char* tool, const char* path);
 
+// What was printed on the standard output is there: HAIR_EXIT_OK, else HAIR_EXIT_RUNTIME.
+int hair_flush(const char* tool);
+
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
 struct hair_bytes {
