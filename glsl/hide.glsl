@@ -1,5 +1,5 @@
 // hide.glsl - what the host has drawn, as how far the farthest of it is: a pyramid (Greene, Kass and Miller 1993) of levels, one
-// after the other in a buffer. Depth is turned so that more of it is farther away.
+// after the other in a buffer. Depth has the sign by which more of it is farther away.
 #ifndef HAIR_HIDE_GLSL
 #define HAIR_HIDE_GLSL
 

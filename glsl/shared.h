@@ -425,14 +425,14 @@ HAIR_SIZE(hair_crowd_params, 80)
 
 // Of the passes that find which patches the host's depth hides.
 struct hair_hide_params {
-    hair_mat4 to_texture; // from the head's origin: xy texture coordinates, z depth that grows away from the eye, times w
+    hair_mat4 to_texture; // from the head's origin: xy texture coordinates, z depth with the sign, times w
     hair_uint width, height;   // of the host's texture
     hair_uint first_x, first_y; // texel of its first level, were all of it made, where that begins;
     hair_uint columns, rows;   // and so many of them there are
     hair_uint levels;
     hair_uint level;    // that is made of the one before it
-    float     sign;     // times the host's depth: that grows away from the eye
-    float     most;     // the farthest there is, so
+    float     sign;     // 1, or -1 where the host's depth falls with the distance
+    float     most;     // the farthest depth there is, with the sign
     float     slack;    // what depth is rounded by
     float     thick;    // m: of strands, that maps and the groom make no thicker, at most
     float     beside_x, beside_y; // of texture coordinates: by which what is drawn is wider than that

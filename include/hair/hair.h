@@ -901,8 +901,9 @@ typedef struct hair_view {
     /// roots, as the texture itself filters them. 0, or a groom without uvs: none.
     uint32_t color_texture;
     /// Of OpenGL: 2D, depth of what you have drawn that is opaque, as that may be bound to be drawn to as well: patches of strands
-    /// that are wholly behind it are not drawn, by any path. Of any size; all of it is what the viewport is. Its depth may be
-    /// reversed, by the matrix or glDepthRange; that and glClipControl are as they were when it was drawn. 0: none.
+    /// that are wholly behind it are not drawn, by any path. Of any size; all of it is what the viewport is. What is behind says
+    /// glDepthFunc: reversed depth is fine, by one that is neither less nor greater nothing is hidden. glDepthRange and
+    /// glClipControl are as they were when it was drawn. Not of HAIR_PASS_GUIDES, _SOLIDS and _WIND. 0: none.
     uint32_t depth_texture;
     /// World to clip space of that, as of the frame before: what since has come out from behind something is drawn a frame late,
     /// and what was not in that picture is drawn. All 0: the view's own, projection times view. Default 0.

@@ -63,7 +63,7 @@ static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked
     return HAIR_WHY_OUT_OF_VIEW;
 }
 
-// Where hair was in none of the pictures that are to hide it, nothing of it is hidden.
+// Where hair was in none of the pictures that are to hide it, or the depth test tells no near from far, nothing of it is hidden.
 static hair_why why_not_hidden(const struct hair_asked* asked)
 {
     hair_why shown = why_not_shown(asked);

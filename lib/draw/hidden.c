@@ -21,41 +21,25 @@ void hair_draw_free_hidden(struct hair_draw* draw)
     hidden->room = 0;
 }
 
-static double find_minor(const float m[16], int a, int b, int c, int row0, int row1, int row2)
+// Of depth that is farther: what the host's depth test goes by. 0: it tells no near from far.
+static float find_sign(struct hair_gl* gl)
 {
-    const double x[3] = {(double)m[4 * a + row0], (double)m[4 * b + row0], (double)m[4 * c + row0]};
-    const double y[3] = {(double)m[4 * a + row1], (double)m[4 * b + row1], (double)m[4 * c + row1]};
-    const double z[3] = {(double)m[4 * a + row2], (double)m[4 * b + row2], (double)m[4 * c + row2]};
-    return x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0]) +
-           x[2] * (y[0] * z[1] - y[1] * z[0]);
-}
-
-// 1: depth grows away from the eye; -1: it falls; 0: there is no saying. In perspective x, y and w are 0 at the eye, so that depth
-// along a ray from there is what it is infinitely far away and z of the eye over w: the eye, times its z, is the third column of the
-// inverse. Orthographic, `back` is the way to the eye.
-static float find_sign(const float m[16], hair_vec3 back)
-{
-    double determinant = 0;
-    for (int i = 0; i < 4; ++i) {
-        const int other[3] = {i == 0, i <= 1 ? 2 : 1, i <= 2 ? 3 : 2};
-        double    part     = (double)m[4 * i + 3] * find_minor(m, other[0], other[1], other[2], 0, 1, 2);
-        determinant += i % 2 ? part : -part;
-    }
-    if (!(fabs(determinant) > 0) || !isfinite(determinant)) return 0;
-    double grows = find_minor(m, 0, 1, 2, 0, 1, 3) * determinant;
-    if (m[3] == 0 && m[7] == 0 && m[11] == 0)
-        grows = -(double)hair_dot(hair_v3(m[2], m[6], m[10]), back) * (double)m[15];
-    return grows > 0 ? 1.0f : grows < 0 ? -1.0f : 0.0f;
+    GLint function = GL_LESS;
+    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
+    if (function == GL_LESS || function == GL_LEQUAL) return 1;
+    return function == GL_GREATER || function == GL_GEQUAL ? -1.0f : 0.0f;
 }
 
 // From clip space to the texture: xy to [0, 1], z to what the host has in it.
 static void write_texture(struct hair_gl* gl, float to_texture[16], float range[2])
 {
-    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE, origin = GL_LOWER_LEFT;
     range[0] = 0, range[1] = 1;
     gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    gl->GetIntegerv(GL_CLIP_ORIGIN, &origin);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
     float far = range[1] - range[0], half[16] = {[0] = 0.5f, [5] = 0.5f, [12] = 0.5f, [13] = 0.5f, [15] = 1};
+    if (origin == GL_UPPER_LEFT) half[5] = -0.5f;
     half[10] = mode == GL_ZERO_TO_ONE ? far : 0.5f * far;
     half[14] = mode == GL_ZERO_TO_ONE ? range[0] : 0.5f * (range[0] + range[1]);
     memcpy(to_texture, half, sizeof half);
@@ -80,14 +64,6 @@ static void find_clip(const struct hair_draw* draw, const struct hair_pose* head
         memcpy(clip, &given, sizeof given);
     else
         hair_mat4_multiply(projection, placed, clip);
-}
-
-// From what is seen from, roughly, to it.
-static hair_vec3 find_back(const struct hair_draw* draw, const struct hair_pose* head, hair_vec4 eye)
-{
-    hair_vec3 middle = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
-    hair_vec3 at     = {eye.x, eye.y, eye.z};
-    return eye.w > 0 ? hair_sub(at, middle) : at;
 }
 
 static void find_size(struct hair_gl* gl, GLuint texture, struct hair_hide_params* out)
@@ -141,7 +117,7 @@ int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* 
     find_clip(draw, head, view, &own, clip);
     write_texture(gl, to_texture, range);
     hair_mat4_multiply(to_texture, clip, matrix);
-    out->sign = find_sign(matrix, find_back(draw, head, hair_draw_find_eye(&own, view->projection)));
+    out->sign = find_sign(gl);
     for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
     memcpy(&out->to_texture, matrix, sizeof matrix);
     out->most     = fmaxf(out->sign * range[0], out->sign * range[1]);

@@ -21,7 +21,7 @@ hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 
 // The eye is where the view matrix maps to the origin: -R^-1 t. With an orthographic projection, whose last row is
 // (0, 0, 0, 1), every ray goes one way instead.
-hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
+static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;
     hair_vec3        x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
@@ -92,7 +92,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
                        struct hair_draw_params* out)
 {
     out->view   = hair_mat4_from_head(view->view, head);
-    out->eye    = hair_draw_find_eye(&out->view, view->projection);
+    out->eye    = find_eye(&out->view, view->projection);
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
                               hair_draw_cell(draw, view)};
     out->head   = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};

@@ -17,9 +17,8 @@ struct hair_light_maps {
     GLuint   shadow, body;
 };
 
-// Where a view looks from: w 1; w 0: the way there, orthographic. And its projection with the jitter, for the viewport that is set.
-hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16]);
-void      hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
+// A view's projection with the jitter, for the viewport that is set.
+void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
 
 // lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,

@@ -21,18 +21,32 @@ struct scene {
     uint32_t heads, moving, seen;
     bool     sleeps, solids, fluid, blind; // blind: nothing is drawn
     uint32_t lights;
+    enum { NO_DEPTH, NO_WALL, WALL } before; // in a buffer of depth, which
+    bool lends;                              // it lends the view
 };
 
 static const struct pair {
     const char*  name;
     struct scene all, less;
 } pairs[] = {
-    {"idle head", {1, 0, 1, false, false, false, true, 1}, {1, 0, 1, true, false, false, true, 1}},
-    {"off screen", {1, 1, 1, true, false, false, false, 1}, {1, 1, 0, true, false, false, false, 1}},
-    {"no solids", {1, 1, 1, true, true, false, false, 1}, {1, 1, 1, true, false, false, false, 1}},
-    {"no wind", {1, 1, 1, true, false, true, false, 1}, {1, 1, 1, true, false, false, false, 1}},
-    {"no lights", {1, 1, 1, true, false, false, false, 16}, {1, 1, 1, true, false, false, false, 0}},
-    {"5 of 100", {100, 5, 5, true, false, false, false, 1}, {5, 5, 5, true, false, false, false, 1}},
+    {"idle head",
+     {1, 0, 1, .blind = true, .lights = 1},
+     {1, 0, 1, .sleeps = true, .blind = true, .lights = 1}},
+    {"off screen", {1, 1, 1, .sleeps = true, .lights = 1}, {1, 1, 0, .sleeps = true, .lights = 1}},
+    {"no solids",
+     {1, 1, 1, .sleeps = true, .solids = true, .lights = 1},
+     {1, 1, 1, .sleeps = true, .lights = 1}},
+    {"no wind",
+     {1, 1, 1, .sleeps = true, .fluid = true, .lights = 1},
+     {1, 1, 1, .sleeps = true, .lights = 1}},
+    {"no lights", {1, 1, 1, .sleeps = true, .lights = 16}, {1, 1, 1, .sleeps = true}},
+    {"hidden",
+     {1, 1, 1, .sleeps = true, .lights = 1, .before = WALL},
+     {1, 1, 1, .sleeps = true, .lights = 1, .before = WALL, .lends = true}},
+    {"not lent",
+     {1, 1, 1, .sleeps = true, .lights = 1, .before = NO_WALL, .lends = true},
+     {1, 1, 1, .sleeps = true, .lights = 1, .before = NO_WALL}},
+    {"5 of 100", {100, 5, 5, .sleeps = true, .lights = 1}, {5, 5, 5, .sleeps = true, .lights = 1}},
 };
 
 struct heads {
@@ -40,7 +54,7 @@ struct heads {
     struct scene   scene;
     hair_groom*    groom;
     hair_instance* hair[MOST_HEADS];
-    GLuint         frame, color;
+    GLuint         frame, color, depth;
     uint32_t       frames;
 };
 
@@ -65,6 +79,7 @@ static void die(struct heads* heads)
     hair_groom_destroy(heads->groom);
     glDeleteFramebuffers(1, &heads->frame);
     glDeleteRenderbuffers(1, &heads->color);
+    glDeleteTextures(1, &heads->depth);
 }
 
 static hair_result live(struct heads* heads)
@@ -92,6 +107,10 @@ static hair_result live(struct heads* heads)
     glCreateRenderbuffers(1, &heads->color);
     glNamedRenderbufferStorage(heads->color, GL_RGBA8, SIZE, SIZE);
     glNamedFramebufferRenderbuffer(heads->frame, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, heads->color);
+    if (!heads->scene.before) return result;
+    glCreateTextures(GL_TEXTURE_2D, 1, &heads->depth);
+    glTextureStorage2D(heads->depth, 1, GL_DEPTH_COMPONENT32F, SIZE, SIZE);
+    glNamedFramebufferTexture(heads->frame, GL_DEPTH_ATTACHMENT, heads->depth, 0);
     return result;
 }
 
@@ -106,6 +125,14 @@ static hair_result run_frame(struct heads* heads, bool draws)
     view.light_count                                              = heads->scene.lights;
     glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
     glViewport(0, 0, SIZE, SIZE);
+    view.depth_texture = heads->scene.lends ? heads->depth : 0;
+    if (heads->scene.before) { // What is drawn before hair is: a wall of depth 0, or nothing.
+        float depth = heads->scene.before == WALL ? 0 : 1;
+        glClearNamedFramebufferfv(heads->frame, GL_DEPTH, 0, &depth);
+        glEnable(GL_DEPTH_TEST);
+    } else {
+        glDisable(GL_DEPTH_TEST);
+    }
     for (uint32_t i = 0; i < heads->scene.heads && !result; ++i) {
         float       a = i < heads->scene.moving ? angle : 0, x = 2 * (float)i;
         const float head[16] = {cosf(a), 0, -sinf(a), 0, 0, 1, 0, 0, sinf(a), 0, cosf(a), 0, x, 0, 0, 1};
