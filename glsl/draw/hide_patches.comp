@@ -19,6 +19,7 @@ layout(std430, binding = HAIR_BIND_HIDE_PATCH) restrict buffer hide_patch_buffer
 
 shared uint lower[HAIR_HIDE_PARTS][3], upper[HAIR_HIDE_PARTS][3]; // of all followers: see ordered.glsl; the latter turned round
 shared uint seen;
+shared float given[HAIR_CURVES][HAIR_CURVE_INTERVALS + 1]; // of each curve, at even places
 
 // What solids do to a follower: by how far it is moved, m; by what share of it it is longer; and whether it is freed of other
 // guides than its own.
@@ -39,10 +40,9 @@ vec3 find_repair(uint number)
 // Of a curve along a strand, which never goes beyond what it is given at even places, between two t.
 float most_of(int curve, float from, float to)
 {
+    int   last = int(ceil(to * float(HAIR_CURVE_INTERVALS)));
     float most = 0.0;
-    for (int k = int(from * float(HAIR_CURVE_INTERVALS)); k < int(ceil(to * float(HAIR_CURVE_INTERVALS))); ++k)
-        most = max(most, max(curve_at(curve, float(k) / float(HAIR_CURVE_INTERVALS)).x,
-                             curve_at(curve, float(k + 1) / float(HAIR_CURVE_INTERVALS)).x));
+    for (int k = int(from * float(HAIR_CURVE_INTERVALS)); k <= last; ++k) most = max(most, given[curve][k]);
     return most;
 }
 
@@ -128,6 +128,8 @@ void main()
     if (i < HAIR_HIDE_PARTS)
         for (int k = 0; k < 3; ++k) lower[i][k] = upper[i][k] = 0xffffffffu;
     if (i == 0u) seen = 0u;
+    for (uint k = i; k < HAIR_CURVES * (HAIR_CURVE_INTERVALS + 1u); k += HAIR_GROUP_SIZE)
+        given[k % HAIR_CURVES][k / HAIR_CURVES] = curve_at(int(k % HAIR_CURVES), float(k / HAIR_CURVES) / float(HAIR_CURVE_INTERVALS)).x;
     synchronise();
     float thickness = dot(patches[number].map_thickness, draw.map_weights);
     for (uint k = i; k < patches[number].count; k += HAIR_GROUP_SIZE) widen(patches[number].first + k, thickness);

@@ -165,6 +165,7 @@ struct frame {
     struct hair_frame_lights lights;
     uint32_t                 number;
     hair_instance*           hair;
+    GLuint                   depth; // of what is drawn before the hair; 0: none is lent
 };
 
 static void set_vec3(GLuint program, GLint at, const float value[3])
@@ -215,6 +216,7 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
         of->body_texture   = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
         hair_light_clip(&frame->lights.shadow[i].matrices, of->shadow_matrix);
     }
+    view.depth_texture = pass == HAIR_PASS_COLOR ? frame->depth : 0;
     if (pass == HAIR_PASS_DEPTH && !view.lod)
         view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
     memcpy(view.view, matrices->view, sizeof view.view);
@@ -285,6 +287,21 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     hair_frame_lights_unset(&frame->lights);
 }
 
+// The head's depth, by one sample a pixel, for a tile as large as what is drawn into.
+static GLuint copy_depth(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
+{
+    const struct hair_targets* targets = &render->targets;
+    GLint                      width = 0, height = 0, scale = (GLint)render->desc.supersample;
+    glGetTextureLevelParameteriv(targets->depth, 0, GL_TEXTURE_WIDTH, &width);
+    glGetTextureLevelParameteriv(targets->depth, 0, GL_TEXTURE_HEIGHT, &height);
+    bool whole = width == (GLint)tile->width * scale && height == (GLint)tile->height * scale;
+    if (!frame->scene->settings.hides || !shows_mesh(render, frame) || !whole) return 0;
+    glBlitNamedFramebuffer(targets->framebuffer[HAIR_TARGET_DRAWN],
+                           targets->framebuffer[HAIR_TARGET_RESOLVED], 0, 0, width, height, 0, 0, width,
+                           height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    return targets->depth;
+}
+
 // Average the samples, then the pixels of a supersampled one, and encode.
 static void develop(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
@@ -321,7 +338,7 @@ static void read_pixels(struct hair_render* render, const struct tile* tile)
     glReadPixels(0, 0, width, height, GL_RGB, GL_HALF_FLOAT, render->image.linear + first);
 }
 
-static hair_result draw_tile(struct hair_render* render, const struct frame* frame, const struct tile* tile)
+static hair_result draw_tile(struct hair_render* render, struct frame* frame, const struct tile* tile)
 {
     static const float far   = 1;
     GLsizei            scale = (GLsizei)render->desc.supersample;
@@ -330,6 +347,7 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
     glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_DRAWN], GL_DEPTH, 0, &far);
     draw_background(render, frame, tile);
     draw_skin(render, frame, tile);
+    frame->depth = copy_depth(render, frame, tile);
     static const struct {
         uint32_t  show;
         hair_pass pass;
@@ -347,7 +365,7 @@ static hair_result draw_tile(struct hair_render* render, const struct frame* fra
     return HAIR_OK;
 }
 
-static hair_result draw_tiles(struct hair_render* render, const struct frame* frame,
+static hair_result draw_tiles(struct hair_render* render, struct frame* frame,
                               const struct hair_matrices* camera)
 {
     uint32_t width = render->desc.width, height = render->desc.height, side = render->tile;

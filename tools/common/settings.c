@@ -117,6 +117,7 @@ static const struct row rows[] = {
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"samples", "shares"}},
     {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},
+    {"hide", "leave out hair behind the head", COUNT, {AT(hides)}, {"off", "on"}},
     {"lod", "level of detail", COUNT, {AT(has_lod)}, {"off", "on"}},
     {"lod.strands", "share of the strands drawn, at most", FLOAT, {AT(lod.strands)}, {0}},
     {"lod.segments", "share of their segments, at most", FLOAT, {AT(lod.segments)}, {0}},

@@ -24,6 +24,7 @@ struct hair_settings {
     hair_light      light; // the first of the view's
     hair_lod        lod;
     uint32_t        has_lod; // 1: views have it
+    uint32_t        hides;   // 1: and the depth of the head, which is drawn before hair
 };
 
 struct hair_settings hair_settings_default(void);

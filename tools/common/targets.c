@@ -39,6 +39,7 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     targets->resolved      = make_texture(GL_RGBA16F, wide, high);
     targets->encoded       = make_texture(GL_RGBA8, w, h);
     targets->linear        = make_texture(GL_RGBA16F, w, h);
+    targets->depth         = make_texture(GL_DEPTH_COMPONENT32F, wide, high);
 
     static const GLenum both[]      = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     const GLuint*       framebuffer = targets->framebuffer;
@@ -46,6 +47,7 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     glNamedFramebufferRenderbuffer(drawn, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, targets->color_samples);
     glNamedFramebufferRenderbuffer(drawn, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, targets->depth_samples);
     glNamedFramebufferTexture(framebuffer[HAIR_TARGET_RESOLVED], GL_COLOR_ATTACHMENT0, targets->resolved, 0);
+    glNamedFramebufferTexture(framebuffer[HAIR_TARGET_RESOLVED], GL_DEPTH_ATTACHMENT, targets->depth, 0);
     glNamedFramebufferTexture(encoded, GL_COLOR_ATTACHMENT0, targets->encoded, 0);
     glNamedFramebufferTexture(encoded, GL_COLOR_ATTACHMENT1, targets->linear, 0);
     glNamedFramebufferDrawBuffers(encoded, 2, both);
@@ -57,9 +59,9 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
 
 void hair_targets_delete(struct hair_targets* targets)
 {
-    const GLuint textures[]      = {targets->resolved, targets->encoded, targets->linear};
+    const GLuint textures[]      = {targets->resolved, targets->encoded, targets->linear, targets->depth};
     const GLuint renderbuffers[] = {targets->color_samples, targets->depth_samples};
     glDeleteFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
-    glDeleteTextures(3, textures);
+    glDeleteTextures(4, textures);
     glDeleteRenderbuffers(2, renderbuffers);
 }

@@ -17,6 +17,7 @@ struct hair_targets {
     unsigned framebuffer[HAIR_TARGET_COUNT];
     unsigned color_samples, depth_samples;
     unsigned resolved, encoded, linear;
+    unsigned depth; // of one sample a pixel, of the second
 };
 
 // False: OpenGL has no memory for them. Delete them also then.
