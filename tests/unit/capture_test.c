@@ -109,6 +109,15 @@ static void help_and_version_are_printed_on_the_standard_output(void** state)
     expect(1, "$T --version >/dev/full", "cannot write to the standard output: No space left");
 }
 
+static void hair_behind_the_head_may_be_left_out_and_the_picture_is_the_same(void** state)
+{
+    (void)state;
+    expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --hash > $D/all.txt", "");
+    expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --set hide=on --hash | cmp - $D/all.txt", "");
+    expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --set hide=on --stats - | grep -A1 '\"hide\"'",
+           "done");
+}
+
 static void every_number_of_the_physics_can_be_set(void** state)
 {
     (void)state;
@@ -510,6 +519,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(help_and_version_are_printed_on_the_standard_output),
+        cmocka_unit_test(hair_behind_the_head_may_be_left_out_and_the_picture_is_the_same),
         cmocka_unit_test(every_number_of_the_physics_can_be_set),
         cmocka_unit_test(unusable_input_exits_with_4_and_says_where),
         cmocka_unit_test(a_driver_that_is_too_old_exits_with_3),
