@@ -13,10 +13,12 @@
 #define GLIDES 2.0 // between two solids, along both
 #define STICKS 3.0
 #define STICK_PASS 0.1 // see pass_on
+#define LOCKED 0.9     // share that friction may take of what is along a segment
 #define EMERGE 1.0     // m/s, and in a substep half a segment at most, for lengths to be found
 #define RISE 0.2       // of a vertex out of where its root is, by its distance from that
 
 OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
+OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it
 OWN(uvec2, reachable); // solids, one bit each,
 OWN(uvec2, met);       // and those met in this substep
 float share_then, share_now; // of the step that is done at the substep's start and end
@@ -60,8 +62,8 @@ vec2 granted_to(uint i)
 }
 
 // How deep in one solid the displacement d from `start`, both from the head's origin, leads; below 0: how far off it
-// stays. And the normal there, and what the surface does. A vertex that goes right through is stopped where it goes in.
-float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
+// stays. And how deep it was, and the normal there. A vertex that goes right through is stopped where it goes in.
+float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out vec3 normal)
 {
     capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
     vec3    end = start + d - head_moved;
@@ -74,11 +76,17 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, vec2 granted, out ve
         normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
         depth  = now.radius - dot(normal, out_b);
     }
-    depth -= max(then.radius - length(out_a) - granted.y, granted.x);
-    float along = nearest_share(end, now);
-    surface     = head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
-              cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
+    was = then.radius - length(out_a);
     return depth;
+}
+
+// What the surface does there, at the end of the displacement.
+vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
+{
+    capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
+    float along = nearest_share(end, now);
+    return head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
+           cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
 }
 
 // The freedom that a further contact leaves of what others do.
@@ -103,18 +111,32 @@ float root_depth_in(uint k, bool is_body)
     return solid.radius - length(from_axis(root_now, solid));
 }
 
+// What solids have made of a displacement, and what they leave of it. Without those met: what goes round through a member of a
+// struct glslang follows for ever, where `precise` is.
+struct outcome {
+    vec3  d;
+    vec4  freedom, slip; // as touch and slip have them
+};
+
 // Out of one solid by the depth, and held by its friction.
-uint push_from(uint word, uint bit, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout vec3 d,
-          inout vec4 freedom, inout uvec2 met)
+void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {
-    if (depth <= 0.0 && (kept[word] & bit) == 0u) return 0u;
-    vec3 slip = d - surface;
-    slip -= dot(slip, normal) * normal;
-    float speed = length(slip), grip = params.friction * factor * max(depth, 0.0);
-    bool  stuck = speed <= grip;
-    d += depth * normal - (stuck ? slip : slip * (grip / speed));
-    freedom = stuck ? vec4(normal, STICKS) : left_of(freedom, normal);
-    met[word] |= bit;
+    float friction = params.friction * factor;
+    vec3  way      = made.d - surface;
+    way -= dot(way, normal) * normal;
+    float far = length(way), grip = friction * max(depth, 0.0);
+    bool  stuck = far <= grip;
+    made.d += depth * normal - (stuck ? way : way * (grip / far));
+    made.slip    = stuck || depth <= 0.0 ? vec4(0.0) : vec4(way * (friction / far), grip / far);
+    made.freedom = stuck ? vec4(normal, STICKS) : left_of(made.freedom, normal);
+}
+
+// The same, if it is deep enough in it to matter, or kept by it; returns of how many.
+uint push_from(uvec2 at, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout outcome made, inout uvec2 met)
+{
+    if (depth <= 0.0 && (kept[at.x] & at.y) == 0u) return 0u;
+    push_by(factor, depth, normal, surface, made);
+    met[at.x] |= at.y;
     return 1u;
 }
 
@@ -131,23 +153,12 @@ uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) :
 #endif
 
 // What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
-// would have to pull. Out of a second solid may lead into the first: then out of them once more.
-vec3 allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, out vec4 freedom, inout uvec2 met)
+// would have to pull.
+outcome allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, inout uvec2 met)
 {
-    vec3 d     = want;
-    vec3 start = root_now - root_moved + head_moved + GET(place);
-    freedom    = vec4(0.0, 0.0, 0.0, FREE);
-    uint contacts = 2u;
-    for (uint n = 0u; n < 2u && contacts > 1u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
-#ifdef HAIR_ANY
-        uvec2 tried = enough(i, start, start + d - head_moved);
-        contacts    = push_out(i, start, tried | kept, kept, head_moved, d, freedom, met);
-        if (tried != enough(i, start, start + d - head_moved)) contacts = 2u; // It was led to others.
-#else
-        contacts = push_out(i, start, solids, kept, head_moved, d, freedom, met);
-#endif
-    }
-    return d;
+    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
+    get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);
+    return made;
 }
 
 // The part of a displacement that a contact lets pass. What sticks passes on a little, so that lengths between what
@@ -156,4 +167,16 @@ vec3 pass_on(vec4 freedom, vec3 d)
 {
     vec3 part = dot(d, freedom.xyz) * freedom.xyz;
     return freedom.w == FREE ? d : freedom.w == SLIDES ? d - part : freedom.w == GLIDES ? part : STICK_PASS * (d - part);
+}
+
+// The transpose of what a contact makes of a small change of what is wanted: of what slides friction takes a share across
+// the slip, and along it the more the harder it is pressed. Where that would be all and more it would stick.
+vec3 pass_back(vec4 freedom, vec4 slip, vec3 d)
+{
+    vec3  passed = pass_on(freedom, d);
+    float square = dot(slip.xyz, slip.xyz), along = dot(slip.xyz, d);
+    if (freedom.w != SLIDES || square == 0.0) return passed;
+    passed -= slip.w * (passed - slip.xyz * (along / square));
+    float left = dot(passed, d), pressed = along * dot(freedom.xyz, d);
+    return passed + along * min(1.0, LOCKED * left / max(-pressed, 1e-12)) * freedom.xyz;
 }

@@ -1,135 +1,82 @@
-// contact_any.glsl - any number of solids of any shape: which a vertex can touch, by the list of the cell it is in, and out
-// of them, one after the other.
+// contact_any.glsl - out of any number of solids of any shape.
 //
-// A list is gone through once for as many substeps as it serves: until the vertex goes where it could touch what is not in
-// the list. Of what it can touch, what it can touch near where it was then is enough as long as it stays there.
-OWN(uint, members);    // the first of its cell's, of which the bits are
-OWN(vec4, listed_near); // xyz: where it was then, halfway; w: how far about there `close` is enough
-OWN(uvec2, close);
-#ifdef HAIR_BODIES
-OWN(uvec2, walked); // of reachable: no spheres or capsules
-#endif
-bool has_lists = false;
+// Of spheres and capsules out of the one it is deepest in, then of the one it is deepest in there: many that overlap, as one
+// body is made of them, are left by the shortest way out of all. A vertex that was in some may be as deep in any as it was
+// in the deepest, less what it is to come out in a substep.
+#include "sim/contact_lists.glsl"
 
-// A vertex is taken to be moved by the fitting of lengths no more than this farther than it would go freely. Of a way
-// longer than the lists are made for its end counts.
-#define FIT 0.02   // m
-#define ABOUT 0.004 // m
+#define ROUNDS 4u
+#define AGAIN 1e-6 // m: deep enough in another one to go on
 
-vec3 halfway(vec3 position, vec3 way, float far)
-{
-    return position - way * (min(0.5 * far, params.cells_give) / max(far, 1e-9));
-}
-
-uint member_at(uint first, uint word, uint bit) { return cell_entry(first + 32u * word + uint(findLSB(bit))) & HAIR_MEMBER_NUMBER; }
-
-// Of the solids around, for the rest of the step.
-void list_solids(uint i, vec3 middle, float far)
-{
-    uvec2 list       = cell_members(middle), all = uvec2(0u), few = uvec2(0u), others = uvec2(0u);
-    float about      = min(ABOUT + 2.0 * far, params.cells_give);
-    float reach      = FIT + max(0.5 * far, params.cells_give);
-    for (uint n = 0u; n < min(list.y - list.x, uint(HAIR_CELL_SOLIDS)); ++n) {
-        uint    member = cell_entry(list.x + n), k = member & HAIR_MEMBER_NUMBER, bit = 1u << (n & 31u);
-        vec4    ball = BALL(k);
-        float   off  = length(middle - ball.xyz) - ball.w;
-        if (off < reach) { // Of what is long there is more around.
-            capsule then = solid_at(k, share_then), end = solid_at(k, 1.0);
-            vec3    start = end.start - then.start;
-            float   moves = max(length(start), length(start + end.axis - then.axis));
-            off = length(from_axis(middle, end)) - end.radius - moves;
-        }
-        uvec2   mask  = uvec2(n < 32u ? bit : 0u, n < 32u ? 0u : bit);
-        all |= off < reach ? mask : uvec2(0u);
-        few |= off < about ? mask : uvec2(0u);
-#ifdef HAIR_BODIES
-        others |= (member & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
-#endif
-    }
-    own(members)     = list.x;
-    own(listed_near) = vec4(middle, about);
-    own(reachable)   = all;
-    own(close)       = few;
-#ifdef HAIR_BODIES
-    own(walked) = others;
-#endif
-}
-
-void find_root()
-{
-    uvec2 list = cell_members(root_now);
-    sunk       = 0.0;
-    if (root_is_free) return;
-    for (uint n = list.x; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); ++n) {
-        uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
-        vec4 ball   = BALL(k);
-        if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
-    }
-}
-
-void find_solids(vec3 head_moved)
-{
-    bool serves = has_lists;
-    EACH(guide_count) {
-        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
-        float far = length(way);
-        own(met)  = uvec2(0u);
-        if (own(slack) > 0.0 && has_lists)
-            serves = serves && length(halfway(position, way, far) - own(listed_near).xyz) + 0.5 * far <= params.cells_give;
-    }
-    if (!any_of(bvec2(!serves, false)).x) return;
-    find_root();
-    EACH(guide_count) {
-        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
-        float far = length(way);
-        own(reachable) = uvec2(0u);
-        if (own(slack) > 0.0) list_solids(i, halfway(position, way, far), far);
-    }
-    has_lists = true;
-}
-
-// Of them those that are enough for a way.
-uvec2 enough(uint i, vec3 start, vec3 end)
-{
-    vec4 near = own(listed_near);
-    return max(length(start - near.xyz), length(end - near.xyz)) <= near.w ? own(close) : own(reachable);
-}
-
-// What is far from all that it is need not be looked at.
-bool is_around(uint k, vec3 end, vec3 way)
+// What is far from all that it is need not be looked at: also not after a push as long as the way.
+bool is_around(uint k, vec3 end, float way)
 {
     vec4 ball = BALL(k);
-    return length(end - ball.xyz) <= ball.w + length(way);
+    return length(end - ball.xyz) <= ball.w + 2.0 * way;
 }
 
-// Out of one solid after the other, capsules first; returns of how many.
-uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
+// Out of the deepest of those that have not pushed yet though they keep it, else of all. `solids` becomes those around.
+uint leave_deepest(uint i, vec3 start, inout uvec2 solids, uvec2 owed, float enough_depth, vec3 head_moved,
+                   vec2 granted, inout outcome made, inout uvec2 met, out uvec2 from)
 {
-    uint  contacts = 0u;
-    vec2  granted  = granted_to(i);
-    vec3  normal, surface;
-#ifdef HAIR_BODIES
-    uvec2 capsules = solids & ~own(walked);
-#else
-    uvec2 capsules = solids;
-#endif
-    EACH_BIT(capsules) {
-        uint k   = member_at(own(members), at.x, at.y);
-        vec3 way = d - head_moved;
-        if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
-            float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
-            contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
+    vec3  end  = start + made.d - head_moved, normal = vec3(0.0), outwards;
+    float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
+    uint  whose = 0u;
+    uvec2 around = uvec2(0u);
+    from = uvec2(0u);
+    EACH_BIT(solids) {
+        uint k     = member_at(own(members), at.x, at.y);
+        bool first = (owed[at.x] & at.y) != 0u;
+        if (first || is_around(k, end, way)) {
+            float deep = depth_in(k, start, made.d, head_moved, was, outwards), rank = first ? deep + FARTHEST : deep;
+            was_most = max(was_most, was);
+            around[at.x] |= at.y;
+            if (rank > most) {
+                most   = rank;
+                depth  = deep;
+                whose  = k;
+                normal = outwards;
+                from   = at;
+            }
         }
     }
+    solids = around;
+    depth -= max(was_most - granted.y, granted.x);
+    if (from.y == 0u || !(depth > enough_depth || most > 0.5 * FARTHEST)) return 0u;
+    push_by(BODY_POSITION(whose, 1).w, depth, normal, surface_of(whose, end, head_moved, normal), made);
+    met[from.x] |= from.y;
+    return 1u;
+}
+
+void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
+{
+    vec2  granted = granted_to(i);
+    uvec2 owed = kept, tried, from;
+    uint  pushed = 1u;
+    for (uint n = 0u; n < ROUNDS && pushed > 0u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
+        vec3 end = start + made.d - head_moved;
+        tried    = enough(i, start, end);
+        if (n == 0u) solids = tried | kept;
+        uvec2 around = solids;
 #ifdef HAIR_BODIES
-    EACH_BIT(solids & own(walked)) {
-        uint k   = member_at(own(members), at.x, at.y);
-        vec3 way = d - head_moved;
-        if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, way)) {
-            float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
-            contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
-        }
-    }
+        around &= ~own(walked);
+        uvec2 bodies = n < 2u ? solids & own(walked) : uvec2(0u);
 #endif
-    return contacts;
+        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, from);
+        if (pushed > 0u) owed[from.x] &= ~from.y;
+#ifdef HAIR_BODIES
+        EACH_BIT(bodies) {
+            uint  k = member_at(own(members), at.x, at.y);
+            vec3  way = made.d - head_moved, normal, surface;
+            if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
+                float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
+                pushed += push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+                around[at.x] |= at.y;
+            }
+        }
+#endif
+        bool led = tried != enough(i, start, start + made.d - head_moved); // To others.
+        solids   = led ? own(reachable) : around;
+        if (!led && bitCount(solids.x) + bitCount(solids.y) < 2) break;
+    }
 }

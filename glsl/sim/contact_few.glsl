@@ -42,23 +42,26 @@ void find_solids(vec3 head_moved)
     }
 }
 
-// Out of one solid after the other, capsules first; returns of how many.
-uint push_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout vec3 d, inout vec4 freedom, inout uvec2 met)
+// Out of one solid after the other, capsules first. Out of a second one may lead into the first: then once more.
+void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
 {
-    uint  contacts = 0u;
-    vec2  granted  = granted_to(i);
-    vec3  normal, surface;
-    EACH_BIT(solids & ~bodies()) {
-        uint  k     = number_of(at);
-        float depth = depth_in(k, start, d, head_moved, granted, normal, surface);
-        contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
-    }
+    vec2 granted  = granted_to(i);
+    uint contacts = 2u;
+    for (uint n = 0u; n < 2u && contacts > 1u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
+        vec3 normal, surface;
+        contacts = 0u;
+        EACH_BIT(solids & ~bodies()) {
+            uint  k = number_of(at);
+            float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
+            surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
+            contacts += push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+        }
 #ifdef HAIR_BODIES
-    EACH_BIT(solids & bodies()) {
-        uint  k     = number_of(at);
-        float depth = depth_in_body(k, start, start + d - head_moved, head_moved, granted, normal, surface);
-        contacts += push_from(at.x, at.y, BODY_POSITION(k, 1).w, depth, normal, surface, kept, d, freedom, met);
-    }
+        EACH_BIT(solids & bodies()) {
+            uint  k     = number_of(at);
+            float depth = depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
+            contacts += push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+        }
 #endif
-    return contacts;
+    }
 }

@@ -34,12 +34,15 @@ bool  owed;              // it went another way than the strand wants: there is 
 void try_wanted(vec3 head_moved, bool keep)
 {
     EACH(guide_count) {
-        vec4 freedom = vec4(0.0);
         PUT(moved, own(wanted));
         if (SOLIDS) {
-            if ((own(reachable).x | own(reachable).y) != 0u)
-                PUT(moved, allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, freedom, own(met)));
-            own(touch) = freedom;
+            own(touch) = own(slip) = vec4(0.0);
+            if ((own(reachable).x | own(reachable).y) != 0u) {
+                outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, own(met));
+                PUT(moved, made.d);
+                own(touch) = made.freedom;
+                own(slip)  = made.slip;
+            }
         }
     }
 }
@@ -109,8 +112,8 @@ void correct_lengths(int method, uint n)
             along_before = of_start ? first : before;
             along        = of_start ? GET(lever) : along;
         }
-        vec3 by_own    = own(slack) * (SOLIDS ? pass_on(own(touch), GET(edge)) : GET(edge));
-        vec3 by_before = own(slack) * (SOLIDS ? pass_on(own(touch), before) : before);
+        vec3 by_own    = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), GET(edge)) : GET(edge));
+        vec3 by_before = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), before) : before);
         own(row)       = vec4(i > 0u ? -dot(by_own, along_before) : 0.0, dot(by_own, along), 0.0, -own(excess));
         PUT(handed, vec3(dot(by_before, along_before), -dot(by_before, along), -own(excess) / own(rest_length))); // To the neighbours.
     }

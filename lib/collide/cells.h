@@ -48,7 +48,7 @@ hair_result hair_cells_list(const hair_host* host, struct hair_cells* cells,
                             const struct hair_cells_desc* desc, int* changed);
 void        hair_cells_free(const hair_host* host, struct hair_cells* cells);
 
-// How often loops go round at most to get out of a solid once.
+// How often loops go round at most to get out of a solid, by half of what all is.
 uint32_t hair_member_rounds(uint32_t member);
 
 #endif

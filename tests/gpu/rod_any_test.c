@@ -300,6 +300,58 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
     hair_form_destroy(form);
 }
 
+#define POST_BALLS 100
+
+// Hair that begins inside a post and about it, between its axis and its surface.
+static void live_in_post(struct hair_test* test, const hair_solid* solids, uint32_t count,
+                         struct hair_test_living* out)
+{
+    hair_physics             physics = hair_test_loose(0.3f);
+    struct hair_test_strands strands = hair_test_strands_make(8, 32);
+    for (int k = 0; k < 8; ++k)
+        hair_test_add_straight(&strands, 32, hair_v3(-0.0175f + 0.005f * (float)k, 0, 0.003f),
+                               hair_v3(0, -1, 0), 0.3f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+    hair_test_set_solids(out, solids, count);
+}
+
+// Each of the balls alone would push them up and down as well.
+static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void** state)
+{
+    static hair_solid balls[POST_BALLS];
+    hair_solid        post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
+    post.size[0] = 0.02f, post.size[1] = 0.09f;
+    for (int i = 0; i < POST_BALLS; ++i) {
+        float share      = (float)i / (POST_BALLS - 1);
+        balls[i]         = hair_test_body(HAIR_SHAPE_SPHERE, 0, -0.24f + 0.18f * share, 0);
+        balls[i].size[0] = 0.02f;
+    }
+    uint32_t fallbacks[2];
+    for (int kind = 0; kind < 2; ++kind) {
+        struct hair_test_living living;
+        live_in_post(*state, kind ? balls : &post, kind ? POST_BALLS : 1, &living);
+        hair_test_wait(&living, 6);
+        hair_test_read_guides(&living);
+        double      soon = hair_test_depth(&living, &post);
+        hair_health then = hair_test_health(&living);
+        hair_test_wait(&living, 60);
+        hair_test_read_guides(&living);
+        hair_health now = hair_test_health(&living);
+        fallbacks[kind] = now.euler + now.follow;
+        print_message(
+            "    %s: %.2g m deep 0.1 s later, %.2g m 1 s later; %u fallbacks, %u of them after 0.1 s\n",
+            kind ? "balls" : "post", soon, hair_test_depth(&living, &post), fallbacks[kind],
+            fallbacks[kind] - then.euler - then.follow);
+        assert_true(soon < VOXEL);
+        assert_true(hair_test_depth(&living, &post) < 1e-3);
+        assert_true(hair_test_stretch(&living) < 0.02);
+        hair_test_die(&living);
+    }
+    assert_true(fallbacks[1] <= 2 * fallbacks[0] + 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -308,6 +360,7 @@ int main(void)
         HAIR_TEST(forms_that_move_and_spin_carry_hair_along),
         HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
         HAIR_TEST(among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
+        HAIR_TEST(many_balls_along_a_line_are_left_as_the_post_that_they_make_is),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
