@@ -285,11 +285,10 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
 
 // Of what is drawn, not of lines in its place: their shadow is another where ribbons are not a texel wide.
 static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
-                        const struct hair_matrices* light)
+                        const struct hair_matrices* light, uint32_t size)
 {
     hair_view view = studio->shot.view;
     hair_lod  lod  = studio->shot.lod;
-    uint32_t  size = size_of_map(studio, camera, light);
     view.pass      = HAIR_PASS_DEPTH;
     lod.importance *= fminf(1, pixels_of_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
@@ -363,8 +362,9 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
     aim(studio, &camera);
-    shift(&light, studio->shot.shadow_jitter, size_of_map(studio, &camera, &light));
-    if (!draw_shadow(studio, &camera, &light)) return false;
+    uint32_t map = size_of_map(studio, &camera, &light);
+    shift(&light, studio->shot.shadow_jitter, map);
+    if (!draw_shadow(studio, &camera, &light, map)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, size, size);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background);
