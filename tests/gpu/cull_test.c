@@ -55,13 +55,6 @@ static void finish(struct fixture* f)
     hair_context_destroy(f->context);
 }
 
-static void clear(struct fixture* f)
-{
-    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
-}
-
 // From `eye`, looking along `way`.
 static void look_along(hair_vec3 eye, hair_vec3 way, float view[16])
 {
@@ -184,7 +177,7 @@ static void hair_of_free_roots_is_drawn_wherever_its_groom_is(void** state)
 
 static void read(struct fixture* f, const hair_view* view, float* pixels)
 {
-    clear(f);
+    hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, view));
     hair_test_frame_read(&f->frame, pixels);
 }
@@ -230,7 +223,7 @@ static uint32_t count_primitives(struct fixture* f, const hair_view* view, float
 {
     GLuint query = 0, count = 0;
     glGenQueries(1, &query);
-    clear(f);
+    hair_test_frame_clear(&f->frame);
     glBeginQuery(GL_PRIMITIVES_GENERATED, query);
     hair_test_ok(f->test, hair_draw(f->hair, view));
     glEndQuery(GL_PRIMITIVES_GENERATED);

@@ -61,11 +61,9 @@ static void finish(struct fixture* f)
 
 static uint32_t draw(struct fixture* f)
 {
-    static float       pixels[4 * SIZE * SIZE];
-    static const float nothing[4] = {0, 0, 0, 0}, far_away = 1;
-    uint32_t           drawn = 0;
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, nothing);
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
+    static float pixels[4 * SIZE * SIZE];
+    uint32_t     drawn = 0;
+    hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     hair_test_frame_read(&f->frame, pixels);
     for (int i = 0; i < 4 * SIZE * SIZE; ++i) {

@@ -285,15 +285,13 @@ static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
 static void draw(struct hair_test* test, hair_instance* hair, const struct hair_test_frame* frame,
                  float* pixels)
 {
-    static const float black[4] = {0}, far_away = 1;
-    hair_view          view = hair_view_default();
-    view.primitive          = HAIR_LINES; // Ribbons are much narrower than these pixels.
+    hair_view view = hair_view_default();
+    view.primitive = HAIR_LINES; // Ribbons are much narrower than these pixels.
     // 0.8 m wide around the head, seen along -z.
     view.projection[0] = view.projection[5] = 2.5f;
     view.projection[10]                     = -0.5f;
     view.projection[13]                     = -0.3f;
-    glClearNamedFramebufferfv(frame->framebuffer, GL_COLOR, 0, black);
-    glClearNamedFramebufferfv(frame->framebuffer, GL_DEPTH, 0, &far_away);
+    hair_test_frame_clear(frame);
     hair_test_ok(test, hair_draw(hair, &view));
     hair_test_frame_read(frame, pixels);
 }

@@ -51,11 +51,9 @@ static void finish(struct fixture* f)
 
 static void draw(struct fixture* f, uint32_t lights, float pixels[VALUES])
 {
-    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
     f->view.lights      = f->light;
     f->view.light_count = lights;
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
+    hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     hair_test_frame_read(&f->frame, pixels);
 }

@@ -121,9 +121,7 @@ static hair_view view_of(hair_path path)
 
 static void draw(struct fixture* f, const hair_view* view, float* pixels)
 {
-    static const float black[4] = {0, 0, 0, 0}, far_away = 1;
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_DEPTH, 0, &far_away);
+    hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, view));
     hair_test_frame_read(&f->frame, pixels);
 }

@@ -14,6 +14,8 @@ struct hair_test_frame {
 // `format`: GL_RGBA32F or GL_RGBA8. `samples`: 0 or 4. Bound, its viewport set, cleared to black, depth 1.
 void hair_test_frame_make(struct hair_test_frame* frame, GLsizei width, GLsizei height, GLenum format,
                           GLsizei samples);
+// To the same again.
+void hair_test_frame_clear(const struct hair_test_frame* frame);
 void hair_test_frame_free(struct hair_test_frame* frame);
 
 // Four floats a pixel, the lower row first. The frame is bound again afterwards.

@@ -56,3 +56,10 @@ void hair_test_shell_expect(int code, const char* command, const char* words)
         fail_msg("%s: exit %d, not %d; said \"%s\", without \"%s\"", command, got, code, hair_test_said,
                  words);
 }
+
+void hair_test_shell_expect_full(const char* arguments)
+{
+    char command[256];
+    snprintf(command, sizeof command, "$T %s >/dev/full", arguments);
+    hair_test_shell_expect(1, command, "cannot write to the standard output: No space left");
+}

@@ -15,4 +15,7 @@ int hair_test_shell(const char* command);
 // The command must exit with `code` and say `words`.
 void hair_test_shell_expect(int code, const char* command, const char* words);
 
+// The tool with such arguments must tell that what it prints cannot be written: also where some of that goes before the end.
+void hair_test_shell_expect_full(const char* arguments);
+
 #endif

@@ -177,9 +177,8 @@ static void help_and_version_are_printed(void** state)
     expect(0, "$T --help", "--tip-first");
     expect(0, "$T -h", "Exit status");
     expect(0, "$T --version", "hair-groom 0.");
-    expect(1, "$T --help >/dev/full",
-           "cannot write to the standard output: No space left"); // Some of it goes there before the end.
-    expect(1, "$T --version >/dev/full", "cannot write to the standard output: No space left");
+    hair_test_shell_expect_full("--help");
+    hair_test_shell_expect_full("--version");
     expect(0, "$T info --help --scale", "--scale"); // At once, whatever follows.
 }
 
