@@ -454,9 +454,8 @@ typedef struct hair_look {
     hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
     float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
     float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
-    float
-        absorption; ///< Strands that light meets on its way, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
-    float          density;   ///< Share of the followers drawn. [0, 1]. Default 1.
+    float absorption; ///< Strands that light meets, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
+    float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
     uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
     float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
@@ -864,8 +863,7 @@ typedef struct hair_light {
     /// World to clip space of both; orthographic or, of points and spots, in perspective. Depth grows away from the light.
     float    shadow_matrix[16]; ///< Default identity.
     uint32_t body_texture;      ///< The same of what lets no light through: a head, clothes, walls. 0: none.
-    float
-        body_bias; ///< Hair that is no farther than this behind what that shows is lit. m. [0, 1]. Default 0.003.
+    float body_bias; ///< Hair no farther than this behind what that shows is lit. m. [0, 1]. Default 0.003.
 } hair_light;
 HAIR_DESC(hair_light)
 
@@ -969,11 +967,10 @@ HAIR_DESC(hair_field_info)
 HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
 typedef struct hair_timing {
-    const char*
-        pass; ///< Its label and what it was compiled with, as "sim/direct_curved_32". As long as the context.
-    float    ms;       ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t runs;     ///< Since the context was created.
-    double   total_ms; ///< GPU time of its finished runs together, but for more than four at once.
+    const char* pass;     ///< Its label and features, as "sim/direct_curved_32". As long as the context.
+    float       ms;       ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t    runs;     ///< Since the context was created.
+    double      total_ms; ///< GPU time of its finished runs together, but for more than four at once.
 } hair_timing;
 
 /// GPU time of every pass that something has needed yet, if the context was created with `timings`. Never waits. Returns how

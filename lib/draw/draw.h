@@ -52,11 +52,11 @@ struct hair_draw {
     uint32_t        driver;  // row of paths.inl
     hair_vec4       skull;   // of the groom
     int             bounded; // roots are held: no strand leaves its patch's reach
+    int held; // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
     // Of the view: how many pixels a metre is at most to its level of detail, 0: that does not matter; and the share of what
     // leads followers round solids that it shows.
-    float    pixels, led;
-    int      held;   // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
-    uint32_t seated; // for which run of smooth.comp followers are
+    float                   pixels, led;
+    uint32_t                seated; // for which run of smooth.comp followers are
     struct hair_extent      extent;
     struct hair_hits        hits;
     struct hair_listed      listed;
