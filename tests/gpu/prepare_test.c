@@ -13,6 +13,7 @@ struct fixture {
     hair_groom*            groom;
     hair_instance*         hair;
     struct hair_test_frame frame;
+    GLuint                 depth; // what a view may lend
 };
 
 static struct fixture start(struct hair_test* test)
@@ -26,11 +27,16 @@ static struct fixture start(struct hair_test* test)
     f.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_test_ok(test, hair_create(f.context, f.groom, &desc, &f.hair));
     hair_test_frame_make(&f.frame, 32, 32, GL_RGBA8, 0);
+    const float far_away = 1;
+    glCreateTextures(GL_TEXTURE_2D, 1, &f.depth);
+    glTextureStorage2D(f.depth, 1, GL_DEPTH_COMPONENT32F, 32, 32);
+    glClearTexImage(f.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
     return f;
 }
 
 static void finish(struct fixture* f)
 {
+    glDeleteTextures(1, &f->depth);
     hair_test_frame_free(&f->frame);
     hair_destroy(f->hair);
     hair_groom_destroy(f->groom);
@@ -123,6 +129,11 @@ static void curl(struct fixture* f, hair_view* view)
     put_a_ball_into(f, view);
 }
 
+static void lend_depth(struct fixture* f, hair_view* view)
+{
+    view->depth_texture = f->depth;
+}
+
 static void show_motion(struct fixture* f, hair_view* view)
 {
     (void)f;
@@ -150,6 +161,8 @@ static const struct {
     {"shadows by strands", HAIR_PATH_TESSELLATION, shade_strands},
     {"shares of pixels", HAIR_PATH_EXPANDED, share_pixels},
     {"curls", HAIR_PATH_TESSELLATION, curl},
+    {"depth", HAIR_PATH_TESSELLATION, lend_depth},
+    {"depth, expanded", HAIR_PATH_EXPANDED, lend_depth},
     {"velocities", HAIR_PATH_TESSELLATION, show_motion},
     {"solids", HAIR_PATH_TESSELLATION, show_solids},
 };
