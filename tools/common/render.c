@@ -168,11 +168,6 @@ struct frame {
     GLuint                   depth; // of what is drawn before the hair; 0: none is lent
 };
 
-static void set_vec3(GLuint program, GLint at, const float value[3])
-{
-    glProgramUniform3fv(program, at, 1, value);
-}
-
 static void set_mat4(GLuint program, GLint at, const float value[16])
 {
     glProgramUniformMatrix4fv(program, at, 1, GL_FALSE, value);
@@ -267,8 +262,8 @@ static void draw_background(const struct hair_render* render, const struct frame
     GLuint program = render->program[BACKGROUND];
     glProgramUniform4f(program, HAIR_AT_TILE, tile->at[0], tile->at[1], tile->size[0], tile->size[1]);
     glProgramUniform1f(program, HAIR_AT_ASPECT, (float)render->desc.width / (float)render->desc.height);
-    set_vec3(program, HAIR_AT_CENTRE, frame->scene->background[0]);
-    set_vec3(program, HAIR_AT_EDGE, frame->scene->background[1]);
+    glProgramUniform3fv(program, HAIR_AT_CENTRE, 1, frame->scene->background[0]);
+    glProgramUniform3fv(program, HAIR_AT_EDGE, 1, frame->scene->background[1]);
     glUseProgram(program);
     glBindVertexArray(render->nothing);
     glDisable(GL_DEPTH_TEST);
@@ -280,8 +275,8 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
 {
     GLuint           program = render->program[SKIN];
     const hair_view* view    = &frame->scene->settings.view;
-    set_vec3(program, HAIR_AT_EYE, frame->scene->eye);
-    set_vec3(program, HAIR_AT_AMBIENT, view->ambient);
+    glProgramUniform3fv(program, HAIR_AT_EYE, 1, frame->scene->eye);
+    glProgramUniform3fv(program, HAIR_AT_AMBIENT, 1, view->ambient);
     hair_frame_lights_set(program, &frame->lights, render->map, render->shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);
     hair_frame_lights_unset(&frame->lights);
