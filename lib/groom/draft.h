@@ -40,6 +40,7 @@ struct hair_draft {
     float*       plot_centres; // xyz
     const float* plot_density; // NULL: 1
     uint32_t     sprout_count;
+    bool         is_scattered; // any run of a plot's sprouts is spread evenly over it, a triangle
     uint32_t*    strand_of; // of each sprout, where all strands are given
     uint32_t*    place;     // of each sprout: its follower
 
@@ -76,6 +77,7 @@ hair_result hair_draft_seats(struct hair_draft* draft); // of guides and followe
 // is one in the order in which it is cut short, and fill in what its maps say.
 uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_t count);
 void     hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair_patch* patch);
+void     hair_sort_queue(uint32_t* queue, float* from, uint32_t count); // both, by where each is to be drawn from
 
 // Plots without sprouts (plots.c); and once these are counted, the first of each.
 hair_result hair_guide_plots(struct hair_draft* draft);

@@ -50,10 +50,26 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
     }
 }
 
+// Plots are scattered so that any run of their sprouts is spread evenly, which thins a patch more evenly than chance does:
+// what is of one plot stays in its order, of several each adds its own at even distances, from a start by chance.
+static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
+{
+    float from[HAIR_MAX_ISOLINES];
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t plot = draft->spots[queue[i]].triangle, random = hair_sprout_random(draft, plot);
+        float    at = (float)(queue[i] - draft->plot_first[plot]) + hair_random(&random);
+        from[i]     = at / (float)draft->plot_sprouts[plot];
+    }
+    hair_sort_queue(queue, from, count);
+}
+
 // Into one patch, or when they are more than it holds into the fewest of even size.
 static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
-    shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
+    if (layout->draft->is_scattered && total <= HAIR_MAX_ISOLINES)
+        merge(layout->draft, layout->queue + first, total);
+    else if (!layout->draft->is_scattered || layout->draft->map_density) // Else one plot, and in its order.
+        shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
     uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
     for (uint32_t i = 0; i < parts; ++i) {
         uint32_t          begin = (uint32_t)((uint64_t)total * i / parts);

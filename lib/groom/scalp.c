@@ -29,6 +29,7 @@ static hair_result scatter_sprouts(struct hair_draft* draft)
 {
     draft->spots = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->spots);
     if (!draft->spots) return hair_fail_memory(draft->host, "the roots of followers");
+    draft->is_scattered = true;
     for (uint32_t triangle = 0; triangle < draft->plot_count; ++triangle) {
         uint32_t starts  = hair_sprout_random(draft, triangle);
         double   start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);

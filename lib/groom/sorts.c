@@ -62,7 +62,7 @@ uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_
     return front;
 }
 
-static void sort(uint32_t* queue, float* from, uint32_t count)
+void hair_sort_queue(uint32_t* queue, float* from, uint32_t count)
 {
     for (uint32_t i = 1; i < count; ++i) {
         uint32_t own = queue[i], k = i;
@@ -88,7 +88,7 @@ void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair
         }
         from[i] = density > 0 ? (float)((i + 0.5) / density) : FLT_MAX;
     }
-    sort(queue, from, patch->count);
+    hair_sort_queue(queue, from, patch->count);
     for (uint32_t k = 0; k < VALUES; ++k) sum[k] /= patch->count;
     patch->map_density   = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
     patch->map_thickness = (hair_vec4){(float)sum[4], (float)sum[5], (float)sum[6], (float)sum[7]};
