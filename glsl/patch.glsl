@@ -14,6 +14,7 @@ struct hair_patch_lines {
     float whole;     // the same, with the share that there is of the last one
     float fading;    // share of its width that the last strand has
     float thickness; // of all of them, as a share of their own
+    float widened;   // of that what makes up for strands that are left out
 };
 
 hair_patch_lines find_lines(uint number)
@@ -21,10 +22,10 @@ hair_patch_lines find_lines(uint number)
     int   at     = int(number) * HAIR_PATCH_TEXELS;
     uvec4 record = texelFetch(patch_texture, at); // hair_patch
 #ifdef HAIR_EVERY_FOLLOWER
-    return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0);
+    return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0, 1.0);
 #else
 #ifdef HAIR_HIDDEN
-    if (texelFetch(patch_texture, at + 3).w != 0u) return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0);
+    if (texelFetch(patch_texture, at + 3).w != 0u) return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0);
 #endif
     float mapped    = dot(uintBitsToFloat(texelFetch(patch_texture, at + 1)), draw.map_weights);
     float thickness = dot(uintBitsToFloat(texelFetch(patch_texture, at + 2)), draw.map_weights);
@@ -34,7 +35,7 @@ hair_patch_lines find_lines(uint number)
     float       wanted  = float(record.y) * share * detail.strands;
     uint        strands = uint(ceil(wanted));
     return hair_patch_lines(record.x, strands, uint(ceil(detail.segments)), detail.segments,
-                            1.0 - (float(strands) - wanted), thickness * detail.thickness);
+                            1.0 - (float(strands) - wanted), thickness * detail.thickness, detail.thickness);
 #endif
 }
 

@@ -645,9 +645,9 @@ HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_
 // A strand that is drawn without a tessellator.
 struct hair_strand {
     hair_uint follower;
-    hair_uint segments;
-    float     width; // share of its own
-    float     whole; // segments, with the share that there is of the last one
+    float     width;   // share of its own
+    float     widened; // of that what makes up for strands that are left out
+    float     whole;   // segments, with the share that there is of the last one
 };
 HAIR_SIZE(hair_strand, 16)
 

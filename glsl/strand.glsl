@@ -6,6 +6,7 @@
 #else
 #include "evaluate.glsl"
 #endif
+#include "gather.glsl"
 #define HAIR_OF_VERTICES 1
 #include "shading.glsl"
 
@@ -74,11 +75,13 @@ vec3 shade(hair_fragment f)
 // The k-th vertex of a strand of so many segments, of which there may be a share: t.
 float place_of(uint k, float segments) { return min(float(k) / segments, 1.0); }
 
-// `width`: a share of its own.
-strand_vertex strand_at(uint number, float t, float width)
+// `width`: a share of its own. `widened`: that of it which makes up for strands that are left out, 1 or more.
+strand_vertex strand_at(uint number, float t, float width, float widened)
 {
     hair_follower follower = fetch_follower(number);
     hair_point    point    = evaluate(follower, number, t);
+    vec3          moved    = vec3(0.0);
+    if (widened > 1.0) moved = gather(follower, t, point.radius * (widened - 1.0), point);
     strand_vertex v;
     v.position = vec4(point.position, point.radius * width);
     v.tangent  = point.tangent;
@@ -92,7 +95,7 @@ strand_vertex strand_at(uint number, float t, float width)
         v.place.yz      = f.uv;
     }
 #ifdef HAIR_MOTION
-    v.before = before_at(number, t);
+    v.before = before_at(number, t) + moved;
 #endif
     return v;
 }

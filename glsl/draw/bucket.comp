@@ -21,7 +21,7 @@ void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     uint s = i / draw.segments, k = i % draw.segments;
-    if (s >= command[0].strands || k >= strand[s].segments) return;
+    if (s >= command[0].strands || float(k) >= strand[s].whole) return;
     hair_strand own    = strand[s];
     vec3        middle = 0.5 * (position_at(own.follower, min(float(k) / own.whole, 1.0)) +
                          position_at(own.follower, min(float(k + 1u) / own.whole, 1.0)));

@@ -7,8 +7,8 @@ layout(vertices = 1) out;
 layout(location = 0) flat in uvec2 vertex_patch[];
 
 layout(location = 0) patch out uvec4 lines; // first follower, isolines, first segment, segments
-// Segments of a whole strand; share of their width that all of them have, and of that the last one.
-layout(location = 1) patch out vec3 whole;
+// Segments of a whole strand; share of their width that all of them have, and of that the last one; how much they are widened.
+layout(location = 1) patch out vec4 whole;
 
 void main()
 {
@@ -21,7 +21,7 @@ void main()
     uint first    = vertex_patch[0].y % parts * HAIR_MAX_ISOLINE_SEGMENTS;
     uint segments = min(all.segments - min(first, all.segments), uint(HAIR_MAX_ISOLINE_SEGMENTS));
     lines         = uvec4(all.first + before, strands, first, segments);
-    whole         = vec3(all.whole, all.thickness, left == strands ? all.fading : 1.0);
+    whole         = vec4(all.whole, all.thickness, left == strands ? all.fading : 1.0, all.widened);
 
     // A level of 0 discards the patch. Levels that isolines do not use are written too: drivers differ.
     bool none = strands == 0u || segments == 0u;

@@ -5,7 +5,7 @@
 layout(isolines, equal_spacing) in;
 
 layout(location = 0) patch in uvec4 lines;
-layout(location = 1) patch in vec3  whole;
+layout(location = 1) patch in vec4  whole;
 
 void main()
 {
@@ -14,5 +14,5 @@ void main()
     uint segment = lines.z + uint(gl_TessCoord.x * float(lines.w) + 0.5);
 
     float fading = line + 1u == lines.y ? whole.z : 1.0;
-    pass_on(strand_at(lines.x + line, place_of(segment, whole.x), whole.y * fading));
+    pass_on(strand_at(lines.x + line, place_of(segment, whole.x), whole.y * fading, whole.w));
 }

@@ -10,6 +10,7 @@ void main()
     uint  each   = draw.segments + 1u, vertex = uint(gl_VertexID);
     uvec4 record = texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
     // Beyond the last segment of its own a strand has none: all vertices are at its tip.
-    float t = place_of(min(vertex % each, record.y), uintBitsToFloat(record.w));
-    pass_on(strand_at(record.x, t, uintBitsToFloat(record.z)));
+    vec3  own = uintBitsToFloat(record.yzw); // of hair_strand
+    float t   = place_of(vertex % each, own.z);
+    pass_on(strand_at(record.x, t, own.x, own.y));
 }

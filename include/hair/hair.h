@@ -787,14 +787,15 @@ typedef enum hair_coverage {
 typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
 
 /// Level of detail: how much of the hair is drawn. Of the strands that are left out those that are drawn make up the
-/// width, so that they cover as much; lines, which have no width, cannot. All changes continuously. HAIR_SHADOW_STRANDS finds
+/// width, so that they cover as much, and move inwards among their neighbours as far as they reach out farther to either side;
+/// lines, which have no width, cannot. All changes continuously. HAIR_SHADOW_STRANDS finds
 /// light for what is drawn only. Dynamic, its cells are no smaller than 2 pixels, and followers are led round solids as far as 5 mm
 /// are more than a pixel, in full where they are 2: where no view shows that, it is not found out either.
 typedef struct hair_lod {
     hair_made made;
     float     strands;  ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.
     float     segments; ///< Share of hair_look.segments that they have, at most. [0, 1]. Default 1.
-    float     width;    ///< Strands are 1 / share to this power as wide. [0, 2]. Default 0.97.
+    float     width;    ///< Strands are 1 / share to this power as wide. [0, 2]. Default 1.
     uint32_t  dynamic;  ///< 1: by patch, as follows. 0: alike everywhere, as above. [0, 1]. Default 1.
     /// Strands that would be thinner on the screen than this are drawn so wide, and as many fewer. Pixels.
     float strand_pixels;  ///< [0.01, 100]. Default 0.25.
