@@ -14,7 +14,7 @@
 #include "tools/common/flip.c"
 #include "tools/common/image_error.c"
 
-enum { SIDE = 128, PIXELS = SIDE * SIDE };
+enum { SIDE = 128, PIXELS = SIDE * SIDE, TURNS = 3 };
 
 struct fixture {
     struct hair_test* test;
@@ -100,20 +100,19 @@ static double coverage_of(struct fixture* f, float distance, const hair_lod* lod
 {
     static struct picture picture;
     double                sum = 0;
-    for (int turn = 0; turn < 2; ++turn) {
+    for (int turn = 0; turn < TURNS; ++turn) {
         hair_view view = view_from(distance, 2.0f * (float)turn);
         view.lod       = lod;
         draw(f, &view, NULL, &picture);
         for (int i = 0; i < PIXELS; ++i) sum += (double)picture.pixels[4 * i + 3];
     }
-    return sum / (2 * PIXELS);
+    return sum / (TURNS * PIXELS);
 }
 
 static void fewer_strands_cover_as_much(void** state)
 {
-    static const hair_style styles[] = {HAIR_STYLE_LONG, HAIR_STYLE_SHORT, HAIR_STYLE_AFRO};
-    for (int i = 0; i < 3; ++i) {
-        struct fixture f    = start(state, styles[i], 18000, 1.5e-4f);
+    for (hair_style style = HAIR_STYLE_LONG; style < HAIR_STYLE_COUNT; ++style) {
+        struct fixture f    = start(state, style, 18000, 1.5e-4f);
         hair_lod       lod  = hair_lod_default();
         double         full = coverage_of(&f, 1.4f, NULL);
         assert_true(full > 0.03);
@@ -122,8 +121,8 @@ static void fewer_strands_cover_as_much(void** state)
             static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
             lod.strands                 = shares[k];
             double covered              = coverage_of(&f, 1.4f, &lod);
-            print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n",
-                          hair_style_name(styles[i]), 100.0 * (double)shares[k], covered / full);
+            print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n", hair_style_name(style),
+                          100.0 * (double)shares[k], covered / full);
             hair_test_near("coverage", (size_t)k, covered / full, 1, 0.02);
         }
         finish(&f);
