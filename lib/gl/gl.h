@@ -21,12 +21,12 @@ enum hair_gl_feature {
 };
 
 // A pass: its row in the lowest bits, the size of its work groups, and a bit for each feature that it is compiled with.
-typedef uint32_t hair_gl_pass;
+typedef uint64_t hair_gl_pass;
 #define HAIR_GL_ROW_BITS 8
-#define HAIR_GL_SIZE(n) ((uint32_t)(n) << HAIR_GL_ROW_BITS) // 0 to 3: 32, 64, 128 or 256 threads
+#define HAIR_GL_SIZE(n) ((hair_gl_pass)(n) << HAIR_GL_ROW_BITS) // 0 to 3: 32, 64, 128 or 256 threads
 #define HAIR_GL_SIZES HAIR_GL_SIZE(3)
 #define HAIR_GL_THREADS(pass) (32u << (((pass)&HAIR_GL_SIZES) >> HAIR_GL_ROW_BITS))
-#define HAIR_GL_BIT(feature) (1u << (HAIR_GL_ROW_BITS + 2 + (feature)))
+#define HAIR_GL_BIT(feature) ((hair_gl_pass)1 << (HAIR_GL_ROW_BITS + 2 + (feature)))
 #define HAIR_GL_WITH(feature) HAIR_GL_BIT(HAIR_GL_FEATURE_##feature)
 
 #define HAIR_GL_UNITS (HAIR_UNIT_HIDDEN + 1)
@@ -123,7 +123,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 // The program of a pass, compiled when first needed. Whoever runs one has needed it.
 hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
 // The same of all rows from `first` to `last`, each with those of the `wanted` features that it may be compiled with.
-hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, uint32_t wanted);
+hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, hair_gl_pass wanted);
 
 // From one to the other hair_gl_need has programs begun that are not there, all at once where the driver compiles beside what we
 // do, else one. The second returns how many are not ready.
@@ -239,7 +239,7 @@ void                    hair_gl_free_programs(struct hair_gl* gl);
 const char* hair_gl_row_label(hair_gl_pass pass);
 const char* hair_gl_row_stages(hair_gl_pass pass);
 // `pass` with those of `features` that its row may be compiled with.
-hair_gl_pass hair_gl_with(hair_gl_pass pass, uint32_t features);
+hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass features);
 // `pass` in the smallest work groups that guides of up to `vertices` fit into.
 hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices);
 
@@ -249,6 +249,8 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 
 // Run a compute pass over `groups` work groups, numbered by hair_group() in GLSL, and make what it wrote visible.
 void  hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+void  hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
+                       uint32_t groups); // by a program of the host's
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);
 
 #endif

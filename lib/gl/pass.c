@@ -9,9 +9,9 @@
 #define MAX_GROUPS 65535 // In one dimension: what OpenGL promises.
 
 static const struct {
-    const char* label;
-    uint32_t    features;
-    const char* stages;
+    const char*  label;
+    hair_gl_pass features;
+    const char*  stages;
 } rows[] = {
 #define PASS(name, label, features, stages) {label, features, stages},
 #include "lib/gl/passes.inl"
@@ -23,11 +23,11 @@ static const char* const features[] = {
 };
 
 _Static_assert(HAIR_GL_ROWS <= 1 << HAIR_GL_ROW_BITS, "a row is a number of HAIR_GL_ROW_BITS");
-_Static_assert(HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURES <= 32, "every feature is a bit of a pass");
+_Static_assert(HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURES <= 64, "every feature is a bit of a pass");
 
 static uint32_t row_of(hair_gl_pass pass)
 {
-    return pass & ((1u << HAIR_GL_ROW_BITS) - 1);
+    return (uint32_t)pass & ((1u << HAIR_GL_ROW_BITS) - 1);
 }
 
 const char* hair_gl_row_label(hair_gl_pass pass)
@@ -40,7 +40,7 @@ const char* hair_gl_row_stages(hair_gl_pass pass)
     return rows[row_of(pass)].stages;
 }
 
-hair_gl_pass hair_gl_with(hair_gl_pass pass, uint32_t wanted)
+hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass wanted)
 {
     return pass | (wanted & rows[row_of(pass)].features);
 }
@@ -136,9 +136,15 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
+    if (groups) hair_gl_run_with(gl, pass, hair_gl_find(gl, pass)->program, groups);
+}
+
+void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups)
+{
     if (groups == 0) return;
     uint32_t count = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
     hair_gl_begin(gl, pass);
+    gl->UseProgram(program);
     gl->DispatchCompute(count > 1 ? MAX_GROUPS : groups, count, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                       GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);

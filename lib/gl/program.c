@@ -359,7 +359,7 @@ hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
     return own->program ? HAIR_OK : compile_again(gl, own);
 }
 
-hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, uint32_t wanted)
+hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, hair_gl_pass wanted)
 {
     hair_result result = HAIR_OK;
     for (hair_gl_pass row = first; row <= last && !result; ++row)

@@ -48,7 +48,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
         [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
-    uint32_t features = 0;
+    hair_gl_pass features = 0;
     if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(SOLIDS);
     if (any) features |= HAIR_GL_WITH(ANY);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
