@@ -79,12 +79,17 @@ typedef uint32_t hair_uint;
 
 // Of the pass that writes followers out:
 #define HAIR_BIND_EXPANDED 4         // hair_vec4[] per follower vertex: position from the head's origin, radius
+#define HAIR_BIND_SHADED 6           // uvec2[]     per follower vertex: light to the eye, as halves
 #define HAIR_BIND_EXPANDED_TANGENT 5 // uvec2[]     per follower vertex: three 16-bit shares of [-1, 1]
 
 // Of the passes that list the strands that are drawn without a tessellator:
 #define HAIR_BIND_START 3   // uint[]              per patch: where its strands begin in the list
 #define HAIR_BIND_STRAND 4  // hair_strand[]       per strand that is drawn
-#define HAIR_BIND_COMMAND 5 // hair_draw_command[2], and the one that draws them sorted
+#define HAIR_BIND_COMMAND 5 // hair_draw_command[HAIR_COMMANDS]: two by their ends, one sorted, two by pairs of vertices
+#define HAIR_COMMANDS 5
+#define HAIR_SORTED_COMMAND 2
+#define HAIR_PAIRED_COMMAND 3
+#define HAIR_PAIRED_INDICES 6 // of a segment
 // Of the passes that sort their segments, these too:
 #define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
 #define HAIR_BIND_SORTED 1 // uvec2[]              per segment: the numbers of its vertices
@@ -153,6 +158,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_HIT 6      // float per follower, as in the buffer
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point
 #define HAIR_UNIT_EXPANDED 6         // of what draws expanded followers, in place of what they were made with
+#define HAIR_UNIT_SHADED 1           // vec4 per vertex, of the same: as HAIR_BIND_SHADED
 #define HAIR_UNIT_EXPANDED_TANGENT 7 // vec4 per vertex: xyz: in [0, 1] for [-1, 1]
 #define HAIR_UNIT_FIELD 8    // the field: signed distance, m
 #define HAIR_UNIT_SOLID 9    // and whose it is: number of the nearest solid

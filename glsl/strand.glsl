@@ -75,6 +75,10 @@ vec3 shade(hair_fragment f)
 // The k-th vertex of a strand of so many segments, of which there may be a share: t.
 float place_of(uint k, float segments) { return min(float(k) / segments, 1.0); }
 
+#ifdef HAIR_SHADED
+layout(binding = HAIR_UNIT_SHADED) uniform samplerBuffer shaded_texture;
+#endif
+
 // `width`: a share of its own. `widened`: that of it which makes up for strands that are left out, 1 or more.
 strand_vertex strand_at(uint number, float t, float width, float widened)
 {
@@ -89,11 +93,15 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     v.numbers  = uvec3(number, follower.guide0, follower.seed);
     v.place    = vec3(t, 0.0, 0.0);
     v.before   = point.position;
+#ifdef HAIR_SHADED
+    v.color = texelFetch(shaded_texture, int(number * (draw.segments + 1u) + uint(t * float(draw.segments) + 0.5))).rgb;
+#else
     if (draw.colored != 0u) {
         hair_fragment f = fragment_of(follower, number, point, t);
         v.color         = shade(f);
         v.place.yz      = f.uv;
     }
+#endif
 #ifdef HAIR_MOTION
     v.before = before_at(number, t) + moved;
 #endif

@@ -28,5 +28,5 @@ void main()
         bucket[k]  = start;
         start += count;
     }
-    if (i == HAIR_COUNT_THREADS - 1u) command[2] = hair_draw_command(2u * sums[i], 1u, 0u, 0u, 0u, 0u, 0u, 0u);
+    if (i == HAIR_COUNT_THREADS - 1u) command[HAIR_SORTED_COMMAND] = hair_draw_command(2u * sums[i], 1u, 0u, 0u, 0u, 0u, 0u, 0u);
 }

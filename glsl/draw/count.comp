@@ -13,16 +13,17 @@ shared uint most; // segments of a strand
 
 // Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. There are indices for strands of all the
 // segments, of half as many, and so on (lib/draw/listed.c): the fewest that do.
-void write_commands(uint strands)
+// `corners` of a segment, `ends` of each of its ends.
+void write_commands(uint at, uint strands, uint corners, uint ends)
 {
     uint each = draw.segments, first = 0u;
     while (each > 1u && most <= (each + 1u) / 2u) {
-        first += HAIR_INSTANCE_STRANDS * 2u * each;
+        first += HAIR_INSTANCE_STRANDS * corners * each;
         each = (each + 1u) / 2u;
     }
-    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, instances = whole / HAIR_INSTANCE_STRANDS;
-    command[0] = hair_draw_command(HAIR_INSTANCE_STRANDS * 2u * each, instances, first, 0u, 0u, strands, 0u, 0u);
-    command[1] = hair_draw_command(left * 2u * each, 1u, first, whole * (draw.segments + 1u), 0u, 0u, 0u, 0u);
+    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, indices = corners * each;
+    command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u, 0u, strands, 0u, 0u);
+    command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
 }
 
 void main()
@@ -50,5 +51,7 @@ void main()
     atomicMax(most, longest);
     synchronise();
     for (uint number = first; number < end; ++number) start[number] += sums[i] - sum;
-    if (i == HAIR_COUNT_THREADS - 1u) write_commands(sums[i]);
+    if (i != HAIR_COUNT_THREADS - 1u) return;
+    write_commands(0u, sums[i], 2u, 1u);
+    write_commands(HAIR_PAIRED_COMMAND, sums[i], HAIR_PAIRED_INDICES, 2u);
 }

@@ -3,6 +3,7 @@
 #version 450 core
 #include "draw_params.glsl"
 #include "passed.glsl"
+#include "ribbon.glsl"
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 
@@ -61,10 +62,7 @@ void main()
 {
     for (int end = 0; end < 2; ++end) {
         vec3  center = strand_position[end].xyz;
-        vec3  to_eye = draw.eye.w > 0.0 ? draw.eye.xyz - center : draw.eye.xyz;
-        vec3  side   = cross(strand_tangent[end], to_eye);
-        float l      = length(side);
-        side         = l > 1e-12 ? side * (strand_position[end].w / l) : vec3(0.0); // Seen end on: no width.
+        vec3  side   = side_of(strand_position[end], strand_tangent[end]);
 #ifdef HAIR_SHARES
         vec4 share = vec4(0.0);
         side *= widen(vec4(center, 1.0), side, share);

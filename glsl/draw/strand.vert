@@ -2,15 +2,32 @@
 #version 450 core
 #include "strand.glsl"
 #include "strand_out.glsl"
+#ifdef HAIR_PAIRED
+#include "ribbon.glsl"
+#endif
 
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
 
 void main()
 {
-    uint  each   = draw.segments + 1u, vertex = uint(gl_VertexID);
+#ifdef HAIR_PAIRED
+    uint vertex = uint(gl_VertexID) / 2u;
+#else
+    uint vertex = uint(gl_VertexID);
+#endif
+    uint  each   = draw.segments + 1u;
     uvec4 record = texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
     // Beyond the last segment of its own a strand has none: all vertices are at its tip.
     vec3  own = uintBitsToFloat(record.yzw); // of hair_strand
     float t   = place_of(vertex % each, own.z);
-    pass_on(strand_at(record.x, t, own.x, own.y));
+
+    strand_vertex v = strand_at(record.x, t, own.x, own.y);
+    pass_on(v);
+#ifdef HAIR_PAIRED
+    float across = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+    gl_Position  = draw.view_to_clip * (draw.view * vec4(v.position.xyz + across * side_of(v.position, v.tangent), 1.0));
+#ifdef HAIR_NUMBERED
+    strand_place.w = across;
+#endif
+#endif
 }

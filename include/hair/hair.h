@@ -761,7 +761,8 @@ typedef enum hair_pass {
 typedef enum hair_path {
     HAIR_PATH_TESSELLATION = 0, ///< Isolines, from one-point patches.
     HAIR_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
-    HAIR_PATH_EXPANDED,  ///< Vertices written once, for all views until hair moves: 24 bytes each. With a
+    HAIR_PATH_EXPANDED,  ///< Vertices written once, for all views until hair moves: 24 bytes each; and
+                         ///< shaded for each view of colour before it draws them: 8 more. With a
                          ///< hair_lod as HAIR_PATH_INSTANCED.
     HAIR_PATH_AUTO ///< What was measured to be the fastest on this driver: by its name, never by timing. hair_report says
                    ///< which it is.

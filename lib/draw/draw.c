@@ -119,11 +119,11 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// What is drawn with: a program, and the pass that it counts as.
+// What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded with before, 0: nothing.
 struct drawn {
-    hair_gl_pass            pass;
+    hair_gl_pass            pass, shade_pass;
     hair_path               path;
-    GLuint                  program;
+    GLuint                  program, shade;
     int                     hides; // patches may be hidden, as `hide` has it
     struct hair_hide_params hide;
 };
@@ -148,10 +148,10 @@ static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const 
     return is_textured(draw, view) || (shader && hair_draw_has_uvs(draw));
 }
 
-static uint32_t features_of(const struct hair_draw* draw, const hair_view* view,
-                            const struct hair_gl_shader* shader)
+static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* view,
+                                const struct hair_gl_shader* shader)
 {
-    uint32_t features = 0;
+    hair_gl_pass features = 0;
     if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
     if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
     if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
@@ -167,23 +167,47 @@ static uint32_t features_of(const struct hair_draw* draw, const hair_view* view,
     return features;
 }
 
-static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
-                                struct drawn* out)
+// What shading wants, where a pass of its own does that.
+#define SHADE_FEATURES                                                                                       \
+    (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(TINTED) | HAIR_GL_WITH(PAINTED) | HAIR_GL_WITH(BLOCKED))
+
+static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
+                                GLuint* out)
 {
-    struct hair_gl* gl = draw->gl;
-    out->path          = hair_draw_path(draw, view);
-    out->pass          = hair_draw_choose(draw, row_of_path[out->path] | features_of(draw, view, shader));
-    if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
-    if (shader) return hair_gl_need_own(gl, shader, out->pass, &out->program);
-    hair_result result = hair_gl_need(gl, out->pass);
-    if (!result) out->program = hair_gl_find(gl, out->pass)->program;
+    if (shader) return hair_gl_need_own(draw->gl, shader, pass, out);
+    hair_result result = hair_gl_need(draw->gl, pass);
+    if (!result) *out = hair_gl_find(draw->gl, pass)->program;
     return result;
 }
 
-static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader)
+// Ribbons of vertices that are there take no geometry shader, but each twice.
+static int is_paired(const struct hair_draw* draw, const hair_view* view)
 {
-    GLuint program = 0;
-    return shader ? hair_gl_need_own(draw->gl, shader, pass, &program) : hair_gl_need(draw->gl, pass);
+    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) &&
+           hair_draw_path(draw, view) == HAIR_PATH_EXPANDED;
+}
+
+// The pass that draws; and the one that shades before it, 0: there is none.
+static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
+                                const struct hair_gl_shader* shader, hair_gl_pass* shade)
+{
+    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[hair_draw_path(draw, view)];
+    if (is_paired(draw, view)) row = HAIR_GL_PAIRED;
+    *shade = 0;
+    if (!hair_draw_is_shaded(draw, view, shader)) return row | features;
+    *shade = hair_gl_with(HAIR_GL_SHADE, features);
+    return row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
+}
+
+static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
+                                struct drawn* out)
+{
+    hair_result result = HAIR_OK;
+    out->path          = hair_draw_path(draw, view);
+    out->pass          = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
+    if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
+    if (out->shade_pass) result = need_program(draw, out->shade_pass, shader, &out->shade);
+    return result ? result : need_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
 }
 
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
@@ -193,17 +217,19 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     hair_path       path    = hair_draw_path(draw, view);
     int             meets   = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
     int             lit     = hair_draw_lit(draw, view) > 0;
-    uint32_t        hides   = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
-    hair_gl_pass    strands = hair_draw_styled(draw, row_of_path[path] | features_of(draw, view, shader));
-    hair_gl_pass    expand  = hair_draw_styled(draw, HAIR_GL_EXPAND);
+    hair_gl_pass    hides   = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
+    hair_gl_pass    expand  = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
+    hair_gl_pass    strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
     hair_result     result  = HAIR_OK;
+    GLuint          program;
     if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
+    if (!result && shade) result = need_program(draw, shade, shader, &program);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
-        uint32_t with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
-        result        = need_program(draw, hair_gl_with(strands, with | hides), shader);
+        hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
+        result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
         if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
         if (!result && (lit || path == HAIR_PATH_EXPANDED))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
@@ -229,6 +255,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
+    if (with->shade_pass) hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     if (hair_draw_is_shared(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
@@ -236,7 +263,12 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
     if (hair_draw_covers(view)) hair_draw_begin_blend(gl, &was);
-    (hair_draw_is_shared(view) ? hair_draw_sorted : listed ? hair_draw_listed : hair_draw_patches)(draw);
+    if (hair_draw_is_shared(view))
+        hair_draw_sorted(draw);
+    else if (listed)
+        hair_draw_listed(draw, is_paired(draw, view));
+    else
+        hair_draw_patches(draw);
     if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, with->pass);
 }
@@ -251,9 +283,11 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
+    if (!result && out->path != HAIR_PATH_TESSELLATION)
+        result = hair_draw_make_listed(draw, out->hides, is_paired(draw, view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
     if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth, NULL);
+    if (!result && out->shade_pass) result = hair_draw_need_shaded(draw);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
@@ -275,7 +309,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
     if (!guides && with.path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
-    params.textured = (uint32_t)is_textured(draw, view);
+    params.textured   = (uint32_t)is_textured(draw, view);
+    params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     if (with.hides) hair_draw_hide(draw, view, &with.hide);

@@ -121,13 +121,13 @@ void        hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view
 void        hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // listed.c: what draws without a tessellator. With everything bound that makes followers, list those that are drawn; draw
-// them with the program that is current.
-hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
+// them with the program that is current, by their ends or `paired` by both sides of those.
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides, int paired);
 void        hair_draw_free_listed(struct hair_draw* draw);
 // Unless they are listed, as `params` and the smoothed guides have them; without those that are hidden, where that was asked.
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params, int hides);
-void hair_draw_listed(struct hair_draw* draw);
+void hair_draw_listed(struct hair_draw* draw, int paired);
 
 // path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
 void      hair_draw_find_fastest(struct hair_draw* draw);
@@ -173,6 +173,12 @@ int         hair_draw_is_expanded(const struct hair_draw* draw, const struct hai
 uint32_t    hair_draw_chunks(const struct hair_draw* draw, double share);
 void        hair_draw_free_expanded(struct hair_draw* draw);
 void        hair_draw_bind_expanded(struct hair_draw* draw);
+
+// shaded.c: whether a view's vertices are shaded before they are drawn; room for that; and do it, with everything bound that draws.
+int         hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
+                                const struct hair_gl_shader* shader);
+hair_result hair_draw_need_shaded(struct hair_draw* draw);
+void        hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
 // motion.c: with vertices that are up to date, begin a frame, or go on with it; before vertices are written anew, keep those
 // that the frame before has shown; what was seen goes along with a head that is teleported.

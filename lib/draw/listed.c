@@ -21,73 +21,77 @@ static hair_result make_lists(struct hair_draw* draw, int hides)
         result =
             hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, listed->strand, &listed->strand_texture);
     if (!result && !listed->command)
-        result = hair_gl_storage(gl, "hair commands", 3 * sizeof(struct hair_draw_command), NULL,
+        result = hair_gl_storage(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command), NULL,
                                  &listed->command);
     return result ? result
                   : hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides ? HAIR_GL_WITH(HIDDEN) : 0);
 }
 
-// Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them.
-// 16 bits are enough: 64 strands of 256 segments have 16,448 vertices.
-static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, size_t* count)
+// Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them: both ends
+// of each segment, or two triangles of the pairs of vertices there. 16 bits are enough: 64 strands of 256 segments have 16,448.
+static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int paired, size_t* count)
 {
-    size_t at = 0;
-    *count    = 2 * HAIR_INSTANCE_STRANDS;
-    for (uint32_t each = segments; each > 1; each = (each + 1) / 2)
-        *count += 2 * HAIR_INSTANCE_STRANDS * each;
+    static const uint32_t corners[2][HAIR_PAIRED_INDICES] = {{0, 1}, {0, 1, 2, 2, 1, 3}};
+    uint32_t              corner_count = paired ? HAIR_PAIRED_INDICES : 2, each_end = paired ? 2 : 1;
+    size_t                at = 0;
+    *count                   = HAIR_INSTANCE_STRANDS;
+    for (uint32_t each = segments; each > 1; each = (each + 1) / 2) *count += HAIR_INSTANCE_STRANDS * each;
+    *count *= corner_count;
     uint16_t* indices = hair_alloc(&gl->host, *count, sizeof *indices);
     for (uint32_t each = segments; indices && each; each = each > 1 ? (each + 1) / 2 : 0)
         for (uint32_t strand = 0; strand < HAIR_INSTANCE_STRANDS; ++strand)
             for (uint32_t i = 0; i < each; ++i)
-                for (uint32_t end = 0; end < 2; ++end)
-                    indices[at++] = (uint16_t)(strand * (segments + 1) + i + end);
+                for (uint32_t k = 0; k < corner_count; ++k)
+                    indices[at++] = (uint16_t)((strand * (segments + 1) + i) * each_end + corners[paired][k]);
     return indices;
 }
 
-static hair_result make_indices(struct hair_draw* draw)
+static hair_result make_indices(struct hair_draw* draw, int paired)
 {
-    struct hair_gl*     gl       = draw->gl;
-    struct hair_listed* listed   = &draw->listed;
-    uint32_t            segments = draw->look.segments;
-    if (listed->segments == segments) return HAIR_OK;
-    listed->segments = 0;
-    hair_gl_free_buffer(gl, &listed->index);
+    struct hair_gl*             gl       = draw->gl;
+    struct hair_listed_indices* own      = &draw->listed.indices[paired];
+    uint32_t                    segments = draw->look.segments;
+    if (own->segments == segments) return HAIR_OK;
+    own->segments = 0;
+    hair_gl_free_buffer(gl, &own->index);
     size_t    count;
-    uint16_t* indices = write_indices(gl, segments, &count);
+    uint16_t* indices = write_indices(gl, segments, paired, &count);
     if (!indices) return hair_fail_memory(&gl->host, "the segments of strands");
-    hair_result result =
-        hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &listed->index);
+    hair_result result = hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &own->index);
     hair_free(&gl->host, indices);
     if (result) return result;
-    if (!listed->vertex_array) gl->CreateVertexArrays(1, &listed->vertex_array);
-    if (!listed->vertex_array)
+    if (!own->vertex_array) gl->CreateVertexArrays(1, &own->vertex_array);
+    if (!own->vertex_array)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no vertex array for strands");
-    gl->VertexArrayElementBuffer(listed->vertex_array, listed->index);
-    listed->segments = segments;
+    gl->VertexArrayElementBuffer(own->vertex_array, own->index);
+    own->segments = segments;
     return HAIR_OK;
 }
 
-hair_result hair_draw_make_listed(struct hair_draw* draw, int hides)
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides, int paired)
 {
     draw->used[HAIR_DRAW_LISTED] = draw->frame;
     hair_result result           = make_lists(draw, hides);
-    return result ? result : make_indices(draw);
+    return result ? result : make_indices(draw, paired);
 }
 
 void hair_draw_free_listed(struct hair_draw* draw)
 {
     struct hair_listed* listed = &draw->listed;
     struct hair_gl*     gl     = draw->gl;
-    if (listed->vertex_array) gl->DeleteVertexArrays(1, &listed->vertex_array);
-    listed->vertex_array = 0;
-    listed->segments     = 0;
+    for (int i = 0; i < 2; ++i) {
+        struct hair_listed_indices* own = &listed->indices[i];
+        if (own->vertex_array) gl->DeleteVertexArrays(1, &own->vertex_array);
+        own->vertex_array = 0;
+        own->segments     = 0;
+        hair_gl_free_buffer(gl, &own->index);
+    }
     hair_gl_free_buffer_texture(gl, &listed->strand_texture);
     hair_free(&gl->host, listed->of);
     listed->of = NULL;
     hair_gl_free_buffer(gl, &listed->start);
     hair_gl_free_buffer(gl, &listed->strand);
     hair_gl_free_buffer(gl, &listed->command);
-    hair_gl_free_buffer(gl, &listed->index);
 }
 
 // Where levels of detail look at nothing that a view has, all views have the same list.
@@ -118,7 +122,7 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
     struct hair_listed* listed    = &draw->listed;
     GLuint              buffers[] = {listed->start, listed->strand, listed->command};
     struct hair_listing of        = describe(gl, smooth, params);
-    uint32_t            with      = hides ? HAIR_GL_WITH(HIDDEN) : 0;
+    hair_gl_pass        with      = hides ? HAIR_GL_WITH(HIDDEN) : 0;
     if (!hides && memcmp(&of, listed->of, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_COUNT | with, 1);
@@ -127,12 +131,15 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
     *listed->of = of;
 }
 
-void hair_draw_listed(struct hair_draw* draw)
+void hair_draw_listed(struct hair_draw* draw, int paired)
 {
     struct hair_gl* gl = draw->gl;
+    const char*     first =
+        (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
-    gl->BindVertexArray(draw->listed.vertex_array);
+    gl->BindVertexArray(draw->listed.indices[paired].vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
-    gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_SHORT, NULL, 2, sizeof(struct hair_draw_command));
+    gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, first, 2,
+                                  sizeof(struct hair_draw_command));
 }

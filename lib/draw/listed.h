@@ -11,12 +11,17 @@ struct hair_listing {
     struct hair_draw_params params; // what the list depends on, else 0
 };
 
+// Of every segment of an instance.
+struct hair_listed_indices {
+    GLuint   index, vertex_array;
+    uint32_t segments; // that those are for
+};
+
 struct hair_listed {
-    struct hair_listing* of;
-    GLuint               start, strand, command; // buffers, as in shared.h; 0 until they are needed
-    GLuint               strand_texture;         // of the second, for what draws
-    GLuint               index, vertex_array;    // both ends of every segment of an instance
-    uint32_t             segments;               // that those are for
+    struct hair_listing*       of;
+    GLuint                     start, strand, command; // buffers, as in shared.h; 0 until they are needed
+    GLuint                     strand_texture;         // of the second, for what draws
+    struct hair_listed_indices indices[2];             // of ends; and of pairs of vertices
 };
 
 #endif

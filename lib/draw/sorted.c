@@ -62,7 +62,7 @@ void hair_draw_sort(struct hair_draw* draw)
 void hair_draw_sorted(struct hair_draw* draw)
 {
     struct hair_gl* gl    = draw->gl;
-    const char*     first = (const char*)NULL + 2 * sizeof(struct hair_draw_command);
+    const char*     first = (const char*)NULL + HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindVertexArray(draw->sorted.vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);

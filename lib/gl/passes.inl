@@ -32,6 +32,7 @@ FEATURE(IDS, "HAIR_IDS")                 // numbers in place of colour
 FEATURE(MOTION, "HAIR_MOTION")           // velocities in place of colour
 FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
 FEATURE(BLOCKED, "HAIR_BLOCKED")         // bodies block lights
+FEATURE(SHADED, "HAIR_SHADED")           // vertices have been shaded by compute
 FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the host has drawn
 
 // A work group per guide and a thread per vertex: a group of 256 threads on guides of 32 vertices would wait for those that do
@@ -99,7 +100,9 @@ PASS(HIDE_GUIDES, "draw/hide_guides", 0, "draw/hide_guides.comp")
 PASS(HIDE_PATCHES, "draw/hide_patches", WITH(HITS), "draw/hide_patches.comp")
 PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS) | WITH(HIDDEN), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
 PASS(INSTANCED, "draw/instanced", DRAW_FEATURES | WITH(HITS), "HAIR_LISTED=1 draw/strand.vert" DRAW_STAGES)
-PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
+PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
+PASS(PAIRED, "draw/expanded_paired", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
+PASS(SHADE, "draw/shade", WITH(FIBRES) | WITH(TINTED) | WITH(PAINTED) | WITH(BLOCKED), "HAIR_EXPANDED=1 draw/shade.comp")
 PASS(COUNT, "draw/count", WITH(HIDDEN), "HAIR_LISTED=1 draw/count.comp")
 PASS(LIST, "draw/list", WITH(HIDDEN), "HAIR_LISTED=1 draw/list.comp")
 PASS(BUCKET, "draw/bucket", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/bucket.comp")

@@ -1,0 +1,21 @@
+// shade.comp - light from vertices of strands to the eye, before they are drawn: there are GPUs of which few units draw, but all
+// compute. Work groups as run.glsl has them.
+#version 450 core
+#include "strand.glsl"
+#include "run.glsl"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };
+
+void main()
+{
+    vertex_run run  = find_run();
+    uint       each = draw.segments + 1u;
+    for (uint i = run.first; i < run.end; i += run.stride) {
+        uint          number   = i / each;
+        float         t        = place_of(i % each, float(draw.segments));
+        hair_follower follower = fetch_follower(number);
+        vec3          color    = min(shade(fragment_of(follower, number, evaluate(follower, number, t), t)), HAIR_MOST_LIGHT);
+        shaded[i]              = uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
+    }
+}

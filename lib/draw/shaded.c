@@ -1,0 +1,32 @@
+// shaded.c - vertices that are expanded, shaded by compute for one view before it draws them.
+#include "lib/draw/draw.h"
+
+int hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
+                        const struct hair_gl_shader* shader)
+{
+    return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
+           hair_draw_path(draw, view) == HAIR_PATH_EXPANDED;
+}
+
+hair_result hair_draw_need_shaded(struct hair_draw* draw)
+{
+    struct hair_gl*       gl       = draw->gl;
+    struct hair_expanded* expanded = &draw->expanded;
+    if (expanded->shaded_texture) return HAIR_OK;
+    hair_result result = hair_gl_storage(gl, "hair shaded", expanded->vertices * 8, NULL, &expanded->shaded);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair shaded", GL_RGBA16F, expanded->shaded,
+                                        &expanded->shaded_texture);
+    if (result) hair_gl_free_buffer(gl, &expanded->shaded);
+    return result;
+}
+
+void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks)
+{
+    struct hair_gl* gl = draw->gl;
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, &draw->expanded.shaded);
+    hair_gl_run_with(gl, pass, program, draw->patches * chunks);
+    // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
+    gl->BindTextureUnit(HAIR_UNIT_SHADED, draw->expanded.shaded_texture);
+}
