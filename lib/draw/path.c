@@ -8,10 +8,13 @@
 
 static const struct {
     const char* renderer; // is in its name
-    uint8_t     path[4];  // of ribbons, of lines; then with levels of detail
+    uint8_t
+        path[5]; // of ribbons, of lines; then with levels of detail; of what has no colour and none of those
 } fastest[] = {
-#define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines)                                            \
-    {renderer, {HAIR_PATH_##ribbons, HAIR_PATH_##lines, HAIR_PATH_##lod_ribbons, HAIR_PATH_##lod_lines}},
+#define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth)                                     \
+    {renderer,                                                                                               \
+     {HAIR_PATH_##ribbons, HAIR_PATH_##lines, HAIR_PATH_##lod_ribbons, HAIR_PATH_##lod_lines,                \
+      HAIR_PATH_##depth}},
 #include "lib/draw/paths.inl"
 #undef FASTEST
 };
@@ -41,7 +44,8 @@ static int is_of_lines(const hair_view* view)
 
 static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
-    hair_path path     = fastest[draw->driver].path[is_of_lines(view) + 2 * (view->lod != NULL)];
+    int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
+    hair_path path     = fastest[draw->driver].path[column];
     uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
     return path == HAIR_PATH_EXPANDED && vertices > MOST_EXPANDED ? HAIR_PATH_TESSELLATION : path;
 }

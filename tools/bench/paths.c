@@ -29,11 +29,12 @@ static const struct way {
 static const struct kind {
     const char*    name;
     hair_primitive primitive;
-    bool           has_lod;
-} kinds[] = {{"ribbons", HAIR_RIBBONS, false},
-             {"lines", HAIR_LINES, false},
-             {"ribbons, lod", HAIR_RIBBONS, true},
-             {"lines, lod", HAIR_LINES, true}};
+    bool           has_lod, of_depth; // else of colour
+} kinds[] = {{"ribbons", HAIR_RIBBONS, false, false},
+             {"lines", HAIR_LINES, false, false},
+             {"ribbons, lod", HAIR_RIBBONS, true, false},
+             {"lines, lod", HAIR_LINES, true, false},
+             {"depth", HAIR_RIBBONS, false, true}};
 
 enum { WAYS = sizeof ways / sizeof *ways, KINDS = sizeof kinds / sizeof *kinds };
 
@@ -63,14 +64,17 @@ static double now(const struct bench* bench)
     return bench->software ? 1e3 * (double)clock() / CLOCKS_PER_SEC : hair_now();
 }
 
-// Hair moves from frame to frame, so that what a path keeps of it is made anew.
+// The picture by that path and its shadow map by HAIR_PATH_AUTO; or the other way round. Hair moves from frame to frame, so that
+// what a path keeps of it is made anew.
 static bool run_frames(struct scene* scene, const struct kind* kind, hair_path path, uint32_t frames,
                        double* ms)
 {
     struct bench_studio* studio = &scene->studio;
     struct bench_shot    shot   = bench_studio_shot(studio);
     shot.samples                = 4;
-    shot.view.path              = path;
+    shot.view.path              = kind->of_depth ? HAIR_PATH_AUTO : path;
+    shot.map_path               = kind->of_depth ? path : HAIR_PATH_AUTO;
+    shot.map_apart              = true;
     shot.view.primitive         = kind->primitive;
     shot.has_lod                = kind->has_lod;
     shot.away                   = kind->has_lod ? AWAY : 1;
@@ -85,14 +89,14 @@ static bool run_frames(struct scene* scene, const struct kind* kind, hair_path p
 }
 
 // What the report calls the pass that drew.
-static const char* drawn_by(struct scene* scene)
+static const char* drawn_by(struct scene* scene, const struct kind* kind)
 {
     hair_report_info info = hair_report_info_default();
     hair_report_row  rows[32];
     uint32_t         count = 0;
     if (hair_report(scene->studio.hair, 1, &info, rows, sizeof *rows, 32, &count)) return "";
     for (uint32_t i = 0; i < count && i < 32; ++i)
-        if (!strcmp(rows[i].work, "color") && rows[i].pass) return rows[i].pass;
+        if (!strcmp(rows[i].work, kind->of_depth ? "depth" : "color") && rows[i].pass) return rows[i].pass;
     return "";
 }
 
@@ -106,10 +110,10 @@ static bool compare(struct scene* scene, const struct kind* kind)
     if (!need(scene)) return false;
     for (uint32_t i = 0; i < WAYS; ++i) { // They compile what they need.
         if (!run_frames(scene, kind, ways[i].path, 1, &first)) return false;
-        passes[i] = drawn_by(scene);
+        passes[i] = drawn_by(scene, kind);
     }
     if (!run_frames(scene, kind, HAIR_PATH_AUTO, 1, &first)) return false;
-    taken = drawn_by(scene);
+    taken = drawn_by(scene, kind);
     for (uint32_t k = 0; k < rounds; ++k)
         for (uint32_t i = 0; i < WAYS; ++i)
             if (!run_frames(scene, kind, ways[i].path, frames, &ms[i][k])) return false;

@@ -290,6 +290,7 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     hair_view view = studio->shot.view;
     hair_lod  lod  = studio->shot.lod;
     view.pass      = HAIR_PASS_DEPTH;
+    if (studio->shot.map_apart) view.path = studio->shot.map_path;
     lod.importance *= fminf(1, pixels_of_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
     if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;

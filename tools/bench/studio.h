@@ -14,9 +14,11 @@
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
-    hair_view view;     // its path and primitive; matrices, lights and level of detail are set elsewhere
-    bool      unmapped; // its light has no shadow map
-    bool      has_lod;  // else all is drawn
+    hair_view view;      // its path and primitive; matrices, lights and level of detail are set elsewhere
+    bool      unmapped;  // its light has no shadow map
+    bool      map_apart; // else it is drawn by the path of the view,
+    hair_path map_path;  // not by this one
+    bool      has_lod;   // else all is drawn
     hair_lod  lod;
     uint32_t  samples;          // of a pixel, as OpenGL has them
     uint32_t  supersample;      // pixels for one of the picture, in each direction
