@@ -79,6 +79,7 @@ struct drawn {
 };
 
 #define FIBRES_LINES (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(LINES))
+#define SHADED_LINES (HAIR_GL_WITH(SHADED) | HAIR_GL_WITH(LINES))
 #define HITS HAIR_GL_WITH(HITS)
 
 // What makes lines, and the same without pixels: without and with solids in reach.
@@ -92,7 +93,7 @@ static const struct {
                                  "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
     [HAIR_PATH_INSTANCED]    = {{HAIR_GL_INSTANCED | FIBRES_LINES, HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
                                 {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED | FIBRES_LINES, HAIR_GL_EXPANDED | FIBRES_LINES},
+    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
                                 {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
 };
 
