@@ -6,7 +6,9 @@
 #else
 #include "evaluate.glsl"
 #endif
+#ifdef HAIR_WIDENED
 #include "gather.glsl"
+#endif
 #define HAIR_OF_VERTICES 1
 #include "shading.glsl"
 
@@ -85,7 +87,9 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     hair_follower follower = fetch_follower(number);
     hair_point    point    = evaluate(follower, number, t);
     vec3          moved    = vec3(0.0);
+#ifdef HAIR_WIDENED
     if (widened > 1.0) moved = gather(follower, t, point.radius * (widened - 1.0), point);
+#endif
     strand_vertex v;
     v.position = vec4(point.position, point.radius * width);
     v.tangent  = point.tangent;

@@ -161,6 +161,7 @@ static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* v
         features |= HAIR_GL_WITH(SHARES);
     else if (view->primitive == HAIR_LINES)
         features |= HAIR_GL_WITH(LINES);
+    if (view->lod) features |= HAIR_GL_WITH(WIDENED);
     if (hair_draw_is_blocked(view)) features |= HAIR_GL_WITH(BLOCKED);
     if (wants_uvs(draw, view, shader)) features |= HAIR_GL_WITH(TINTED);
     if (is_painted(draw, view)) features |= HAIR_GL_WITH(PAINTED);

@@ -33,6 +33,7 @@ FEATURE(MOTION, "HAIR_MOTION")           // velocities in place of colour
 FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
 FEATURE(BLOCKED, "HAIR_BLOCKED")         // bodies block lights
 FEATURE(SHADED, "HAIR_SHADED")           // vertices have been shaded by compute
+FEATURE(WIDENED, "HAIR_WIDENED")         // strands may be wider for others that are left out
 FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the host has drawn
 
 // A work group per guide and a thread per vertex: a group of 256 threads on guides of 32 vertices would wait for those that do
@@ -44,7 +45,7 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the ho
         WITH(BODIES)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
-        WITH(SHARES)
+        WITH(SHARES) | WITH(WIDENED)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", 0, "field/voxelise.comp")

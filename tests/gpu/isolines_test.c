@@ -6,6 +6,7 @@
 #include "tests/support/passes.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,10 +107,12 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
 {
     struct hair_gl*         gl    = &test->context->gl;
     hair_path               other = lod && path == HAIR_PATH_EXPANDED ? HAIR_PATH_INSTANCED : path;
-    hair_gl_pass            pass  = paths[other].pass[hits];
+    hair_gl_pass            pass  = paths[other].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
     struct hair_gl_program* own   = hair_gl_know(gl, pass);
     GLuint                  whole = own->program, program = 0;
-    hair_test_ok(test, hair_gl_link(gl, "capture", paths[other].stages[hits], "strand_position", &program));
+    char                    stages[128];
+    snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[other].stages[hits]);
+    hair_test_ok(test, hair_gl_link(gl, "capture", stages, "strand_position", &program));
     memset(&capture, 0, sizeof capture);
     capture.patches = gl->DrawArraysInstanced;
     capture.listed  = gl->MultiDrawElementsIndirect;
