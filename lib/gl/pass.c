@@ -134,20 +134,28 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
     gl->PopDebugGroup();
 }
 
+static void dispatch(struct hair_gl* gl, uint32_t groups)
+{
+    uint32_t count = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
+    gl->DispatchCompute(count > 1 ? MAX_GROUPS : groups, count, 1);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+}
+
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
-    if (groups) hair_gl_run_with(gl, pass, hair_gl_find(gl, pass)->program, groups);
+    if (groups == 0) return;
+    hair_gl_begin(gl, pass);
+    dispatch(gl, groups);
+    hair_gl_end(gl, pass);
 }
 
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups)
 {
     if (groups == 0) return;
-    uint32_t count = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
-    gl->DispatchCompute(count > 1 ? MAX_GROUPS : groups, count, 1);
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+    dispatch(gl, groups);
     hair_gl_end(gl, pass);
 }
 
