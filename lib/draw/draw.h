@@ -30,6 +30,7 @@ struct hair_extent {
 enum {
     HAIR_DRAW_LISTED,
     HAIR_DRAW_EXPANDED,
+    HAIR_DRAW_SHADED,
     HAIR_DRAW_MOTION,
     HAIR_DRAW_SORTED,
     HAIR_DRAW_FIBRES,
@@ -178,6 +179,7 @@ void        hair_draw_bind_expanded(struct hair_draw* draw);
 int         hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader);
 hair_result hair_draw_need_shaded(struct hair_draw* draw);
+void        hair_draw_free_shaded(struct hair_draw* draw);
 void        hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
 // motion.c: with vertices that are up to date, begin a frame, or go on with it; before vertices are written anew, keep those

@@ -40,12 +40,11 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     struct hair_expanded* expanded = &draw->expanded;
     hair_gl_free_buffer_texture(draw->gl, &expanded->position_texture);
     hair_gl_free_buffer_texture(draw->gl, &expanded->tangent_texture);
-    hair_gl_free_buffer_texture(draw->gl, &expanded->shaded_texture);
-    hair_gl_free_buffer(draw->gl, &expanded->shaded);
     hair_gl_free_buffer(draw->gl, &expanded->position);
     hair_gl_free_buffer(draw->gl, &expanded->tangent);
     expanded->vertices = 0;
     expanded->there    = 0;
+    hair_draw_free_shaded(draw);
     hair_draw_free_motion(draw);
 }
 

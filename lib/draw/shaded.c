@@ -10,6 +10,7 @@ int hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
 
 hair_result hair_draw_need_shaded(struct hair_draw* draw)
 {
+    draw->used[HAIR_DRAW_SHADED]   = draw->frame;
     struct hair_gl*       gl       = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
     if (expanded->shaded_texture) return HAIR_OK;
@@ -17,8 +18,14 @@ hair_result hair_draw_need_shaded(struct hair_draw* draw)
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair shaded", GL_RGBA16F, expanded->shaded,
                                         &expanded->shaded_texture);
-    if (result) hair_gl_free_buffer(gl, &expanded->shaded);
+    if (result) hair_draw_free_shaded(draw);
     return result;
+}
+
+void hair_draw_free_shaded(struct hair_draw* draw)
+{
+    hair_gl_free_buffer_texture(draw->gl, &draw->expanded.shaded_texture);
+    hair_gl_free_buffer(draw->gl, &draw->expanded.shaded);
 }
 
 void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks)

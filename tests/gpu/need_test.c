@@ -384,6 +384,30 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
     finish(&f);
 }
 
+// Depth draws the vertices that colour wrote, and does not keep what light fell onto them.
+static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(void** state)
+{
+    static float   pixels[4 * SIZE * SIZE];
+    struct fixture f    = start(*state, NULL);
+    hair_view      view = view_of(HAIR_PATH_EXPANDED);
+    hair_look      look = f.hair->draw.look;
+    look.shading        = HAIR_SHADING_LINES;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    view.pass = HAIR_PASS_DEPTH;
+    draw(&f, &view, pixels);
+    uint64_t least = memory_of(&f).bytes;
+    view.pass      = HAIR_PASS_COLOR;
+    draw(&f, &view, pixels);
+    assert_true(memory_of(&f).bytes > least);
+    view.pass = HAIR_PASS_DEPTH;
+    for (int i = 0; i < 250; ++i) {
+        hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
+        if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &view));
+    }
+    assert_int_equal(memory_of(&f).bytes, least);
+    finish(&f);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -395,6 +419,7 @@ int main(void)
         HAIR_TEST(memory_is_what_instances_report_and_all_comes_back),
         HAIR_TEST(what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes),
         HAIR_TEST(what_no_view_asks_for_any_more_is_freed_and_made_again),
+        HAIR_TEST(vertices_that_depth_goes_on_asking_for_stay_without_their_colours),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
