@@ -1,6 +1,8 @@
 // studio.c - a haircut on its head before a plain background.
 #include "tools/bench/studio.h"
 
+#include "tools/bench/extent.h"
+
 #include "tools/common/camera.h"
 #include "tools/common/file.h"
 #include "tools/common/shaders.h"
@@ -10,9 +12,6 @@
 #include <epoxy/gl.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define TEXELS 4      // of a shadow map to a pixel, at least
-#define LEAST_MAP 256 // texels to each side
 
 enum { MESH, DEPTH, AVERAGE };
 
@@ -199,7 +198,8 @@ bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot
             return false;
         }
     }
-    *last = *shot;
+    *last           = *shot;
+    studio->goes_on = false;
     return true;
 }
 
@@ -222,47 +222,6 @@ static void draw_head(const struct bench_studio* studio, unsigned program,
     glEnable(GL_CULL_FACE);
     glDrawElements(GL_TRIANGLES, (GLsizei)studio->indices, GL_UNSIGNED_INT, NULL);
     glDisable(GL_CULL_FACE);
-}
-
-// What is seen through a projection at a distance: pixels per metre.
-static float scale_of(const struct hair_matrices* matrices, float distance, uint32_t pixels)
-{
-    const float* p = matrices->projection;
-    return 0.5f * (float)pixels * p[5] / (p[15] > 0 ? 1 : distance);
-}
-
-static float distance_of(const struct bench_studio* studio, float away)
-{
-    const struct hair_scene* scene  = &studio->scene;
-    float                    square = 0;
-    for (int i = 0; i < 3; ++i) square += powf(away * (scene->eye[i] - scene->target[i]), 2);
-    return sqrtf(square);
-}
-
-float bench_studio_scale(const struct bench_studio* studio, float away)
-{
-    struct hair_matrices camera;
-    hair_camera_matrices(&studio->scene, studio->transform, studio->reach, &camera);
-    return scale_of(&camera, distance_of(studio, away), studio->size);
-}
-
-// Pixels of the picture to a texel of a shadow map of such a size.
-static float pixels_of_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
-                             const struct hair_matrices* light, uint32_t size)
-{
-    uint32_t pixels   = studio->size * studio->shot.supersample;
-    float    distance = distance_of(studio, studio->shot.away);
-    return scale_of(camera, distance, pixels) / scale_of(light, 1, size);
-}
-
-// A shadow need not be much finer than the picture. Where that has levels of detail, so has its map.
-static uint32_t size_of_map(const struct bench_studio* studio, const struct hair_matrices* camera,
-                            const struct hair_matrices* light)
-{
-    uint32_t size = HAIR_SHADOW_SIZE;
-    if (!studio->shot.has_lod || !studio->shot.lod.dynamic) return size;
-    while (size > LEAST_MAP && TEXELS * pixels_of_texel(studio, camera, light, size / 2) <= 1) size /= 2;
-    return size;
 }
 
 static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct hair_matrices* matrices,
@@ -291,7 +250,7 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     hair_lod  lod  = studio->shot.lod;
     view.pass      = HAIR_PASS_DEPTH;
     if (studio->shot.map_apart) view.path = studio->shot.map_path;
-    lod.importance *= fminf(1, pixels_of_texel(studio, camera, light, size));
+    lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
     if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;
     if (shows_head(studio)) {
@@ -318,15 +277,10 @@ static bool draw_strands(struct bench_studio* studio, const struct hair_matrices
     return ok;
 }
 
-// Of samples, then of pixels.
-static void average(struct bench_studio* studio)
+static void average_pixels(const struct bench_studio* studio)
 {
-    const unsigned* framebuffer = studio->targets.framebuffer;
-    GLsizei         size = (GLsizei)studio->size, all = size * (GLsizei)studio->shot.supersample;
-    if (studio->timed) bench_timer_start(&studio->timer);
-    glBlitNamedFramebuffer(framebuffer[HAIR_TARGET_DRAWN], framebuffer[HAIR_TARGET_RESOLVED], 0, 0, all, all,
-                           0, 0, all, all, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer[HAIR_TARGET_ENCODED]);
+    GLsizei size = (GLsizei)studio->size;
+    glBindFramebuffer(GL_FRAMEBUFFER, studio->targets.framebuffer[HAIR_TARGET_ENCODED]);
     glViewport(0, 0, size, size);
     glProgramUniform1i(studio->programs[AVERAGE], HAIR_AT_SUPERSAMPLE, (GLint)studio->shot.supersample);
     glUseProgram(studio->programs[AVERAGE]);
@@ -334,45 +288,65 @@ static void average(struct bench_studio* studio)
     glBindTextureUnit(0, studio->targets.resolved);
     glDisable(GL_DEPTH_TEST);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Of samples, then of pixels where there are more than the picture's.
+static void average(struct bench_studio* studio, const struct bench_rectangle* part)
+{
+    const unsigned* framebuffer = studio->targets.framebuffer;
+    const int *     a = part->lower, *b = part->upper;
+    if (studio->timed) bench_timer_start(&studio->timer);
+    glBlitNamedFramebuffer(framebuffer[HAIR_TARGET_DRAWN], framebuffer[HAIR_TARGET_RESOLVED], a[0], a[1],
+                           b[0], b[1], a[0], a[1], b[0], b[1], GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    if (studio->shot.supersample > 1) average_pixels(studio);
     if (studio->timed) bench_timer_stop(&studio->timer);
 }
 
-static void shift(struct hair_matrices* matrices, const float by[2], uint32_t size)
+// What is to be drawn anew: of hair alone, before a background that is there, where it is and where it was.
+static struct bench_rectangle part_of(struct bench_studio* studio, const struct hair_matrices* camera)
 {
-    for (int column = 0; column < 4; ++column)
-        for (int i = 0; i < 2; ++i)
-            matrices->projection[4 * column + i] +=
-                2 * by[i] / (float)size * matrices->projection[4 * column + 3];
+    uint32_t               pixels = studio->size * studio->shot.supersample;
+    struct bench_rectangle part = {{0, 0}, {(int)pixels, (int)pixels}}, *last = &studio->drawn, now = part;
+    if (!shows_head(studio)) now = bench_extent_hair(studio, camera, pixels);
+    if (studio->goes_on)
+        for (int i = 0; i < 2; ++i) {
+            part.lower[i] = now.lower[i] < last->lower[i] ? now.lower[i] : last->lower[i];
+            part.upper[i] = now.upper[i] > last->upper[i] ? now.upper[i] : last->upper[i];
+        }
+    *last           = now;
+    studio->goes_on = true;
+    return part;
 }
 
-static void aim(const struct bench_studio* studio, struct hair_matrices* out)
+static void clear(unsigned framebuffer, const struct bench_rectangle* part)
 {
-    struct hair_scene scene = studio->scene;
-    for (int i = 0; i < 3; ++i)
-        scene.eye[i] = scene.target[i] + studio->shot.away * (scene.eye[i] - scene.target[i]);
-    hair_camera_matrices(&scene, studio->transform, studio->reach, out);
-    shift(out, studio->shot.jitter, studio->size);
+    static const float far = 1, background[4] = {0.04f, 0.042f, 0.048f, 0};
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part->lower[0], part->lower[1], part->upper[0] - part->lower[0],
+              part->upper[1] - part->lower[1]);
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background);
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 bool bench_studio_draw(struct bench_studio* studio, double* ms)
 {
-    static const float   far = 1, background[4] = {0.04f, 0.042f, 0.048f, 0};
     struct hair_matrices light, camera;
     unsigned             framebuffer = studio->targets.framebuffer[HAIR_TARGET_DRAWN];
     GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
     studio->timed                    = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
-    aim(studio, &camera);
-    uint32_t map = size_of_map(studio, &camera, &light);
-    shift(&light, studio->shot.shadow_jitter, map);
+    bench_extent_aim(studio, &camera);
+    uint32_t map = bench_extent_map(studio, &camera, &light);
+    bench_extent_shift(&light, studio->shot.shadow_jitter, map);
     if (!draw_shadow(studio, &camera, &light, map)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, size, size);
-    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background);
-    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    struct bench_rectangle part = part_of(studio, &camera);
+    clear(framebuffer, &part);
     draw_head(studio, studio->programs[MESH], &camera);
     if (!draw_strands(studio, &camera, &light)) return false;
-    average(studio);
+    average(studio, &part);
     if (ms) *ms = bench_timer_take(&studio->timer);
     return !bench_was_interrupted();
 }
@@ -404,12 +378,13 @@ bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_
 bool bench_studio_add(struct bench_studio* studio, double* rgba)
 {
     size_t   values      = 4 * (size_t)studio->size * studio->size;
-    unsigned framebuffer = studio->targets.framebuffer[HAIR_TARGET_ENCODED];
+    bool     averaged    = studio->shot.supersample > 1;
+    unsigned framebuffer = studio->targets.framebuffer[averaged ? HAIR_TARGET_ENCODED : HAIR_TARGET_RESOLVED];
     GLsizei  size        = (GLsizei)studio->size;
     float*   read        = malloc(values * sizeof *read);
     if (!read) return false;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-    glNamedFramebufferReadBuffer(framebuffer, GL_COLOR_ATTACHMENT1);
+    glNamedFramebufferReadBuffer(framebuffer, averaged ? GL_COLOR_ATTACHMENT1 : GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, size, size, GL_RGBA, GL_FLOAT, read);
     for (size_t i = 0; i < values; ++i) rgba[i] += (double)read[i];
     free(read);

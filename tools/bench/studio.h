@@ -11,6 +11,10 @@
 
 #define STUDIO_FPS 60
 
+struct bench_rectangle {
+    int lower[2], upper[2]; // pixels, without the upper ones
+};
+
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
@@ -37,7 +41,9 @@ struct bench_studio {
     uint32_t               size; // of a picture, pixels to each side
     float                  transform[16], reach;
     uint32_t               frame;
-    bool                   bare;       // the head is not drawn
+    bool                   bare;       // the head is not drawn: what no hair is or was before stays as it is,
+    bool                   goes_on;    // while pictures are taken as the last one,
+    struct bench_rectangle drawn;      // which may have hair here
     bool                   timed;      // what is under way is
     bool                   counts;     // and
     uint64_t               primitives; // that the last picture has of hair, two to a ribbon's segment

@@ -2,10 +2,11 @@
 // of a GTX 480 in 2010. Frames are timed as a viewer would see them: from the first call to glFinish, many at a time.
 //
 // A cell that draws has all that a frame of hair needs: followers led round solids, shadow map, light, colour, and pixels of
-// samples; no head. Near by nothing has a level of detail. Far away all that has one uses it, as in the paper: fewer, wider
-// strands of fewer segments, in a shadow map that is as much smaller as the picture of the hair is, and a simulation of as
-// few substeps as there may be; the paper's left out whole frames. How far the paper's was it does not say: here so far
-// that hair is some 35 pixels high, whatever the size of the picture.
+// samples; no head. What of the picture neither is nor was in reach of hair is not cleared again: on an H200, which clears
+// 55 GB/s, that took more than far hair does. Near by nothing has a level of detail. Far away all that has one uses it, as
+// in the paper: fewer, wider strands of fewer segments, in a shadow map that is as much smaller as the picture of the hair
+// is, and a simulation of as few substeps as there may be; the paper's left out whole frames. How far the paper's was it
+// does not say: here so far that hair is some 35 pixels high, whatever the size of the picture.
 #include "tools/bench/picture.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
