@@ -205,7 +205,8 @@ typedef uint32_t hair_uint;
 #define HAIR_CELL_SOLIDS 64        // and in a cell of the grid where it has not
 #define HAIR_CONTACT_TEXELS 13
 #define HAIR_MEMBER_NUMBER 1048575u // of a member of a cell: which hair_contact,
-#define HAIR_MEMBER_WALKED 16777216u // and whether it is no sphere or capsule
+#define HAIR_MEMBER_WALKED 16777216u // and whether it is no sphere or capsule,
+#define HAIR_MEMBER_LONG 33554432u   // or no sphere
 #define HAIR_FOLLOWER_TEXELS 6
 #define HAIR_PATCH_TEXELS 4
 #define HAIR_MAP_SETS 4 // of a groom, at most

@@ -19,30 +19,41 @@ bool is_around(uint k, vec3 end, float way)
 uint leave_deepest(uint i, vec3 start, inout uvec2 solids, uvec2 owed, float enough_depth, vec3 head_moved,
                    vec2 granted, inout outcome made, inout uvec2 met, out uvec2 from)
 {
-    vec3  end  = start + made.d - head_moved, normal = vec3(0.0), outwards;
+    vec3  end  = start + made.d - head_moved, normal;
     float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
     uint  whose = 0u;
-    uvec2 around = uvec2(0u);
+    uvec2 around = uvec2(0u), left = solids, at = first_of(left), after;
     from = uvec2(0u);
-    EACH_BIT(solids) {
-        uint k     = member_at(own(members), at.x, at.y);
-        bool first = (owed[at.x] & at.y) != 0u;
-        if (first || is_around(k, end, way)) {
-            float deep = depth_in(k, start, made.d, head_moved, was, outwards), rank = first ? deep + FARTHEST : deep;
-            was_most = max(was_most, was);
-            around[at.x] |= at.y;
-            if (rank > most) {
-                most   = rank;
-                depth  = deep;
-                whose  = k;
-                normal = outwards;
-                from   = at;
-            }
+    // Which is the next one is read while this one is looked at.
+    for (uint member = member_at(own(members), at), next; at.y != 0u; at = after, member = next) {
+        left[at.x] &= ~at.y;
+        after       = first_of(left);
+        next        = member_at(own(members), after);
+        uint  k     = member & HAIR_MEMBER_NUMBER;
+        bool  first = (owed[at.x] & at.y) != 0u, whole = (member & HAIR_MEMBER_LONG) != 0u;
+        float deep  = 0.0;
+        if (!whole) { // A sphere that is farther away than the vertex comes is not gone through.
+            vec4  then = sphere_at(k, share_then), now = sphere_at(k, share_now);
+            float away = length(end - now.xyz);
+            was        = then.w - length(start - then.xyz);
+            deep       = now.w - away;
+            whole      = away <= way + length(now.xyz - then.xyz);
+        }
+        if (whole) deep = depth_in(k, start, made.d, head_moved, was, normal);
+        float rank = first ? deep + FARTHEST : deep;
+        was_most   = max(was_most, was);
+        around[at.x] |= first || deep > -2.0 * way ? at.y : 0u;
+        if (rank > most) {
+            most  = rank;
+            depth = deep;
+            whose = k;
+            from  = at;
         }
     }
     solids = around;
     depth -= max(was_most - granted.y, granted.x);
     if (from.y == 0u || !(depth > enough_depth || most > 0.5 * FARTHEST)) return 0u;
+    depth_in(whose, start, made.d, head_moved, was, normal);
     push_by(BODY_POSITION(whose, 1).w, depth, normal, surface_of(whose, end, head_moved, normal), made);
     met[from.x] |= from.y;
     return 1u;
@@ -66,7 +77,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
         if (pushed > 0u) owed[from.x] &= ~from.y;
 #ifdef HAIR_BODIES
         EACH_BIT(bodies) {
-            uint  k = member_at(own(members), at.x, at.y);
+            uint  k = member_at(own(members), at) & HAIR_MEMBER_NUMBER;
             vec3  way = made.d - head_moved, normal, surface;
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
                 float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);

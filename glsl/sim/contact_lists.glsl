@@ -13,39 +13,94 @@ bool has_lists = false;
 
 // A vertex is taken to be moved by the fitting of lengths no more than this farther than it would go freely. Of a way
 // longer than the lists are made for its end counts.
-#define FIT 0.02   // m
-#define ABOUT 0.004 // m
+#define FIT 0.02    // m
+#define ABOUT 0.001 // m
+
+// So many members of a list are read at once: a thread of a GPU waits for each as long as for all of them.
+#ifdef HAIR_SUBGROUP
+#define AT_ONCE 4u
+#else
+#define AT_ONCE 1u
+#endif
 
 vec3 halfway(vec3 position, vec3 way, float far)
 {
     return position - way * (min(0.5 * far, params.cells_give) / max(far, 1e-9));
 }
 
-uint member_at(uint first, uint word, uint bit) { return cell_entry(first + 32u * word + uint(findLSB(bit))) & HAIR_MEMBER_NUMBER; }
+// One of a list, by its bit; of no bit the first solid.
+uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
 
-// Of the solids around, for the rest of the step.
+// A sphere at one moment, with the margin; and when a list is made, and at the step's end.
+vec4 sphere_at(uint k, float share) { return mix(SOLID_START(k, 0), SOLID_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.margin); }
+
+struct sphere {
+    vec4 then, end;
+};
+
+sphere sphere_of(uint k) { return sphere(sphere_at(k, share_then), sphere_at(k, 1.0)); }
+
+// How far off a place it stays.
+float off_sphere(vec3 place, sphere s) { return length(place - s.end.xyz) - max(s.then.w, s.end.w) - length(s.end.xyz - s.then.xyz); }
+
+float off_long(vec3 place, uint k, float reach)
+{
+    vec4  ball = BALL(k);
+    float off  = length(place - ball.xyz) - ball.w;
+    if (off >= reach) return off; // Of what is long there is more around.
+    capsule then = solid_at(k, share_then), end = solid_at(k, 1.0);
+    vec3    start = end.start - then.start;
+    float   moves = max(length(start), length(start + end.axis - then.axis));
+    return length(from_axis(place, end)) - end.radius - moves;
+}
+
+// Whether everywhere about a place, and all the time, b is less deep than a: then nothing is to be got out of b. From
+// place to place the difference of depths changes by that of two directions (Dunkl and Williams 1964), and by how both move.
+bool hides(sphere a, sphere b, vec3 place, float about)
+{
+    vec4  moved = a.end - a.then, apart = b.end - b.then - moved, between = b.end - a.end;
+    float to_a = length(place - a.end.xyz), to_b = length(place - b.end.xyz), far = about + length(moved.xyz);
+    float least = to_a + to_b - 2.0 * far, rate = least > 0.0 ? min(2.0 * length(between.xyz) / least, 2.0) : 2.0;
+    return to_b - to_a - between.w > rate * far + length(apart.xyz) + abs(apart.w);
+}
+
+// Of the solids around, for the rest of the step. Spheres that overlap, of which a body may be made, hide each other: most
+// of them by one that is next to them in the list, or by the deepest.
 void list_solids(uint i, vec3 middle, float far)
 {
-    uvec2 list       = cell_members(middle), all = uvec2(0u), few = uvec2(0u), others = uvec2(0u);
-    float about      = min(ABOUT + 2.0 * far, params.cells_give);
-    float reach      = FIT + max(0.5 * far, params.cells_give), nearest = reach;
-    for (uint n = 0u; n < min(list.y - list.x, uint(HAIR_CELL_SOLIDS)); ++n) {
-        uint    member = cell_entry(list.x + n), k = member & HAIR_MEMBER_NUMBER, bit = 1u << (n & 31u);
-        vec4    ball = BALL(k);
-        float   off  = length(middle - ball.xyz) - ball.w;
-        if (off < reach) { // Of what is long there is more around.
-            capsule then = solid_at(k, share_then), end = solid_at(k, 1.0);
-            vec3    start = end.start - then.start;
-            float   moves = max(length(start), length(start + end.axis - then.axis));
-            off = length(from_axis(middle, end)) - end.radius - moves;
-        }
-        uvec2   mask  = uvec2(n < 32u ? bit : 0u, n < 32u ? 0u : bit);
-        nearest = min(nearest, off);
-        all |= off < reach ? mask : uvec2(0u);
-        few |= off < about ? mask : uvec2(0u);
+    uvec2  list = cell_members(middle), all = uvec2(0u), few = uvec2(0u), others = uvec2(0u), by_last = uvec2(0u);
+    float  about = min(ABOUT + 1.5 * far, params.cells_give);
+    float  reach = FIT + max(0.5 * far, params.cells_give), nearest = reach, least = about;
+    uint   count = min(list.y - list.x, uint(HAIR_CELL_SOLIDS));
+    sphere last = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0, 0.0, 0.0, -FARTHEST)), deepest = last;
+    for (uint first = 0u; first < count; first += AT_ONCE) {
+        uint   member[AT_ONCE];
+        sphere ball[AT_ONCE];
+        for (uint a = 0u; a < AT_ONCE; ++a) member[a] = cell_entry(list.x + min(first + a, count - 1u));
+        for (uint a = 0u; a < AT_ONCE; ++a) ball[a] = sphere_of(member[a] & HAIR_MEMBER_NUMBER);
+        for (uint a = 0u; a < AT_ONCE; ++a) {
+            uint  n = first + a, bit = 1u << (n & 31u);
+            uvec2 mask    = n >= count ? uvec2(0u) : n < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
+            bool  is_long = (member[a] & HAIR_MEMBER_LONG) != 0u;
+            float off     = off_sphere(middle, ball[a]);
+            if (is_long) off = off_long(middle, member[a] & HAIR_MEMBER_NUMBER, reach);
+            nearest = n < count ? min(nearest, off) : nearest;
+            all |= off < reach ? mask : uvec2(0u);
+            few |= off < about ? mask : uvec2(0u);
 #ifdef HAIR_BODIES
-        others |= (member & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
+            others |= (member[a] & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
 #endif
+            if (off < about && !is_long && n < count) {
+                if (hides(ball[a], last, middle, about)) few &= ~by_last;
+                if (hides(last, ball[a], middle, about) || hides(deepest, ball[a], middle, about)) few &= ~mask;
+                last    = ball[a];
+                by_last = mask;
+                if (off < least) {
+                    least   = off;
+                    deepest = ball[a];
+                }
+            }
+        }
     }
     own(members)     = list.x;
     own(listed_near) = vec4(middle, about);
@@ -62,30 +117,37 @@ void find_root()
     uvec2 list = cell_members(root_now);
     sunk       = 0.0;
     if (root_is_free) return;
-    for (uint n = list.x; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); ++n) {
+    for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); n += lanes) {
         uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
         vec4 ball   = BALL(k);
         if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
     }
+    sunk = most_of(sunk);
+}
+
+// Whether what a vertex has listed will do for a way: nothing is touched on it, or no more than what is close.
+bool has_listed(uint i, vec3 middle, float far)
+{
+    float off = length(middle - own(listed_near).xyz) + 0.5 * far;
+    return has_lists && off <= max(own(listed_near).w, min(own(clear), params.cells_give));
 }
 
 void find_solids(vec3 head_moved)
 {
-    bool serves = has_lists;
+    bool lacks = false;
     EACH(guide_count) {
         vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
         float far = length(way);
         own(met)  = uvec2(0u);
-        if (own(slack) > 0.0 && has_lists)
-            serves = serves && length(halfway(position, way, far) - own(listed_near).xyz) + 0.5 * far <= params.cells_give;
+        lacks     = lacks || (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far));
     }
-    if (!any_of(bvec2(!serves, false)).x) return;
+    if (!any_of(bvec2(lacks, false)).x) return;
     find_root();
     EACH(guide_count) {
         vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
         float far = length(way);
-        own(reachable) = uvec2(0u);
-        if (own(slack) > 0.0) list_solids(i, halfway(position, way, far), far);
+        if (!has_lists) own(reachable) = uvec2(0u);
+        if (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far)) list_solids(i, halfway(position, way, far), far);
     }
     has_lists = true;
 }

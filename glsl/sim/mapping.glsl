@@ -9,7 +9,7 @@
 //            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
 //            within a condition that differs between vertices, nor in an EACH that writes it
 //   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
-//            any of the guide's threads has, and sum_of do that too
+//            any of the guide's threads has, sum_of and most_of do that too
 //   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v); after it
 //            RENEW(name) what it has put, since a vertex's own is kept in registers too
 //   lend     makes a vector seen by all threads of a work group or subgroup, as lent_by(thread), which goes round
@@ -58,6 +58,7 @@ uint  hair_guide_number() { return hair_group(); }
 bvec2 any_of(bvec2 v) { return bvec2(subgroupAny(v.x), subgroupAny(v.y)); }
 uvec2 all_bits(uvec2 bits) { return subgroupOr(bits); }
 float sum_of(float v) { return subgroupAdd(v); }
+float most_of(float v) { return subgroupMax(v); }
 vec3  lent;
 void  lend(vec3 v) { lent = v; }
 vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
@@ -93,6 +94,7 @@ uint  hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvoca
 bvec2 any_of(bvec2 v) { return v; }
 uvec2 all_bits(uvec2 bits) { return bits; }
 float sum_of(float v) { return v; }
+float most_of(float v) { return v; }
 
 #else
 
@@ -153,6 +155,14 @@ float sum_of(float v)
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
         lend(vec3(v));
         v += lent_by(lane ^ reach).x;
+    }
+    return v;
+}
+float most_of(float v)
+{
+    for (uint reach = 1u; reach < lanes; reach *= 2u) {
+        lend(vec3(v));
+        v = max(v, lent_by(lane ^ reach).x);
     }
     return v;
 }

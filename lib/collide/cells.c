@@ -128,8 +128,9 @@ hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
         cells->contact[cells->contacts] = contact;
         cells->bounds[cells->contacts]  = bounds;
         cells->solid[cells->contacts]   = i;
-        int walked                      = solid->shape > HAIR_SHAPE_CAPSULE;
-        cells->member[cells->contacts]  = cells->contacts | (walked ? HAIR_MEMBER_WALKED : 0);
+        int walked = solid->shape > HAIR_SHAPE_CAPSULE, is_long = solid->shape > HAIR_SHAPE_SPHERE;
+        cells->member[cells->contacts] =
+            cells->contacts | (walked ? HAIR_MEMBER_WALKED : 0) | (is_long ? HAIR_MEMBER_LONG : 0);
         cells->bodies += (uint32_t)walked;
         ++cells->contacts;
     }

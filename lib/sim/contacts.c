@@ -2,7 +2,7 @@
 #include "lib/sim/sim.h"
 
 #define FIT                                                                                                  \
-    0.02f // m: farther than it would go freely no vertex is moved, as glsl/sim/contact_any.glsl has it
+    0.02f // m: farther than it would go freely no vertex is moved, as glsl/sim/contact_lists.glsl has it
 #define FASTEST 5.0f    // m/s: hair relative to the head; what is faster may pass through what is thin
 #define MOST_GIVE 0.1f  // m
 #define LOOSE 1.05f     // hair may stretch a little

@@ -352,6 +352,52 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
     assert_true(fallbacks[1] <= 2 * fallbacks[0] + 8);
 }
 
+#define HEAP 60
+
+// A heap of balls that overlap, 6 to 25 mm, each of which goes its own way to and fro.
+static void place_heap(hair_solid* heap, int frame)
+{
+    uint32_t random = 11;
+    for (int i = 0; i < HEAP; ++i) {
+        float p[4], way = 0.0025f * (float)(frame % 40 < 20 ? frame % 20 : 20 - frame % 20);
+        for (int k = 0; k < 4; ++k) {
+            random = random * 1664525u + 1013904223u;
+            p[k]   = (float)(random >> 8) / 16777216.0f;
+        }
+        heap[i]         = hair_test_body(HAIR_SHAPE_SPHERE, 0.05f * p[0] - 0.025f, 0.15f * p[1] - 0.25f,
+                                         0.05f * p[2] - 0.025f);
+        heap[i].size[0] = 0.006f + 0.019f * p[3];
+        heap[i].position[i % 3] += (i & 4 ? 1.0f : -1.0f) * way * p[(i + 1) % 3];
+    }
+}
+
+// Hair falls over it. Most of a ball's neighbours are not looked at, since it is deeper than they are.
+static void of_balls_that_overlap_and_move_apart_none_is_overlooked(void** state)
+{
+    static hair_solid        heap[HEAP];
+    hair_physics             physics = hair_test_loose(0.3f);
+    struct hair_test_strands strands = hair_test_strands_make(8, 32);
+    struct hair_test_living  living;
+    double                   deepest = -INFINITY;
+    for (int k = 0; k < 8; ++k)
+        hair_test_add_straight(&strands, 32, hair_v3(-0.12f, -0.09f, 0.01f * (float)k - 0.035f),
+                               hair_v3(1, 0.2f, 0), 0.3f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_test_live(*state, &strands, &desc, &living);
+    hair_test_strands_free(&strands);
+    for (int frame = 0; frame < 100; ++frame) {
+        place_heap(heap, frame);
+        hair_test_set_solids(&living, heap, HEAP);
+        hair_test_wait(&living, 1);
+        hair_test_read_guides(&living);
+        for (int i = 0; i < HEAP; ++i) deepest = fmax(deepest, hair_test_depth(&living, &heap[i]));
+    }
+    print_message("    up to %.2g m deep, stretch %.2g\n", deepest, hair_test_stretch(&living));
+    assert_true(deepest < 1e-3);
+    assert_true(hair_test_stretch(&living) < 0.02);
+    hair_test_die(&living);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -361,6 +407,7 @@ int main(void)
         HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
         HAIR_TEST(among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
         HAIR_TEST(many_balls_along_a_line_are_left_as_the_post_that_they_make_is),
+        HAIR_TEST(of_balls_that_overlap_and_move_apart_none_is_overlooked),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
