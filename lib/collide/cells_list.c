@@ -120,23 +120,43 @@ static int is_within(const struct span* span, hair_vec3 at)
     return hair_dot(off, off) <= span->reach * span->reach;
 }
 
+// Of a row of cells, where their middles are within the reach of a sphere. 0: nowhere.
+static int narrow(const struct hair_cells* cells, const struct span* span, hair_vec3 start, uint32_t first,
+                  uint32_t* from, uint32_t* to)
+{
+    hair_vec3 arm    = hair_sub(start, span->from);
+    float     square = span->reach * span->reach - arm.y * arm.y - arm.z * arm.z;
+    if (square < 0) return 0;
+    float half = sqrtf(square), low = (-arm.x - half) / cells->size, high = (-arm.x + half) / cells->size;
+    if (high < 0) return 0;
+    *from       = low > 0 ? first + (uint32_t)ceilf(low - 1e-3f) : first;
+    uint32_t up = first + (uint32_t)(high + 1e-3f);
+    *to         = up < *to ? up : *to;
+    return *from <= *to;
+}
+
 // Counts of each cell, in `number[cell + 1]`, how many contacts it has.
 static void find_pairs(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t* number,
                        struct pairs* out)
 {
     for (uint32_t i = 0; i < cells->contacts; ++i) {
-        int          all  = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE;
+        int          all  = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE, is_ball;
         struct span  span = span_of(cells, desc, i);
         struct range r    = range_of(cells, &cells->bounds[i]);
+        is_ball           = !all && hair_dot(span.axis, span.axis) == 0;
         for (uint32_t z = r.first[2]; z <= r.last[2]; ++z)
-            for (uint32_t y = r.first[1]; y <= r.last[1]; ++y)
-                for (uint32_t x = r.first[0]; x <= r.last[0]; ++x) {
-                    if (!all && !is_within(&span, middle_of(cells, x, y, z))) continue;
+            for (uint32_t y = r.first[1]; y <= r.last[1]; ++y) {
+                uint32_t from = r.first[0], to = r.last[0];
+                if (is_ball && !narrow(cells, &span, middle_of(cells, from, y, z), from, &from, &to))
+                    continue;
+                for (uint32_t x = from; x <= to; ++x) {
+                    if (!all && !is_ball && !is_within(&span, middle_of(cells, x, y, z))) continue;
                     uint32_t cell = x + cells->cells[0] * (y + cells->cells[1] * z);
                     ++number[cell + 1];
                     out->cell[out->count]      = cell;
                     out->contact[out->count++] = i;
                 }
+            }
     }
 }
 
@@ -149,12 +169,6 @@ static int by_distance(const void* a, const void* b)
 {
     const struct candidate *p = a, *q = b;
     if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
-    return p->contact < q->contact ? -1 : p->contact > q->contact;
-}
-
-static int by_number(const void* a, const void* b)
-{
-    const struct candidate *p = a, *q = b;
     return p->contact < q->contact ? -1 : p->contact > q->contact;
 }
 
@@ -181,9 +195,19 @@ static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t
     }
 }
 
-// The nearest of a list that is too long, in their order. Returns how many.
+// Those of a list, in their order, that are no farther than one of them. Returns how many.
+static uint32_t keep_to(struct candidate* candidate, uint32_t count, struct candidate farthest)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        if (by_distance(&candidate[i], &farthest) <= 0) candidate[kept++] = candidate[i];
+    return kept;
+}
+
+// The nearest of a list that is too long, in their order; `sorted` has room for as many. Returns how many.
 static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uint32_t cell,
-                       const uint32_t* contact, uint32_t count, struct candidate* candidate)
+                       const uint32_t* contact, uint32_t count, struct candidate* candidate,
+                       struct candidate* sorted)
 {
     uint32_t  x = cell % cells->cells[0], yz = cell / cells->cells[0], rounds = 0, kept = 0;
     hair_vec3 middle = middle_of(cells, x, yz % cells->cells[1], yz / cells->cells[1]);
@@ -192,17 +216,22 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
         candidate[i]          = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
     }
     if (count > HAIR_CELL_SOLIDS) {
-        select_nearest(candidate, count, HAIR_CELL_SOLIDS);
-        count = HAIR_CELL_SOLIDS;
+        memcpy(sorted, candidate, count * sizeof *sorted);
+        select_nearest(sorted, count, HAIR_CELL_SOLIDS);
+        struct candidate farthest = sorted[0];
+        for (uint32_t i = 1; i < HAIR_CELL_SOLIDS; ++i)
+            if (by_distance(&sorted[i], &farthest) > 0) farthest = sorted[i];
+        count = keep_to(candidate, count, farthest);
     }
-    qsort(candidate, count, sizeof *candidate, by_distance);
-    while (kept < count && kept < HAIR_CELL_SOLIDS) {
-        rounds += hair_member_rounds(cells->member[candidate[kept].contact]);
+    for (uint32_t i = 0; i < count; ++i) rounds += hair_member_rounds(cells->member[candidate[i].contact]);
+    if (rounds <= most_rounds) return count;
+    memcpy(sorted, candidate, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, by_distance);
+    for (rounds = 0; kept < count; ++kept) {
+        rounds += hair_member_rounds(cells->member[sorted[kept].contact]);
         if (rounds > most_rounds) break;
-        ++kept;
     }
-    qsort(candidate, kept, sizeof *candidate, by_number);
-    return kept;
+    return kept ? keep_to(candidate, count, sorted[kept - 1]) : 0;
 }
 
 static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
@@ -216,7 +245,7 @@ static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
 
 // `end` is of each cell where its contacts end in `sorted`.
 static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* desc, const uint32_t* end,
-                        const uint32_t* sorted, struct candidate* candidate)
+                        const uint32_t* sorted, struct candidate* candidate, uint32_t longest)
 {
     uint32_t all    = cells->cells[0] * cells->cells[1] * cells->cells[2];
     cells->entries  = all + 1;
@@ -227,7 +256,8 @@ static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* 
                  rounds = 0;
         for (uint32_t i = 0; i < count; ++i) rounds += hair_member_rounds(cells->member[sorted[begin + i]]);
         if (count > HAIR_CELL_SOLIDS || rounds > desc->most_rounds) {
-            uint32_t kept = choose(cells, desc->most_rounds, cell, sorted + begin, count, candidate);
+            uint32_t kept =
+                choose(cells, desc->most_rounds, cell, sorted + begin, count, candidate, candidate + longest);
             for (uint32_t i = 0; i < kept; ++i)
                 cells->entry[cells->entries++] = cells->member[candidate[i].contact];
             cells->left_out = count - kept > cells->left_out ? count - kept : cells->left_out;
@@ -255,7 +285,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
     // Where each begins becomes, contact after contact, where it ends.
     for (uint32_t i = 0; i < pairs.count; ++i) sorted[end[pairs.cell[i]]++] = pairs.contact[i];
 
-    struct candidate* candidate = hair_alloc(host, longest, sizeof *candidate);
+    struct candidate* candidate = hair_alloc(host, 2 * (size_t)longest, sizeof *candidate);
     uint32_t          room      = all + 1 + pairs.count;
     if (room > cells->entry_room) {
         hair_free(host, cells->entry);
@@ -263,7 +293,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
         cells->entry_room = cells->entry ? room + room / 2 : 0;
     }
     int whole = candidate && cells->entry;
-    if (whole) write_lists(cells, desc, end, sorted, candidate);
+    if (whole) write_lists(cells, desc, end, sorted, candidate, longest);
     hair_free(host, candidate);
     hair_free(host, numbers);
     return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
