@@ -12,6 +12,8 @@
 
 #define SIDE 96
 #define SEGMENTS 16u
+#define ROUNDED                                                                                              \
+    1e-4 // pixels: what stands still may go, of which two programs work out where it was and where it is
 
 struct fixture {
     struct hair_test* test;
@@ -185,7 +187,7 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
     hair_view             view = view_of(HAIR_PASS_MOTION, 0);
     read_now(&f);
     draw(&f, &view, &picture);
-    assert_true(check("first", &view, &picture, f.now, f.now) == 0);
+    assert_true(check("first", &view, &picture, f.now, f.now) < ROUNDED);
     step(&f, 0.01f);
     draw(&f, &view, &picture);
     assert_true(check("moved", &view, &picture, f.now, f.before) > 0.5);
@@ -335,7 +337,8 @@ static void jitter_moves_the_picture_and_no_velocity(void** state)
     for (int i = 0; i < SIDE * SIDE; ++i)
         if (picture.motion[4 * i + 3] != 9) {
             ++seen;
-            assert_true(picture.motion[4 * i] == 0 && picture.motion[4 * i + 1] == 0);
+            assert_true(fabs((double)picture.motion[4 * i]) * SIDE < ROUNDED);
+            assert_true(fabs((double)picture.motion[4 * i + 1]) * SIDE < ROUNDED);
         }
     assert_true(seen > 200);
     finish(&f);
