@@ -1,42 +1,19 @@
 // programs.c - which programs a simulation runs, and how much of it at once.
 #include "lib/sim/sim.h"
 
-// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
-// nothing. How often a substep goes round at the worst: every method tried, each with all its steps, each vertex in
-// reach of all solids. A loop that nobody enters goes round once.
-#define MOST_ROUNDS 65000
-
-static uint32_t lesser(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
-static uint32_t rounds_of_substep(const struct hair_sim* sim, int by_thread)
-{
-    const struct hair_cells* cells  = &sim->contacts.cells;
-    uint32_t                 solids = hair_sim_contacts(sim), look = 3 * (solids + 1);
-    uint32_t                 others = sim->rods ? solids - lesser(sim->solids.capsules, solids) : 0;
-    uint32_t met = solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
-    if (!sim->rods) return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
-    uint32_t drawn = sim->ties.count ? 40 : 0;    // By ties, more often.
-    uint32_t led   = sim->ties.count ? 300 : 170; // Following the leader is in every step of every method.
-    if (hair_wind_is_on(&sim->wind)) drawn += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
-    if (sim->contacts.any) met = 44 * (cells->rounds + 20) + 3 * cells->longest, look = 0;
-    if (by_thread) return (sim->most_vertices + 1) * (250 + drawn + met) + led + look;
-    return 740 + led + (40 + drawn) * (sim->most_vertices + 1) + met + look;
-}
+#define MOST_ROUNDS 65000 // that a software rasteriser may go in one thread: see rounds.c
 
 // Where a thread would have too much to do, it is a work group's.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
 {
-    return sim->by_thread && (!sim->gl->software || rounds_of_substep(sim, 1) <= MOST_ROUNDS);
+    return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    uint32_t most = MOST_ROUNDS / rounds_of_substep(sim, hair_sim_is_by_thread(sim));
-    return most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
+    uint32_t most = MOST_ROUNDS / hair_sim_rounds_of_substep(sim, hair_sim_is_by_thread(sim));
+    return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
 // Compiled with what there is, and with nothing else. `any` number of solids, among them `bodies`.

@@ -105,6 +105,9 @@ hair_result  hair_sim_need_programs(struct hair_sim* sim);
 int          hair_sim_is_by_thread(const struct hair_sim* sim);
 uint32_t     hair_sim_substeps_at_once(const struct hair_sim* sim);
 
+// rounds.c: how often a software rasteriser goes round loops in a substep, at most; with a thread per guide or a work group.
+uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread);
+
 // save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
 size_t hair_sim_save_size(struct hair_sim* sim);
 void   hair_sim_save(struct hair_sim* sim, unsigned char* bytes);

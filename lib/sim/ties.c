@@ -65,6 +65,16 @@ static uint32_t hash_of(const struct hair_knot* knot, uint32_t count)
     return count ? which | 1 : 0;
 }
 
+static uint32_t most_of_a_guide(const struct hair_knot* knot, uint32_t count)
+{
+    uint32_t most = 0, in_row = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        in_row = i > 0 && knot[i - 1].guide == knot[i].guide ? in_row + 1 : 1;
+        if (in_row > most) most = in_row;
+    }
+    return most;
+}
+
 static int are_alike(const struct hair_ties* ties, const struct hair_knot* knot, uint32_t count)
 {
     int alike = ties->count == count;
@@ -81,6 +91,7 @@ void hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count
     hair_free(&sim->gl->host, sim->ties.knot);
     sim->ties.knot  = knot;
     sim->ties.count = count;
+    sim->ties.most  = most_of_a_guide(knot, count);
     sim->ties.which = hash_of(knot, count);
 }
 

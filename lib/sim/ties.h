@@ -18,6 +18,7 @@ struct hair_knot {
 struct hair_ties {
     struct hair_knot* knot; // in the order of guides and their vertices
     uint32_t          count;
+    uint32_t          most;            // of one guide
     uint32_t          which;           // hash of the vertices that are tied; 0: none
     GLuint            buffer, texture; // hair_held[], once there have been any
 };

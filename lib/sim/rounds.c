@@ -1,0 +1,101 @@
+// rounds.c - how often a software rasteriser goes round the loops of a substep.
+//
+// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
+// nothing. So it is counted at the worst: methods are tried with all their steps, and fail; each vertex is in reach of all
+// solids. Of eight guides, each a thread's, all go round for as long as one of them does. A loop that nobody enters goes
+// round once.
+#include "lib/sim/sim.h"
+
+#define TRIED 2u // methods, before a last one follows the leader. It may be some guides' second.
+#define LOOKS 9u // at lengths, for each of them, and
+#define STEPS 8u // between these: MOST_STEPS of glsl/sim/lengths.glsl
+#define HEAVY_SWEEPS                                                                                         \
+    13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
+#define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
+#define TIED_ENDS 30   // and what begins and ends these, for each tie
+#define HALVINGS 10    // of a work group's vertices, and what ends them: cyclic reduction
+#define AT_ONCE 8u     // guides, where each is a thread's
+#define IDLE 500       // of loops that go over methods and steps, and of those that nobody enters,
+#define IDLE_GROUP 250 // more of a work group, and what it sums up
+
+// Of one substep, loops over a strand.
+struct loops {
+    uint32_t over;  // each vertex by itself: a work group goes over all of them at once
+    uint32_t rows;  // tridiagonal systems: there and back, or a work group's reduction
+    uint32_t along; // from vertex to vertex, which is one thread's in any case
+    uint32_t ends;  // rounds, whatever the strand has
+};
+
+static uint32_t lesser(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+// STIFFLY of glsl/sim/lengths.glsl.
+static uint32_t stiff_steps(const struct hair_sim* sim)
+{
+    if (sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_stiff(sim)) return 0;
+    return hair_sim_is_curved(sim) ? 4 : sim->solver == HAIR_SOLVER_ACCURATE ? 3 : 1;
+}
+
+// From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be found.
+static struct loops loops_of_methods(const struct hair_sim* sim)
+{
+    uint32_t     tried = sim->solver == HAIR_SOLVER_FOLLOW ? 0 : TRIED, predicted = tried + 1;
+    uint32_t     curved = hair_sim_is_curved(sim) ? 1 : 0, tied = sim->ties.count > 0;
+    uint32_t     met = hair_sim_contacts(sim) > 0 ? 2 : 0, stiff = stiff_steps(sim);
+    struct loops loops = {0};
+    loops.over         = predicted * (8 + tied + met + (curved ? 7 : 2));
+    loops.rows         = predicted * curved;
+    loops.along        = predicted * 2;
+    loops.over += tried * (LOOKS * (3 + tied) + STEPS * 4 + stiff * (curved ? 6 : 3));
+    loops.rows += tried * STEPS;
+    loops.along += tried * stiff * 2;
+    return loops;
+}
+
+// What leader.glsl adds. A strand that solids have a hand in is led twice.
+static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* loops)
+{
+    uint32_t led     = (sim->solver == HAIR_SOLVER_FOLLOW ? 1 : TRIED) * (hair_sim_contacts(sim) > 0 ? 2 : 1);
+    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Their spans are where they like.
+    loops->over += led * 3;
+    if (sim->ties.count) {
+        loops->along += led * (TIED_SWEEPS * abreast + 1);
+        loops->ends += led * TIED_ENDS * sim->ties.most;
+    } else {
+        loops->along += led * (sim->physics.tip_mass > 0 ? HEAVY_SWEEPS : 1);
+    }
+}
+
+// Of a vertex, in all tries of a substep.
+static uint32_t rounds_of_contact(const struct hair_sim* sim)
+{
+    const struct hair_cells* cells  = &sim->contacts.cells;
+    uint32_t                 solids = hair_sim_contacts(sim);
+    uint32_t                 others = solids - lesser(sim->solids.capsules, solids);
+    if (sim->contacts.any) return 44 * (cells->rounds + 20) + 3 * cells->longest;
+    return solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
+}
+
+static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
+{
+    uint32_t around    = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
+    uint32_t each      = rounds_of_contact(sim);
+    uint32_t look      = sim->contacts.any ? 0 : 6 * (hair_sim_contacts(sim) + 1); // By guide and root.
+    struct loops loops = loops_of_methods(sim);
+    add_leader(sim, by_thread, &loops);
+    loops.over += 4; // It is loaded, taken for true or put back, and stored.
+    if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
+    if (by_thread)
+        return around * (loops.over + 2 * loops.rows + loops.along + each) + loops.ends + look + IDLE;
+    return 2 * loops.over + HALVINGS * loops.rows + around * loops.along + loops.ends + each + look + IDLE +
+           IDLE_GROUP;
+}
+
+uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread)
+{
+    uint32_t solids = hair_sim_contacts(sim);
+    if (sim->rods) return rounds_of_rod(sim, by_thread);
+    return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
+}
