@@ -18,6 +18,7 @@
 #define FEWEST_A_FRAME_DIRECT 4
 #define MOST_A_FRAME_DIRECT 16 // for a heavy tip; what it lacks then, inertia makes up for: taut.c
 #define MOST_STIFF 1e6         // h^2 K_ii / m_i.
+#define MOST_STIFF_FREE 1e4    // of what nothing holds: by its mass alone it moves as a whole
 
 struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
     double x, y, z;
@@ -47,7 +48,7 @@ static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double 
     double     after = row.z * row.z / s->mass[i + 1], most = after;
     if (i > 0) most = fmax(most, row.y * row.y / s->mass[i]);
     if (i > 1 || (i == 1 && !s->held)) most = fmax(most, row.x * row.x / s->mass[i - 1]);
-    return MOST_STIFF / (h * h * most * implicit_ratio(s));
+    return (s->held ? MOST_STIFF : MOST_STIFF_FREE) / (h * h * most * implicit_ratio(s));
 }
 
 static void add_row(struct band* k, uint32_t i, hair_dvec3 row, double stiffness)

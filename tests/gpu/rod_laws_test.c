@@ -176,6 +176,51 @@ static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
     }
 }
 
+// Kinked, and of segments between a third of a millimetre and eight.
+static hair_vec3 kinked(float t, uint32_t strand, const void* user)
+{
+    static const float at[][3] = {{0, 0, 0},
+                                  {0.0001f, -0.0003f, -0.0001f},
+                                  {0.001f, -0.0012f, -0.0002f},
+                                  {0.0085f, -0.0053f, 0.001f},
+                                  {0.0091f, -0.0055f, 0.0012f},
+                                  {0.0094f, -0.0055f, 0.0013f},
+                                  {0.0106f, -0.0061f, 0.0015f},
+                                  {0.0163f, -0.0111f, 0.0013f}};
+    (void)strand, (void)user;
+    return hair_load3(at[(int)lroundf(7 * t)]);
+}
+
+// However stiff: what a force does to the whole of a strand is not lost beside what it does to its bends.
+static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
+{
+    static const hair_mapping mappings[] = {HAIR_MAPPING_GROUP, HAIR_MAPPING_THREAD};
+    for (int kind = 0; kind < 4; ++kind) {
+        struct hair_test_living  living;
+        hair_physics             physics = hair_test_bare();
+        struct hair_test_strands strands = hair_test_strands_make(1, 8);
+        double                   worst   = 0;
+        physics.young                    = 1e12f;
+        physics.fiber_radius             = 1e-3f;
+        physics.damping                  = 0;
+        physics.root                     = HAIR_ROOT_FREE;
+        hair_test_strands_add(&strands, 8, kinked, NULL);
+        hair_desc desc = hair_test_rods((hair_solver)(kind % 2), mappings[kind / 2], 1.0 / 240, &physics);
+        hair_test_live(*state, &strands, &desc, &living);
+        hair_test_wait(&living, 60);
+        hair_test_read_guides(&living);
+        for (uint32_t i = 0; i < 8; ++i) {
+            hair_vec3 rest  = hair_load3(&living.groom->rest[i].position.x);
+            hair_vec3 moved = hair_sub(hair_test_at(&living, 0, i), rest);
+            worst = fmax(worst, hypot((double)moved.y + 9.81 / 2, hypot((double)moved.x, (double)moved.z)));
+        }
+        print_message("    mapping %d, solver %d: off by up to %.2g m\n", kind / 2, kind % 2, worst);
+        assert_true(worst < 1e-3);
+        hair_test_die(&living);
+        hair_test_strands_free(&strands);
+    }
+}
+
 struct motion {
     double momentum[3], angular[3],
         energy; // by the mass of a metre; angular about the centre; nothing elastic
@@ -295,6 +340,7 @@ int main(void)
         HAIR_TEST(motion_does_not_depend_on_how_time_is_cut),
         HAIR_TEST(the_same_steps_give_the_same_bits),
         HAIR_TEST(a_free_strand_falls_and_drifts_by_the_formula),
+        HAIR_TEST(so_it_does_where_it_is_as_stiff_as_a_needle),
         HAIR_TEST(a_free_strand_keeps_its_momentum_and_its_angular_momentum),
         HAIR_TEST(accurate_keeps_the_energy_of_what_swings),
         HAIR_TEST(what_hangs_straight_down_stays_where_it_is),
