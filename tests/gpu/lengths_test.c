@@ -131,7 +131,8 @@ static uint32_t runs_of(const struct hair_gl* gl, hair_gl_pass pass, int* there)
 #define CURVED HAIR_GL_WITH(CURVED)
 #define THREAD HAIR_GL_WITH(THREAD)
 
-// Of the solver and of smoothing only the size that the longest guide needs is compiled and run.
+// Of the solver and of smoothing only the size that the longest guide needs is compiled and run; of a guide that a thread
+// would have too much to do with a work group's.
 static void check_sizes(void** state, hair_context* context, int way)
 {
     static const hair_gl_pass solvers[HAIR_TEST_WAYS] = {
@@ -139,8 +140,8 @@ static void check_sizes(void** state, hair_context* context, int way)
         HAIR_GL_ACCURATE | CURVED, HAIR_GL_ACCURATE | THREAD | CURVED,
         HAIR_GL_FOLLOW | CURVED,   HAIR_GL_FOLLOW | THREAD | CURVED,
         HAIR_GL_REDBLACK};
-    const struct hair_gl* gl      = &context->gl;
-    uint32_t              runs[4] = {0}, smoothed[4] = {0};
+    const struct hair_gl* gl         = &context->gl;
+    uint32_t              runs[2][4] = {{0}}, smoothed[4] = {0};
     for (size_t i = 0; i < LENGTHS; ++i) {
         if (!is_tried(way, lengths[i])) continue;
         struct fixture f = start_in(state, context, lengths[i], way);
@@ -150,13 +151,16 @@ static void check_sizes(void** state, hair_context* context, int way)
         free(smooth);
         glFinish();
         uint32_t own = (lengths[i] > 32) + (lengths[i] > 64) + (lengths[i] > 128);
-        runs[own] += 5;
+        runs[hair_sim_is_by_thread(&f.hair->sim)][own] += 5;
         smoothed[own] += 1;
         for (uint32_t size = 0; size < 4; ++size) {
-            int there;
-            assert_int_equal(runs_of(gl, solvers[way] | HAIR_GL_SIZE(size), &there), runs[size]);
+            for (int by_thread = 0; by_thread < 2; ++by_thread) {
+                hair_gl_pass pass = (solvers[way] & ~THREAD) | (by_thread ? THREAD : 0) | HAIR_GL_SIZE(size);
+                int          there;
+                assert_int_equal(runs_of(gl, pass, &there), runs[by_thread][size]);
+                assert_int_equal(there, runs[by_thread][size] > 0);
+            }
             assert_int_equal(hair_test_runs(gl, HAIR_GL_SMOOTH | HAIR_GL_SIZE(size)), smoothed[size]);
-            assert_int_equal(there, runs[size] > 0);
             assert_int_equal(hair_test_program(gl, HAIR_GL_SMOOTH | HAIR_GL_SIZE(size)) != 0,
                              smoothed[size] > 0);
         }
