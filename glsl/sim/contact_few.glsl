@@ -53,8 +53,12 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
         EACH_BIT(solids & ~bodies()) {
             uint  k = number_of(at);
             float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
-            surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
-            contacts += push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+            if (depth > 0.0 || (kept[at.x] & at.y) != 0u) { // What its surface does matters only then.
+                surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
+                push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
+                met[at.x] |= at.y;
+                ++contacts;
+            }
         }
 #ifdef HAIR_BODIES
         EACH_BIT(solids & bodies()) {
