@@ -31,14 +31,20 @@ static double distance(const double* a, const double* b)
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Beyond what floats far from the origin resolve.
-static double stretch_of(const struct bench_living* living, const double* positions)
+// Beyond what floats resolve: along each axis half the last place of both ends, as they are read, and as they are
+// simulated, from the head's origin, which a strand with a free root may have left far behind.
+static double stretch_of(const struct bench_watch* watch, const double* positions)
 {
-    double most = 0, far = 0;
-    for (uint32_t i = 0; i < 3 * living->scene->vertices; ++i) far = fmax(far, fabs(positions[i]));
+    const struct bench_living* living = watch->living;
+    double                     most = 0, farthest[3] = {0}, none[3] = {0}, away = 0;
+    for (uint32_t i = 0; i < 3 * living->scene->vertices; ++i)
+        farthest[i % 3] = fmax(farthest[i % 3], fabs(positions[i]));
+    for (uint32_t i = 0; i < living->scene->vertices; ++i)
+        away = fmax(away, distance(positions + 3 * i, watch->head.position));
+    double resolved = 1.2e-7 * (distance(farthest, none) + away);
     for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
         double off = fabs(distance(positions + 3 * i, positions + 3 * i + 3) - living->lengths[i]);
-        most       = fmax(most, (off - 1.2e-7 * far) / living->lengths[i]);
+        most       = fmax(most, (off - resolved) / living->lengths[i]);
     }
     return most;
 }
@@ -64,7 +70,7 @@ static void look(struct bench_watch* watch, const double* now, double passed)
     uint32_t                   count  = living->scene->vertices;
     watch->finite                     = watch->finite && bench_are_finite(now, count);
     if (!watch->finite) return;
-    watch->stretch = fmax(watch->stretch, stretch_of(living, now));
+    watch->stretch = fmax(watch->stretch, stretch_of(watch, now));
     for (uint32_t i = 0; i < count && passed > 0; ++i)
         watch->speed = fmax(watch->speed, distance(now + 3 * i, watch->before + 3 * i) / passed);
     if (watch->spared <= 0) watch->penetration = fmax(watch->penetration, depth_of(watch, now));
