@@ -16,7 +16,7 @@
 #define MARGIN 8u  // pixels around each
 #define TITLE 3u   // pixels for a dot of the letters
 #define CAPTION 2u
-#define CAPTION_LINES 2u
+#define CAPTION_LINES 3u
 #define PICTURE_PATH 4128
 
 static const struct entry {

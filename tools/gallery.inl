@@ -92,5 +92,5 @@ PICTURE("By its strands: along them, and through a grid of how much hair there i
 PICTURE("The same on blond hair", "--scene demo --set color=blond")
 
 ROW("Lights")
-PICTURE("One from far away, a blue point behind, a red spot from the side, all with shadows, and surroundings", "tools/scenes/lights.json")
+PICTURE("One from far away, a blue point behind, a red spot beside it, all with shadows; surroundings", "tools/scenes/lights.json")
 PICTURE("The same on blond hair", "tools/scenes/lights.json --set color=blond")
