@@ -38,7 +38,7 @@ void bench_extent_aim(const struct bench_studio* studio, struct hair_matrices* o
     bench_extent_shift(out, studio->shot.jitter, studio->size);
 }
 
-float bench_studio_scale(const struct bench_studio* studio, float away)
+float bench_extent_scale(const struct bench_studio* studio, float away)
 {
     struct hair_matrices camera;
     hair_camera_matrices(&studio->scene, studio->transform, studio->reach, &camera);
@@ -66,12 +66,10 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
 struct bench_rectangle bench_extent_hair(const struct bench_studio*  studio,
                                          const struct hair_matrices* camera, uint32_t pixels)
 {
-    const float *at = studio->scene.motion.pivot, *head = studio->transform, *v = camera->view,
-                *p             = camera->projection;
+    const float *          v = camera->view, *p = camera->projection;
     struct bench_rectangle all = {{0, 0}, {(int)pixels, (int)pixels}}, part = all;
     float                  world[3], seen[3], half = 0.5f * (float)pixels, reach = studio->reach;
-    for (int i = 0; i < 3; ++i)
-        world[i] = head[i] * at[0] + head[4 + i] * at[1] + head[8 + i] * at[2] + head[12 + i];
+    hair_camera_pivot(&studio->scene, studio->transform, world);
     for (int i = 0; i < 3; ++i)
         seen[i] = v[i] * world[0] + v[4 + i] * world[1] + v[8 + i] * world[2] + v[12 + i];
     if (-seen[2] <= 2 * reach) return all;

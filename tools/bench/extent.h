@@ -9,6 +9,9 @@
 void bench_extent_aim(const struct bench_studio* studio, struct hair_matrices* out);
 void bench_extent_shift(struct hair_matrices* matrices, const float by[2], uint32_t size);
 
+// Pixels to a metre where the scene's camera looks, from so many times its distance.
+float bench_extent_scale(const struct bench_studio* studio, float away);
+
 // Pixels of the picture to a texel of a shadow map of such a size.
 float bench_extent_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
                          const struct hair_matrices* light, uint32_t size);

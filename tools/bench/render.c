@@ -3,6 +3,7 @@
 // The reference is the same hair at its full detail and 1,024 samples a pixel, out of many pictures that are shifted by
 // parts of a pixel. Half of them make one picture, half another: what is not five times as far from the reference as
 // those are from each other has no error.
+#include "tools/bench/extent.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/truth.h"
 #include "tools/common/file.h"
@@ -108,7 +109,7 @@ static struct bench_shot shot_of(const struct scene* scene)
     shot.look.radius       = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
     shot.away              = scene->subject->away;
     if (scene->subject->width > 0) {
-        shot.look.radius = 0.5f * scene->subject->width / bench_studio_scale(&scene->studio, shot.away);
+        shot.look.radius = 0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
         shot.look.taper  = hair_curve_line(1, 1);
     }
     return shot;

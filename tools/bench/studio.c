@@ -2,7 +2,6 @@
 #include "tools/bench/studio.h"
 
 #include "tools/bench/extent.h"
-
 #include "tools/common/camera.h"
 #include "tools/common/file.h"
 #include "tools/common/shaders.h"

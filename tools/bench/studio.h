@@ -68,9 +68,6 @@ struct bench_studio_desc {
 bool bench_studio_make(struct bench* bench, const struct bench_studio_desc* desc, struct bench_studio* out);
 void bench_studio_free(struct bench_studio* studio);
 
-// Pixels to a metre where the scene's camera looks, from so many times its distance.
-float bench_studio_scale(const struct bench_studio* studio, float away);
-
 struct bench_shot bench_studio_shot(const struct bench_studio* studio); // as the scene has it: one sample
 
 // To the next frame. `ms`, which may be NULL: of the simulation. False: the library refused.

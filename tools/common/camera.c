@@ -56,7 +56,7 @@ static void copy_in(const float from[3], vec3 to)
     memcpy(to, from, 3 * sizeof(float));
 }
 
-static void carry_pivot(const struct hair_scene* scene, const float transform[16], vec3 out)
+void hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3])
 {
     const float* p = scene->motion.pivot;
     for (int i = 0; i < 3; ++i)
@@ -80,7 +80,7 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
     mat4 view, projection;
     copy_in(scene->eye, eye);
     copy_in(scene->target, target);
-    carry_pivot(scene, transform, centre);
+    hair_camera_pivot(scene, transform, centre);
     float distance = glm_vec3_distance(eye, centre);
     float nearest  = fmaxf(distance - 2 * reach, 0.02f * distance + 1e-4f);
     look(eye, target, view);
@@ -126,7 +126,7 @@ void hair_light_matrices(const struct hair_scene* scene, const float transform[1
                          struct hair_matrices* out)
 {
     vec3 centre;
-    carry_pivot(scene, transform, centre);
+    hair_camera_pivot(scene, transform, centre);
     look_from_afar(&scene->settings.light, centre, reach, out);
 }
 
@@ -142,7 +142,7 @@ float hair_lamp_matrices(const struct hair_scene* scene, const hair_light* lamp,
 {
     vec3 centre, eye;
     mat4 view, projection;
-    carry_pivot(scene, transform, centre);
+    hair_camera_pivot(scene, transform, centre);
     if (lamp->kind == HAIR_LIGHT_DIRECTIONAL) {
         look_from_afar(lamp, centre, reach, out);
         return 2 * reach;

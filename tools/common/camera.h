@@ -17,8 +17,9 @@ void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const flo
 // For a scene without a camera: three-quarter front, all of the bounds in the picture.
 void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds);
 
-// What the head can reach: a sphere about its pivot.
+// What the head can reach: a sphere about its pivot; and where that is under the head's transform.
 float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds* bounds);
+void  hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3]);
 
 // `transform` is the head's, `reach` the radius of its sphere.
 void hair_camera_matrices(const struct hair_scene* scene, const float transform[16], float reach,
