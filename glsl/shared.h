@@ -94,6 +94,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
 #define HAIR_BIND_SORTED 1 // uvec2[]              per segment: the numbers of its vertices
 
+// Of the passes that make pixels of segments without units that draw:
+#define HAIR_BIND_NEAREST 0 // uvec2[]     per sample: of the ribbon that is seen the number of its segment, and bits of its depth, negated
+                            // where that falls with the distance; all bits: there is none. Of depth alone uint[]: the second
+#define HAIR_BIND_TILE 1    // uint[]      per tile: 1: there is hair in it
 // Of the passes that find how much light hair leaves to itself:
 #define HAIR_BIND_DENSITY 0        // uint[]      per node of its grid: how much hair is there
 #define HAIR_BIND_DENSITY_BOX 1    // uint[6]     around all hair
@@ -136,6 +140,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, likewise
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids, the field and air
 #define HAIR_BIND_HIDE 0         // hair_hide_params, of the passes that find what is hidden
+#define HAIR_BIND_RASTER 0       // hair_raster_params, of the passes that make pixels of segments
 
 // Texture units. Vertex and tessellation stages are promised no storage buffers: they read these.
 #define HAIR_UNIT_POSITION 0
@@ -144,6 +149,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_FOLLOWER 3 // hair_follower[], unsigned: float textures may flush small integers
 #define HAIR_UNIT_PATCH 4    // hair_patch[], likewise
 #define HAIR_UNIT_STRAND 4   // hair_strand[], likewise, in place of patches where there is no tessellator
+#define HAIR_UNIT_TILE 2     // uint per tile: HAIR_BIND_TILE, of what composes them
 #define HAIR_UNIT_STATE 0    // of redblack by transform feedback: hair_state[],
 #define HAIR_UNIT_REST 1     // hair_rest[],
 #define HAIR_UNIT_GUIDE 2    // hair_guide[], unsigned, and
@@ -198,6 +204,10 @@ typedef uint32_t hair_uint;
 #define HAIR_MAX_ISOLINE_SEGMENTS 64 // of an isoline: what OpenGL promises
 #define HAIR_INSTANCE_STRANDS 64     // drawn as one instance, without a tessellator
 #define HAIR_SORT_BUCKETS 16384      // from far to near
+#define HAIR_RASTER_SAMPLES 16       // of a pixel, at most
+#define HAIR_RASTER_SEGMENTS 16      // of a work group
+#define HAIR_RASTER_TILE 32          // pixels along each axis that are composed together, if there is hair in any
+#define HAIR_RASTER_PIECE 32         // pixels of a row that a thread goes over
 #define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,
@@ -447,6 +457,21 @@ struct hair_hide_params {
     hair_uint guides;
 };
 HAIR_SIZE(hair_hide_params, 128)
+
+// Of the passes that make pixels of segments. Rows of pixels follow each other, and of a pixel its samples.
+struct hair_raster_params {
+    hair_mat4 to_window; // from the head's origin: xy pixels from the first one's corner, z depth in [0, 1], times w
+    hair_vec4 part;      // xy: of clip space the lower corner of all that hair can be in, zw: the upper
+    hair_uint columns, rows, samples;
+    hair_uint flips;     // all bits, where depth falls with the distance; else 0
+    hair_uint first_x, first_y; // of the pixels, in the window
+    hair_uint claims;    // 1: segments claim the samples of which they are the nearest; 0: that is to be found
+    hair_uint clamps;    // 1: depth is clamped and not clipped
+    float     depth_from, depth_by; // depth as it is written: its value at 0, and what is added to that at 1
+    hair_uint across, tiles; // of tiles, in a row and in all
+    hair_vec4 at[HAIR_RASTER_SAMPLES / 2]; // of samples 2 i and 2 i + 1: xy and zw in the pixel
+};
+HAIR_SIZE(hair_raster_params, 128 + 8 * HAIR_RASTER_SAMPLES)
 
 // How the guides are looked at that may have come to rest.
 struct hair_stir_params {

@@ -136,14 +136,16 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                                              sim->contacts.cell},
                     [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
                     [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
-                    [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->expanded.shaded, draw->motion.buffer},
+                    [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->expanded.shaded,
+                                             draw->motion.buffer},
                     [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
                                             draw->self_shadow.light},
                     [HAIR_GL_WORK_HIDE]  = {draw->hidden.params, draw->hidden.depth, draw->hidden.box},
                     [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
                                             draw->listed.indices[0].index, draw->listed.indices[1].index},
                     [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
-                                            draw->sorted.index, draw->uv, draw->paint},
+                                            draw->sorted.index, draw->uv, draw->paint, draw->raster.params,
+                                            draw->raster.nearest, draw->raster.tile},
     };
     const GLuint textures[HAIR_GL_WORKS][MOST_TEXTURES] = {
         [HAIR_GL_WORK_WIND]  = {air->air, sim->air.gusts},

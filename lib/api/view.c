@@ -90,6 +90,8 @@ static hair_result take_view(const hair_instance* hair, const hair_view* view, h
     if (!result && own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
+    if (!result && own->shader && own->shader->gl.pixels && own->path == HAIR_PATH_COMPUTED)
+        own->path = HAIR_PATH_EXPANDED; // Where pixels are its own, it draws.
     if (!result) result = take_lights(hair, own, loan->light);
     return result ? result : check_sky(hair, own->sky);
 }
@@ -180,7 +182,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     asked->unseen[kind] += (uint32_t)unseen;
     hair_path path = hair_draw_path(&hair->draw, view);
     asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
-    asked->expanded |= !unseen && path == HAIR_PATH_EXPANDED;
+    asked->expanded |= !unseen && hair_draw_expands(path);
     asked->hides |= !unseen && hair_draw_hides(view);
     return !unseen && hair->draw.look.density > 0;
 }

@@ -47,6 +47,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_sorted(draw);
     hair_draw_free_self_shadow(draw);
     hair_draw_free_hidden(draw);
+    hair_draw_free_raster(draw);
     hair_draw_free_uvs(draw);
     hair_seats_release(draw->seats);
     draw->seats = NULL;
@@ -126,11 +127,15 @@ struct drawn {
     GLuint                  program, shade;
     int                     hides; // patches may be hidden, as `hide` has it
     struct hair_hide_params hide;
+    // Of pixels that are made by compute: where, and whether there are none.
+    struct hair_raster_params raster;
+    int                       nowhere;
 };
 
 static const hair_gl_pass row_of_path[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
                                            [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED,
-                                           [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED};
+                                           [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED,
+                                           [HAIR_PATH_COMPUTED]     = HAIR_GL_COMPOSE};
 
 static int is_textured(const struct hair_draw* draw, const hair_view* view)
 {
@@ -195,9 +200,9 @@ static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* v
     hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[hair_draw_path(draw, view)];
     if (is_paired(draw, view)) row = HAIR_GL_PAIRED;
     *shade = 0;
-    if (!hair_draw_is_shaded(draw, view, shader)) return row | features;
-    *shade = hair_gl_with(HAIR_GL_SHADE, features);
-    return row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
+    if (hair_draw_is_shaded(draw, view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
+    if (row == HAIR_GL_COMPOSE) return row | (features & HAIR_GL_WITH(DEPTH));
+    return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
 }
 
 static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
@@ -227,12 +232,14 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
     if (!result && shade) result = need_program(draw, shade, shader, &program);
+    if (!result && path == HAIR_PATH_COMPUTED)
+        result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & HAIR_GL_WITH(DEPTH));
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
         result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
         if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
-        if (!result && (lit || path == HAIR_PATH_EXPANDED))
+        if (!result && (lit || hair_draw_expands(path)))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
         if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
     }
@@ -249,14 +256,16 @@ static void draw_guides(struct hair_draw* draw)
 }
 
 static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view,
-                           const struct hair_draw_params* params, const struct drawn* with)
+                           const struct hair_draw_params* params, struct drawn* with)
 {
-    struct hair_gl*   gl     = draw->gl;
-    int               listed = with->path != HAIR_PATH_TESSELLATION;
+    struct hair_gl*   gl       = draw->gl;
+    int               listed   = with->path != HAIR_PATH_TESSELLATION;
+    int               computed = with->path == HAIR_PATH_COMPUTED;
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
-    if (with->path == HAIR_PATH_EXPANDED) hair_draw_bind_expanded(draw);
+    if (hair_draw_expands(with->path)) hair_draw_bind_expanded(draw);
     if (with->shade_pass) hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
+    if (computed) hair_draw_rasterise(draw, with->pass & HAIR_GL_WITH(DEPTH), &with->raster);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     if (hair_draw_is_shared(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
@@ -266,12 +275,23 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     if (hair_draw_covers(view)) hair_draw_begin_blend(gl, &was);
     if (hair_draw_is_shared(view))
         hair_draw_sorted(draw);
+    else if (computed)
+        hair_draw_compose(draw, &with->raster);
     else if (listed)
         hair_draw_listed(draw, is_paired(draw, view));
     else
         hair_draw_patches(draw);
     if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, with->pass);
+}
+
+static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                               struct drawn* out)
+{
+    hair_gl_pass depth  = out->pass & HAIR_GL_WITH(DEPTH);
+    hair_result  result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, depth);
+    out->nowhere        = !hair_draw_find_raster(draw, head, view, &out->raster);
+    return result || out->nowhere ? result : hair_draw_need_raster(draw, depth, &out->raster);
 }
 
 // What followers are drawn with and from, made and brought up to date.
@@ -284,10 +304,12 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-    if (!result && out->path != HAIR_PATH_TESSELLATION)
-        result = hair_draw_make_listed(draw, out->hides, is_paired(draw, view));
+    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
+    if (!result && out->path != HAIR_PATH_TESSELLATION && out->path != HAIR_PATH_COMPUTED)
+        result = hair_draw_make_indices(draw, is_paired(draw, view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
-    if (!result && out->path == HAIR_PATH_EXPANDED) result = hair_draw_need_expanded(draw, smooth, NULL);
+    if (!result && hair_draw_expands(out->path)) result = hair_draw_need_expanded(draw, smooth, NULL);
+    if (!result && out->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
     if (!result && out->shade_pass) result = hair_draw_need_shaded(draw);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
@@ -305,7 +327,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     hair_result result =
         guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
     if (!result && !guides) result = hair_draw_find_light(draw, smooth, head, view);
-    if (result) return result;
+    if (result || with.nowhere) return result;
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);

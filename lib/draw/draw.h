@@ -8,6 +8,7 @@
 #include "lib/draw/hits.h"
 #include "lib/draw/listed.h"
 #include "lib/draw/motion.h"
+#include "lib/draw/raster.h"
 #include "lib/draw/self_shadow.h"
 #include "lib/draw/sorted.h"
 
@@ -33,6 +34,7 @@ enum {
     HAIR_DRAW_SHADED,
     HAIR_DRAW_MOTION,
     HAIR_DRAW_SORTED,
+    HAIR_DRAW_RASTER,
     HAIR_DRAW_FIBRES,
     HAIR_DRAW_UVS,
     HAIR_DRAW_SELF_SHADOW,
@@ -65,6 +67,7 @@ struct hair_draw {
     struct hair_fibres      fibres;
     struct hair_motion      motion;
     struct hair_sorted      sorted;
+    struct hair_raster      raster;
     struct hair_self_shadow self_shadow;
     struct hair_hidden      hidden;
     struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
@@ -121,9 +124,11 @@ uint32_t    hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
 void        hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
 void        hair_draw_free_self_shadow(struct hair_draw* draw);
 
-// listed.c: what draws without a tessellator. With everything bound that makes followers, list those that are drawn; draw
-// them with the program that is current, by their ends or `paired` by both sides of those.
-hair_result hair_draw_make_listed(struct hair_draw* draw, int hides, int paired);
+// listed.c: what draws without a tessellator, and what OpenGL draws their segments by. With everything bound that makes
+// followers, list those that are drawn; draw them with the program that is current, by their ends or `paired` by both sides
+// of those.
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
+hair_result hair_draw_make_indices(struct hair_draw* draw, int paired);
 void        hair_draw_free_listed(struct hair_draw* draw);
 // Unless they are listed, as `params` and the smoothed guides have them; without those that are hidden, where that was asked.
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
@@ -133,6 +138,7 @@ void hair_draw_listed(struct hair_draw* draw, int paired);
 // path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
 void      hair_draw_find_fastest(struct hair_draw* draw);
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
+int       hair_draw_expands(hair_path path); // it takes vertices that are written once
 int       hair_draw_is_shared(const hair_view* view);
 int       hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
 // lights.c: whether it has maps of bodies that block lights.
@@ -196,6 +202,17 @@ hair_result hair_draw_need_sorted(struct hair_draw* draw);
 void        hair_draw_free_sorted(struct hair_draw* draw);
 void        hair_draw_sort(struct hair_draw* draw);
 void        hair_draw_sorted(struct hair_draw* draw);
+
+// raster.c: where in the window hair is to be looked for, and with what samples; 0: nowhere. `depth`: HAIR_GL_WITH(DEPTH), or 0
+// for colour too. Buffers for that; with everything bound that draws expanded strands, find what their samples see; and
+// draw that with the program that is current.
+int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                          struct hair_raster_params* out);
+hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass depth,
+                                  const struct hair_raster_params* params);
+void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass depth, struct hair_raster_params* params);
+void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
+void hair_draw_free_raster(struct hair_draw* draw);
 
 // hidden.c: whether `view` has what may hide hair; and where, if hair can be there at all. Programs and buffers for that; and with
 // everything bound that makes followers, find what patches are hidden.

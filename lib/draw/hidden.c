@@ -21,28 +21,15 @@ void hair_draw_free_hidden(struct hair_draw* draw)
     hidden->room = 0;
 }
 
-// Of depth that is farther: what the host's depth test goes by. 0: it tells no near from far.
-static float find_sign(struct hair_gl* gl)
-{
-    GLint function = GL_LESS;
-    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
-    if (function == GL_LESS || function == GL_LEQUAL) return 1;
-    return function == GL_GREATER || function == GL_GEQUAL ? -1.0f : 0.0f;
-}
-
 // From clip space to the texture: xy to [0, 1], z to what the host has in it.
 static void write_texture(struct hair_gl* gl, float to_texture[16], float range[2])
 {
-    GLint mode = GL_NEGATIVE_ONE_TO_ONE, origin = GL_LOWER_LEFT;
     range[0] = 0, range[1] = 1;
-    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
-    gl->GetIntegerv(GL_CLIP_ORIGIN, &origin);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
-    float far = range[1] - range[0], half[16] = {[0] = 0.5f, [5] = 0.5f, [12] = 0.5f, [13] = 0.5f, [15] = 1};
-    if (origin == GL_UPPER_LEFT) half[5] = -0.5f;
-    half[10] = mode == GL_ZERO_TO_ONE ? far : 0.5f * far;
-    half[14] = mode == GL_ZERO_TO_ONE ? range[0] : 0.5f * (range[0] + range[1]);
-    memcpy(to_texture, half, sizeof half);
+    hair_draw_find_unit(gl, to_texture);
+    float far = range[1] - range[0];
+    to_texture[10] *= far;
+    to_texture[14] = far * to_texture[14] + range[0];
 }
 
 static int is_given(const float matrix[16])
@@ -117,7 +104,7 @@ int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* 
     find_clip(draw, head, view, &own, clip);
     write_texture(gl, to_texture, range);
     hair_mat4_multiply(to_texture, clip, matrix);
-    out->sign = find_sign(gl);
+    out->sign = hair_draw_find_sign(gl);
     for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
     memcpy(&out->to_texture, matrix, sizeof matrix);
     out->most     = fmaxf(out->sign * range[0], out->sign * range[1]);

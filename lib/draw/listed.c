@@ -46,7 +46,7 @@ static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int 
     return indices;
 }
 
-static hair_result make_indices(struct hair_draw* draw, int paired)
+hair_result hair_draw_make_indices(struct hair_draw* draw, int paired)
 {
     struct hair_gl*             gl       = draw->gl;
     struct hair_listed_indices* own      = &draw->listed.indices[paired];
@@ -68,11 +68,10 @@ static hair_result make_indices(struct hair_draw* draw, int paired)
     return HAIR_OK;
 }
 
-hair_result hair_draw_make_listed(struct hair_draw* draw, int hides, int paired)
+hair_result hair_draw_make_listed(struct hair_draw* draw, int hides)
 {
     draw->used[HAIR_DRAW_LISTED] = draw->frame;
-    hair_result result           = make_lists(draw, hides);
-    return result ? result : make_indices(draw, paired);
+    return make_lists(draw, hides);
 }
 
 void hair_draw_free_listed(struct hair_draw* draw)

@@ -20,6 +20,11 @@ struct hair_light_maps {
 // A view's projection with the jitter, for the viewport that is set.
 void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
 
+// window.c: from clip space to the viewport, xy and z in [0, 1]; and of depth that is farther what the host's depth test goes by, 1 or
+// -1. 0: it tells no near from far.
+void  hair_draw_find_unit(struct hair_gl* gl, float to_unit[16]);
+float hair_draw_find_sign(struct hair_gl* gl);
+
 // lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);

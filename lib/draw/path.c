@@ -2,9 +2,11 @@
 // driver, or the only one that makes what it wants.
 #include "lib/draw/draw.h"
 
+#include <math.h>
 #include <string.h>
 
-#define MOST_EXPANDED 4194304u // vertices, of 24 bytes: beyond, memory is dearer than time
+#define MOST_EXPANDED 4194304u  // vertices, of 24 bytes: beyond, memory is dearer than time
+#define MOST_SAMPLES 33554432.0 // of a viewport, of 8 bytes
 
 static const struct {
     const char* renderer; // is in its name
@@ -42,12 +44,36 @@ static int is_of_lines(const hair_view* view)
     return view->primitive == HAIR_LINES && !hair_draw_covers(view);
 }
 
+static int has_few_samples(const struct hair_gl* gl)
+{
+    GLfloat viewport[4] = {0};
+    GLint   samples     = 0;
+    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    gl->GetIntegerv(GL_SAMPLES, &samples);
+    double most = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1);
+    return samples <= HAIR_RASTER_SAMPLES && most <= MOST_SAMPLES;
+}
+
 static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
     hair_path path     = fastest[draw->driver].path[column];
     uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
-    return path == HAIR_PATH_EXPANDED && vertices > MOST_EXPANDED ? HAIR_PATH_TESSELLATION : path;
+    if (hair_draw_expands(path) && vertices > MOST_EXPANDED) return HAIR_PATH_TESSELLATION;
+    return path == HAIR_PATH_COMPUTED && (view->shader || !has_few_samples(draw->gl)) ? HAIR_PATH_EXPANDED
+                                                                                      : path;
+}
+
+// Pixels that are made by compute are opaque, and of colour or depth alone.
+static int is_computable(const hair_view* view)
+{
+    int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
+    return shown && view->primitive == HAIR_RIBBONS && !view->lod;
+}
+
+int hair_draw_expands(hair_path path)
+{
+    return path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED;
 }
 
 // Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are
@@ -56,5 +82,6 @@ hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view)
 {
     if (view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view)) return HAIR_PATH_EXPANDED;
     hair_path path = view->path == HAIR_PATH_AUTO ? find_fastest_for(draw, view) : view->path;
+    if (path == HAIR_PATH_COMPUTED && !is_computable(view)) path = HAIR_PATH_EXPANDED;
     return path == HAIR_PATH_EXPANDED && view->lod ? HAIR_PATH_INSTANCED : path;
 }

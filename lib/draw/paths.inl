@@ -2,5 +2,6 @@
 // driver's name of its renderer holds, then the path of ribbons and of lines, of both with levels of detail, and of
 // depth.
 FASTEST("llvmpipe", EXPANDED, EXPANDED, TESSELLATION, TESSELLATION, EXPANDED)
+FASTEST("NVIDIA H", COMPUTED, EXPANDED, TESSELLATION, TESSELLATION, COMPUTED) // few units of Hopper draw
 FASTEST("NVIDIA", EXPANDED, EXPANDED, TESSELLATION, TESSELLATION, TESSELLATION)
 FASTEST("", TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION) // of any other

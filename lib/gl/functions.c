@@ -59,7 +59,9 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     gl->software         = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
     gl->subgroup         = find_subgroup(gl);
-    gl->parallel         = has_extension(gl, "GL_KHR_parallel_shader_compile") ||
+    gl->long_atomics =
+        has_extension(gl, "GL_ARB_gpu_shader_int64") && has_extension(gl, "GL_NV_shader_atomic_int64");
+    gl->parallel = has_extension(gl, "GL_KHR_parallel_shader_compile") ||
                    has_extension(gl, "GL_ARB_parallel_shader_compile");
     return HAIR_OK;
 }

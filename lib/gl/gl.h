@@ -94,13 +94,14 @@ struct hair_gl {
     hair_cache               cache;    // get NULL: there is none
     struct hair_gl_memory    memory;
     int                      timings;
-    int                      software; // the driver is a software rasteriser
-    int                      subgroup; // work groups of 32 threads are one
-    uint32_t                 made;     // how often all programs have been compiled
-    int                      ahead;    // programs that are needed are begun, not waited for
-    uint32_t                 unready;  // of those
-    int                      parallel; // the driver compiles in threads of its own
-    struct hair_gl_program** program;  // what has been needed
+    int                      software;     // the driver is a software rasteriser
+    int                      subgroup;     // work groups of 32 threads are one
+    int                      long_atomics; // of 64 bits, in storage buffers
+    uint32_t                 made;         // how often all programs have been compiled
+    int                      ahead;        // programs that are needed are begun, not waited for
+    uint32_t                 unready;      // of those
+    int                      parallel;     // the driver compiles in threads of its own
+    struct hair_gl_program** program;      // what has been needed
     uint32_t                 programs, room;
     struct hair_gl_ledger*   ledger;       // of the instance that is at work; NULL: nobody asks
     GLuint                   vertex_array; // empty: every vertex comes from its number

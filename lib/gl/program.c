@@ -118,6 +118,7 @@ static hair_result define_all(struct recipe* recipe)
     hair_result result =
         define(recipe, recipe->gl->lines_level ? "HAIR_LINES_LEVEL 1" : "HAIR_LINES_LEVEL 0");
     if (!result && recipe->gl->subgroup) result = define(recipe, "HAIR_SUBGROUP 1");
+    if (!result && recipe->gl->long_atomics) result = define(recipe, "HAIR_LONG_ATOMICS 1");
     if (!result) result = define(recipe, threads);
     for (uint32_t i = 0; i < HAIR_GL_FEATURES && !result; ++i)
         if (recipe->pass & HAIR_GL_BIT(i)) {

@@ -302,6 +302,7 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
         hair_test_ok(f.test, hair_step(f.hair, 0.02f));
         view.pass     = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
         view.coverage = i == 2 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
+        view.path     = i == 0 ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED;
         draw(&f, &view, pixels);
         assert_int_equal(memory_of(&f).bytes, reported(&f));
     }

@@ -15,7 +15,7 @@
 
 enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_PATH_AUTO };
 
-static const char* const names[PATHS] = {"tessellated", "instanced", "expanded"};
+static const char* const names[PATHS] = {"tessellated", "instanced", "expanded", "compose"};
 
 struct fixture {
     struct hair_test* test;
@@ -124,12 +124,14 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
             struct hair_image_error error;
             hair_view               view = front(path, primitive);
             draw(&f, &view, &picture[path]);
-            assert_non_null(strstr(drawn_by(&f), names[path]));
+            int lines = path == HAIR_PATH_COMPUTED && primitive == HAIR_LINES;
+            assert_non_null(strstr(drawn_by(&f), lines ? "expanded" : names[path]));
             assert_true(
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
                           primitive ? "lines" : "ribbons", error.flip, count_hits(&f));
-            assert_true(error.flip <= 0.01);
+            // Drawn samples have the colour of their pixel's middle, those made by compute their own.
+            assert_true(error.flip <= (path == HAIR_PATH_COMPUTED ? 0.03 : 0.01));
         }
         assert_true(count_hits(&f) > 100);
     }

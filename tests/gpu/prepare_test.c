@@ -155,6 +155,7 @@ static const struct {
     {"a ball", HAIR_PATH_TESSELLATION, put_a_ball_into},
     {"a ball, instanced", HAIR_PATH_INSTANCED, put_a_ball_into},
     {"a ball, expanded", HAIR_PATH_EXPANDED, put_a_ball_into},
+    {"a ball, computed", HAIR_PATH_COMPUTED, put_a_ball_into},
     {"boxes", HAIR_PATH_TESSELLATION, put_boxes_into},
     {"a fluid", HAIR_PATH_TESSELLATION, blow_at},
     {"a crowd", HAIR_PATH_TESSELLATION, crowd},
@@ -163,6 +164,7 @@ static const struct {
     {"curls", HAIR_PATH_TESSELLATION, curl},
     {"depth", HAIR_PATH_TESSELLATION, lend_depth},
     {"depth, expanded", HAIR_PATH_EXPANDED, lend_depth},
+    {"depth, computed", HAIR_PATH_COMPUTED, lend_depth},
     {"velocities", HAIR_PATH_TESSELLATION, show_motion},
     {"solids", HAIR_PATH_TESSELLATION, show_solids},
 };

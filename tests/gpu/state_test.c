@@ -143,7 +143,7 @@ static hair_result teleport(struct fixture* f)
     return hair_teleport(f->hair, desc.transform);
 }
 // One of the ways to draw: 5 by each path. In these every two of path, pass and primitive are together.
-#define DRAWS (5 * 3)
+#define DRAWS (5 * 4)
 static hair_result draw_as(struct fixture* f, int i)
 {
     hair_view  view = hair_view_default();
@@ -151,7 +151,7 @@ static hair_result draw_as(struct fixture* f, int i)
     int        path = i / 5, lit = i % 5 == 4;
     view.path      = (hair_path)path;
     view.pass      = (hair_pass)(i % 5 % 4);
-    view.primitive = (hair_primitive)((i % 5 + path) % 2);
+    view.primitive = path == HAIR_PATH_COMPUTED ? HAIR_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
     view.slice     = (hair_slice)(i % 2);
     for (int k = 0; k < 4; ++k) {
         lights[k]                = hair_light_default();

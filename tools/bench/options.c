@@ -43,7 +43,7 @@ static const struct row {
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
      "                   none, switch, push, compute or prepass; of render, only this path:\n"
-     "                   tessellation, instanced or expanded; of shadow, only depth, strands,\n"
+     "                   tessellation, instanced, expanded or computed; of shadow, only depth, strands,\n"
      "                   grid, mean or layers; of wind, only this projection:\n"
      "                   multigrid, relaxation or jacobi"},
     {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
@@ -63,9 +63,9 @@ static const struct row {
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
 static const char* const methods[] = {
-    "direct",  "accurate", "follow",       "redblack",  "none",     "switch",    "push",
-    "compute", "prepass",  "tessellation", "instanced", "expanded", "multigrid", "relaxation",
-    "jacobi",  "depth",    "strands",      "grid",      "mean",     "layers",    NULL};
+    "direct",  "accurate",     "follow",    "redblack", "none",     "switch",    "push",       "compute",
+    "prepass", "tessellation", "instanced", "expanded", "computed", "multigrid", "relaxation", "jacobi",
+    "depth",   "strands",      "grid",      "mean",     "layers",   NULL};
 static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
 
 static int print_help(void)

@@ -23,7 +23,8 @@ static const struct way {
     hair_path   path;
 } ways[] = {{"tessellation", HAIR_PATH_TESSELLATION},
             {"instanced", HAIR_PATH_INSTANCED},
-            {"expanded", HAIR_PATH_EXPANDED}};
+            {"expanded", HAIR_PATH_EXPANDED},
+            {"computed", HAIR_PATH_COMPUTED}};
 
 // A column of lib/draw/paths.inl.
 static const struct kind {

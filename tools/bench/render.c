@@ -49,7 +49,8 @@ static const struct path {
     hair_path   path;
 } paths[] = {{"tessellation", HAIR_PATH_TESSELLATION},
              {"instanced", HAIR_PATH_INSTANCED},
-             {"expanded", HAIR_PATH_EXPANDED}};
+             {"expanded", HAIR_PATH_EXPANDED},
+             {"computed", HAIR_PATH_COMPUTED}};
 
 static const struct primitive {
     const char*    name;
@@ -211,28 +212,37 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
-// Of widths it is how strands are drawn that counts: how many, in how many segments, by two paths, one thing changed at
+// Of widths it is how strands are drawn that counts: how many, in how many segments, by three paths, one thing changed at
 // a time where samples are many.
 static bool is_wanted_of_width(const struct bench* bench, const struct setting* setting)
 {
     bool usual = setting->segments->count == 32, all = setting->lod == lods;
     if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
-                 (setting->path == paths || setting->primitive->coverage == HAIR_COVERAGE_SHARES);
+                 (setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED ||
+                  setting->primitive->coverage == HAIR_COVERAGE_SHARES);
     if (bench->options.quick && !quick) return false;
     if (setting->samples->supersample > 1) return usual && all;
     return all ? setting->segments->count >= 8 && setting->segments->count <= 32 : usual;
 }
 
-// All of it by one path; that the others draw the same is seen by fewer. Shares are drawn by one path alone, and are asked
-// for instead of more samples.
+// What compute makes pixels of; else they are drawn.
+static bool is_computed(const struct setting* setting)
+{
+    return setting->primitive == primitives && setting->lod == lods;
+}
+
+// All of it by one path, and what compute makes; that the others draw the same is seen by fewer. Shares are drawn by one path
+// alone, and are asked for instead of more samples.
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
     bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
     if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
         return false;
+    if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(setting)) return false;
     if (subject->width > 0) return is_wanted_of_width(bench, setting);
-    return (!bench->options.quick && setting->path == paths) ||
+    bool whole = setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED;
+    return (!bench->options.quick && whole) ||
            (setting->lod->quick && setting->segments->quick && setting->samples->quick);
 }
 

@@ -158,7 +158,7 @@ static bool compare_far(struct bench_studio* studio, const struct bench_shot* sh
 static json_t* add_row(struct column* column, const struct cell* cell, uint32_t frames,
                        const struct bench_times* times)
 {
-    static const char* const   paths[] = {"tessellation", "instanced", "expanded", "auto"};
+    static const char* const   paths[] = {"tessellation", "instanced", "expanded", "computed", "auto"};
     const struct bench_studio* studio  = &column->studio;
     const double*              paper   = column->way->paper;
     size_t                     number  = (size_t)(cell - cells);

@@ -49,7 +49,7 @@ static const struct row rows[] = {
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
     {"solver", SETTING, "NAME", "direct, accurate, follow or redblack"},
-    {"path", SETTING, "NAME", "tessellation, instanced, expanded or auto"},
+    {"path", SETTING, "NAME", "tessellation, instanced, expanded, computed or auto"},
     {"primitive", SETTING, "NAME", "ribbons or lines"},
     {"samples", SAMPLES, "N", "a pixel, as many as the driver has; 4"},
     {"supersample", SUPERSAMPLE, "N", "pixels drawn for one, in each direction; 1 to 8"},

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define MAX_TARGETS 3
-#define MAX_CHOICES 4
+#define MAX_CHOICES 5
 #define MAX_EXAMPLE ((size_t)16 << 20) // bytes
 #define CURVE_PLACES (int)(sizeof(hair_curve) / sizeof(float))
 
@@ -22,7 +22,7 @@ struct row {
     const char* about;
     enum kind   kind;
     uint16_t    target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
-    const char* choice[MAX_CHOICES]; // names of the values 0, 1, 2, 3
+    const char* choice[MAX_CHOICES]; // names of the values 0, 1, …
 };
 
 #define AT(member) (uint16_t) offsetof(struct hair_settings, member)
@@ -113,7 +113,7 @@ static const struct row rows[] = {
     {"drag", "of wind, as a multiple of that of a single hair", FLOAT, {AT(physics.drag)}, {0}},
     {"friction", "Coulomb's coefficient with solids", FLOAT, {AT(physics.friction)}, {0}},
 
-    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded", "auto"}},
+    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded", "computed", "auto"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"samples", "shares"}},
     {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},

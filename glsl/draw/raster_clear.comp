@@ -1,0 +1,22 @@
+// raster_clear.comp - nothing is seen by any sample. Four by four: buffers are as long.
+#version 450 core
+#include "workgroup.glsl"
+#include "shared.h"
+layout(local_size_x = HAIR_GROUP_SIZE) in;
+
+layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+layout(std430, binding = HAIR_BIND_NEAREST) writeonly restrict buffer nearest_buffer { uvec4 nearest[]; };
+layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer { uint tile[]; };
+
+#ifdef HAIR_DEPTH
+#define NUMBERS 1u // of a sample
+#else
+#define NUMBERS 2u
+#endif
+
+void main()
+{
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (i < raster.tiles) tile[i] = 0u;
+    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(0xffffffffu);
+}

@@ -1,0 +1,105 @@
+// raster.glsl - segments of strands as pixels see them, for the passes that make those without units that draw: ribbons between
+// vertices that are expanded, as ribbon.geom has them.
+#include "expanded.glsl"
+#include "ribbon.glsl"
+
+layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
+
+#define HAIR_NOBODY 0xffffffffu
+
+// In the window, times w: the middle at both ends, and from there to a side.
+struct raster_ribbon {
+    vec4 middle[2], side[2];
+    vec2 seen; // from where to where it is in front of the eye, of 1
+};
+
+// The places of its vertices, of what is expanded.
+int vertex_of(uint segment, out float width)
+{
+    uint  each   = draw.segments;
+    uvec4 record = texelFetch(strand_texture, int(segment / each)); // hair_strand
+    width        = uintBitsToFloat(record.y);
+    return int(record.x * (each + 1u) + segment % each);
+}
+
+// Keep of a way from 0 to 1 what is not below 0, of what is so much at its ends.
+void keep(float a, float b, inout vec2 seen)
+{
+    float at = a / (a - b); // Of no use, and none made of it, where they are alike.
+    if (a < 0.0) seen.x = b > 0.0 ? max(seen.x, at) : 2.0;
+    else if (b < 0.0) seen.y = min(seen.y, at);
+}
+
+raster_ribbon ribbon_of(uint segment)
+{
+    raster_ribbon r;
+    float         width;
+    int           at = vertex_of(segment, width);
+    for (int end = 0; end < 2; ++end) {
+        vec4 strand   = texelFetch(expanded_texture, at + end);
+        vec3 tangent  = texelFetch(expanded_tangent_texture, at + end).xyz * 2.0 - 1.0;
+        r.middle[end] = raster.to_window * vec4(strand.xyz, 1.0);
+        r.side[end]   = raster.to_window * vec4(side_of(vec4(strand.xyz, strand.w * width), tangent), 0.0);
+    }
+    vec4  a = r.middle[0], b = r.middle[1];
+    float least = 1e-6 * max(abs(a.w), abs(b.w));
+    r.seen = vec2(0.0, 1.0);
+    keep(a.w - least, b.w - least, r.seen);
+    if (raster.clamps == 0u) {
+        keep(a.z, b.z, r.seen);
+        keep(a.w - a.z, b.w - b.z, r.seen);
+    }
+    return r;
+}
+
+// What is seen of it, on pixels: its corners, two at each end, with their depth.
+struct raster_outline {
+    vec3 corner[4];
+};
+
+raster_outline outline_of(raster_ribbon r)
+{
+    raster_outline o;
+    for (int k = 0; k < 4; ++k) {
+        float seen = r.seen[k / 2], across = (k & 1) == 0 ? -1.0 : 1.0;
+        vec4  at   = mix(r.middle[0], r.middle[1], seen) + across * mix(r.side[0], r.side[1], seen);
+        o.corner[k] = at.xyz / at.w;
+    }
+    return o;
+}
+
+// Where it is in a pixel.
+vec2 sample_at(uint number)
+{
+    vec4 pair = raster.at[number / 2u];
+    return (number & 1u) == 0u ? pair.xy : pair.zw;
+}
+
+float turn(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+// Of a place by the turns about it from corner to corner of a triangle: all are of one sign, and there is an area.
+bool is_within(vec3 e) { return e.x + e.y + e.z != 0.0 && (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0)))); }
+
+// What of the two triangles that a ribbon is drawn as is seen at a place: how far from one end to the other that is, of 1, and its
+// depth. False: neither is there.
+bool sees(raster_outline o, vec2 place, out float share, out float depth)
+{
+    vec2 a = o.corner[0].xy - place, b = o.corner[1].xy - place, c = o.corner[2].xy - place, d = o.corner[3].xy - place;
+    vec3 first = vec3(turn(b, c), turn(c, a), turn(a, b)), second = vec3(-first.x, turn(d, c), turn(b, d));
+    bool there = is_within(first);
+    share = depth = 0.0;
+    if (there) {
+        first /= first.x + first.y + first.z;
+        share = first.z;
+        depth = dot(first, vec3(o.corner[0].z, o.corner[1].z, o.corner[2].z));
+    }
+    if (!is_within(second)) return there;
+    second /= second.x + second.y + second.z;
+    float other = dot(second, vec3(o.corner[3].z, o.corner[1].z, o.corner[2].z));
+    if (!there || (raster.flips == 0u ? other < depth : other > depth)) { // One may be folded over the other.
+        share = 1.0 - second.y;
+        depth = other;
+    }
+    return true;
+}

@@ -1,0 +1,169 @@
+// raster.c - pixels made of segments by compute, and composed with what the host has drawn tile by tile: for GPUs of which few units
+// draw, and strands so thin that setting up triangles is most of what they cost.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+#define BESIDE 2.0f // pixels beyond those that hair is in
+
+// Where samples are in a pixel.
+static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
+{
+    GLint   samples = 0;
+    GLfloat at[2]   = {0.5f, 0.5f};
+    gl->GetIntegerv(GL_SAMPLES, &samples);
+    out->samples = samples > 1 && gl->IsEnabled(GL_MULTISAMPLE) ? (uint32_t)samples : 1;
+    for (uint32_t i = 0; i < out->samples && i < HAIR_RASTER_SAMPLES; ++i) {
+        if (out->samples > 1) gl->GetMultisamplefv(GL_SAMPLE_POSITION, i, at);
+        memcpy((float*)out->at + 2 * i, at, sizeof at);
+    }
+}
+
+// The part of a viewport that hair can be in, as whole pixels of the window; along one axis.
+static uint32_t find_pixels(float origin, float size, const float part[2], uint32_t* first)
+{
+    float from = fmaxf(floorf(origin + part[0] * size - BESIDE), floorf(origin));
+    float to   = fminf(ceilf(origin + part[1] * size + BESIDE), ceilf(origin + size));
+    from       = fmaxf(from, 0); // The window begins there.
+    *first     = (uint32_t)from;
+    return to > from ? (uint32_t)(to - from) : 0;
+}
+
+int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                          struct hair_raster_params* out)
+{
+    struct hair_gl* gl          = draw->gl;
+    GLfloat         viewport[4] = {0}, range[2] = {0, 1};
+    hair_mat4       own = hair_mat4_from_head(view->view, head);
+    float           projection[16], placed[16], clip[16], unit[16], matrix[16], window[4] = {0, 0, 1, 1};
+    memset(out, 0, sizeof *out);
+    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    gl->GetFloatv(GL_DEPTH_RANGE, range);
+    hair_draw_find_unit(gl, unit);
+    hair_draw_project(draw, view, projection);
+    memcpy(placed, &own, sizeof placed);
+    hair_mat4_multiply(projection, placed, clip);
+    hair_mat4_multiply(unit, clip, matrix);
+    memcpy(&out->to_window, matrix, sizeof matrix);
+    if (draw->held) hair_draw_find_window(draw, head, view->lod, &out->to_window, window);
+    for (int k = 0; k < 2; ++k) window[2 + k] = fmaxf(window[2 + k], window[k]);
+    out->columns = find_pixels(viewport[0], viewport[2], (float[]){window[0], window[2]}, &out->first_x);
+    out->rows    = find_pixels(viewport[1], viewport[3], (float[]){window[1], window[3]}, &out->first_y);
+    // Clip space of those pixels, and from there to them.
+    const float first[2] = {(float)out->first_x, (float)out->first_y};
+    const float count[2] = {(float)out->columns, (float)out->rows};
+    for (int k = 0; k < 2; ++k) {
+        float  from = (first[k] - viewport[k]) / viewport[2 + k], to = from + count[k] / viewport[2 + k];
+        float* part     = &out->part.x;
+        part[k]         = (from - unit[12 + k]) / unit[5 * k];
+        part[2 + k]     = (to - unit[12 + k]) / unit[5 * k];
+        float pixels[4] = {0};
+        for (int i = 0; i < 4; ++i)
+            pixels[i] = matrix[4 * i + k] * viewport[2 + k] + matrix[4 * i + 3] * (viewport[k] - first[k]);
+        for (int i = 0; i < 4; ++i) matrix[4 * i + k] = pixels[i];
+    }
+    memcpy(&out->to_window, matrix, sizeof matrix);
+    out->depth_from = range[0];
+    out->depth_by   = range[1] - range[0];
+    out->clamps     = gl->IsEnabled(GL_DEPTH_CLAMP);
+    out->flips      = hair_draw_find_sign(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
+    out->across     = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
+    out->tiles      = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
+    find_samples(gl, out);
+    return out->columns > 0 && out->rows > 0;
+}
+
+// Hair that comes nearer does not have it made anew each time.
+static hair_result need_room(struct hair_gl* gl, const char* label, size_t count, GLuint* buffer,
+                             size_t* room)
+{
+    if (count <= *room) return HAIR_OK;
+    count = (count + count / 2 + 3) / 4 * 4;
+    hair_gl_free_buffer(gl, buffer);
+    *room              = 0;
+    hair_result result = hair_gl_storage(gl, label, count * sizeof(uint32_t), NULL, buffer);
+    if (!result) *room = count;
+    return result;
+}
+
+static hair_result need_tiles(struct hair_gl* gl, struct hair_raster* raster, size_t tiles)
+{
+    if (tiles <= raster->tile_room) return HAIR_OK;
+    hair_gl_free_buffer_texture(gl, &raster->tile_texture);
+    hair_result result = need_room(gl, "hair tiles", tiles, &raster->tile, &raster->tile_room);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair tiles", GL_R32UI, raster->tile, &raster->tile_texture);
+    if (result) raster->tile_room = 0;
+    return result;
+}
+
+// Numbers of samples, of depth one each.
+static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass depth)
+{
+    return (size_t)params->columns * params->rows * params->samples * (depth ? 1 : 2);
+}
+
+hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass depth,
+                                  const struct hair_raster_params* params)
+{
+    draw->used[HAIR_DRAW_RASTER] = draw->frame;
+    struct hair_gl*     gl       = draw->gl;
+    struct hair_raster* raster   = &draw->raster;
+    hair_result         result   = HAIR_OK;
+    if (params->samples > HAIR_RASTER_SAMPLES)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "HAIR_PATH_COMPUTED draws into pixels of up to %d samples, not of %u",
+                         HAIR_RASTER_SAMPLES, params->samples);
+    if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
+    if (!result) result = need_tiles(gl, raster, params->tiles);
+    if (result) return result;
+    return need_room(gl, "hair nearest", count_numbers(params, depth), &raster->nearest, &raster->room);
+}
+
+void hair_draw_free_raster(struct hair_draw* draw)
+{
+    struct hair_raster* raster = &draw->raster;
+    hair_gl_free_buffer(draw->gl, &raster->params);
+    hair_gl_free_buffer(draw->gl, &raster->nearest);
+    hair_gl_free_buffer_texture(draw->gl, &raster->tile_texture);
+    hair_gl_free_buffer(draw->gl, &raster->tile);
+    raster->room = raster->tile_room = 0;
+}
+
+static uint32_t groups_for(uint64_t threads)
+{
+    return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+}
+
+void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass depth, struct hair_raster_params* params)
+{
+    struct hair_gl*     gl        = draw->gl;
+    struct hair_raster* raster    = &draw->raster;
+    GLuint              buffers[] = {raster->nearest, raster->tile};
+    uint64_t            segments  = (uint64_t)draw->followers * draw->look.segments;
+    uint32_t            groups    = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
+    uint64_t            fours     = (count_numbers(params, depth) + 3) / 4;
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
+    gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &draw->listed.command);
+    hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
+    hair_gl_run(gl, HAIR_GL_RASTER_CLEAR | depth, groups_for(fours > params->tiles ? fours : params->tiles));
+    hair_gl_run(gl, HAIR_GL_RASTER | depth, groups);
+    if (depth || gl->long_atomics) return;
+    params->claims = 1;
+    hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
+    hair_gl_run(gl, HAIR_GL_RASTER, groups);
+}
+
+void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)
+{
+    struct hair_gl* gl      = draw->gl;
+    GLint           mode[2] = {GL_FILL, GL_FILL};
+    gl->GetIntegerv(GL_POLYGON_MODE, mode);
+    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(6 * params->tiles));
+    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)mode[0]);
+}

@@ -1,0 +1,352 @@
+// raster_test.c - pixels that are made of segments by compute are those that OpenGL draws, whatever the host has set.
+#include "tests/support/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <hair/hair_asset.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+
+enum { WIDTH = 203, HEIGHT = 157, PIXELS = WIDTH * HEIGHT, LONG_UNUSED = 242 };
+
+struct fixture {
+    struct hair_test* test;
+    hair_groom*       groom;
+    hair_instance*    hair;
+};
+
+// Wavy hair of that radius, m.
+static struct fixture start(void** state, uint32_t followers, float radius)
+{
+    struct fixture  f     = {.test = *state};
+    hair_asset*     asset = NULL;
+    hair_style_desc of    = hair_style_desc_default();
+    hair_groom_desc desc  = hair_groom_desc_default();
+    hair_desc       how   = hair_desc_default();
+    hair_look       look  = hair_look_default();
+    of.host = desc.host = &f.test->host.host;
+    of.style            = HAIR_STYLE_CURLY;
+    look.radius         = radius;
+    look.segments       = 24;
+    how.look            = &look;
+    hair_test_ok(f.test, hair_asset_generate(&of, &asset));
+    hair_test_ok(f.test, hair_asset_fill(asset, &desc));
+    desc.follower_count = followers;
+    hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
+    hair_asset_destroy(asset);
+    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_destroy(f->hair);
+    hair_groom_destroy(f->groom);
+}
+
+// From so far in front of the middle of the head, m.
+static hair_view front(hair_path path, float away)
+{
+    hair_view view = hair_view_default();
+    view.path      = path;
+    view.view[13] = -1.6f, view.view[14] = -away;
+    view.projection[0] = 2.4f, view.projection[5] = 3;
+    view.projection[10] = -1, view.projection[14] = -0.02f; // 1 cm away -1, far away 1
+    view.projection[11] = -1, view.projection[15] = 0;
+    return view;
+}
+
+// What a host may have set, and by whom it is put back.
+static void set_nothing(hair_view* view)
+{
+    (void)view;
+}
+
+static void set_reversed(hair_view* view)
+{
+    view->projection[10] = 0, view->projection[14] = 0.01f;
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDepthFunc(GL_GREATER);
+    glClearDepth(0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+static void set_upside_down(hair_view* view)
+{
+    (void)view;
+    glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glDepthRange(0.3, 0.6);
+}
+
+static void set_range_reversed(hair_view* view)
+{
+    (void)view;
+    glDepthRange(1, 0.25);
+    glDepthFunc(GL_GEQUAL);
+    glClearDepth(0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+static void set_part(hair_view* view)
+{
+    (void)view;
+    glViewport(31, -20, 140, 150);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(50, 20, 90, 80);
+}
+
+static void set_wall(hair_view* view)
+{
+    (void)view;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, WIDTH, HEIGHT / 2);
+    glClearDepth(0.5);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+static void set_orthographic(hair_view* view)
+{
+    memset(view->projection, 0, sizeof view->projection);
+    view->projection[0] = 2.5f, view->projection[5] = 3, view->projection[10] = -1, view->projection[15] = 1;
+    view->jitter[0] = 0.3f, view->jitter[1] = -0.2f;
+}
+
+static void set_wires(hair_view* view) // which only what is drawn as triangles would be of
+{
+    (void)view;
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+}
+
+static void put_back(void)
+{
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glDepthFunc(GL_LESS);
+    glDepthRange(0, 1);
+    glClearDepth(1);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+}
+
+struct picture {
+    float pixels[4 * PIXELS], depth[PIXELS];
+};
+
+static void draw(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
+                 struct picture* out)
+{
+    struct hair_test_frame frame;
+    hair_view              view = front(path, away);
+    view.pass                   = pass;
+    hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
+    set(&view);
+    hair_test_ok(f->test, hair_draw(f->hair, &view));
+    put_back();
+    hair_test_frame_read(&frame, out->pixels);
+    hair_test_frame_read_depth(&frame, out->depth);
+    hair_test_frame_free(&frame);
+}
+
+// How many pixels are covered by both, how many by one alone, and of the others of how many it is not the same that is seen.
+struct difference {
+    uint32_t covered, alone, apart;
+};
+
+static struct difference compare(const struct picture* a, const struct picture* b)
+{
+    struct difference d = {0};
+    for (int i = 0; i < PIXELS; ++i) {
+        int   by_a = a->pixels[4 * i + 3] > 0, by_b = b->pixels[4 * i + 3] > 0;
+        float most = 0;
+        d.covered += (uint32_t)(by_a && by_b);
+        d.alone += (uint32_t)(by_a != by_b);
+        for (int k = 0; k < 3; ++k) most = fmaxf(most, fabsf(a->pixels[4 * i + k] - b->pixels[4 * i + k]));
+        d.apart += by_a && by_b && (most > 0.005f || fabsf(a->depth[i] - b->depth[i]) > 1e-4f);
+    }
+    return d;
+}
+
+// What draws rounds corners to parts of a pixel, so that edges may fall to either side of its middle.
+static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set(void** state)
+{
+    static const struct {
+        const char* name;
+        void (*set)(hair_view*);
+        float away, radius;
+    } hosts[] = {
+        {"as usual", set_nothing, 0.8f, 3e-4f},          {"depth reversed", set_reversed, 0.8f, 3e-4f},
+        {"upside down", set_upside_down, 0.8f, 3e-4f},   {"range reversed", set_range_reversed, 0.8f, 3e-4f},
+        {"a part of it", set_part, 0.8f, 3e-4f},         {"behind a wall", set_wall, 0.8f, 3e-4f},
+        {"orthographic", set_orthographic, 0.8f, 3e-4f}, {"culled", set_wires, 0.8f, 3e-4f},
+        {"from among it", set_nothing, 0.12f, 3e-4f},    {"thick and close", set_nothing, 0.2f, 6e-3f}};
+    static struct picture drawn, made;
+    for (size_t i = 0; i < sizeof hosts / sizeof *hosts; ++i) {
+        struct fixture f = start(state, 400, hosts[i].radius);
+        draw(&f, HAIR_PATH_EXPANDED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &drawn);
+        draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &made);
+        struct difference d = compare(&drawn, &made);
+        print_message("    %s: %u pixels, %u of one alone, %u not alike\n", hosts[i].name, d.covered, d.alone,
+                      d.apart);
+        assert_true(d.covered > 500);
+        assert_true(d.alone <= d.covered / 50 && d.apart <= d.covered / 50);
+        finish(&f);
+    }
+}
+
+static void depth_made_by_compute_is_that_which_is_drawn(void** state)
+{
+    static struct picture drawn, made;
+    struct fixture        f     = start(state, 400, 3e-4f);
+    uint32_t              there = 0, apart = 0;
+    draw(&f, HAIR_PATH_EXPANDED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &drawn);
+    draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &made);
+    for (int i = 0; i < PIXELS; ++i) {
+        there += drawn.depth[i] < 1;
+        apart += fabsf(drawn.depth[i] - made.depth[i]) > 2e-5f;
+    }
+    print_message("    %u pixels, %u are farther apart\n", there, apart);
+    assert_true(there > 1000 && apart <= there / 50);
+    assert_int_equal(f.hair->draw.expanded.shaded, 0);
+    finish(&f);
+}
+
+// Whichever thread comes first.
+static void the_same_hair_is_made_the_same_bits(void** state)
+{
+    static struct picture first, second;
+    struct fixture        f = start(state, 1500, 3e-4f);
+    draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &first);
+    for (int i = 0; i < 5; ++i) {
+        draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &second);
+        assert_memory_equal(&first, &second, sizeof first);
+    }
+    finish(&f);
+}
+
+// Each sample of a pixel sees what a pixel there would; also in front of what the host has drawn into some of them.
+static void samples_cover_as_much_as_those_that_are_drawn(void** state)
+{
+    static float   pixels[2][4 * PIXELS];
+    struct fixture f = start(state, 400, 3e-4f);
+    for (int made = 0; made < 2; ++made) {
+        struct hair_test_frame frame;
+        hair_view              view = front(made ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED, 0.8f);
+        hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 4);
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        hair_test_frame_read(&frame, pixels[made]);
+        hair_test_frame_free(&frame);
+    }
+    uint32_t some = 0, apart = 0;
+    double   sum[2] = {0}, color[2] = {0};
+    for (int i = 0; i < PIXELS; ++i) {
+        some += pixels[0][4 * i + 3] > 0 && pixels[0][4 * i + 3] < 1;
+        apart += fabsf(pixels[0][4 * i + 3] - pixels[1][4 * i + 3]) > 0.01f;
+        for (int made = 0; made < 2; ++made) {
+            sum[made] += (double)pixels[made][4 * i + 3];
+            for (int k = 0; k < 3; ++k) color[made] += (double)pixels[made][4 * i + k];
+        }
+    }
+    print_message(
+        "    %u pixels are covered in part, %u not alike; in all %.1f and %.1f, of colour %.2f and %.2f\n",
+        some, apart, sum[0], sum[1], color[0], color[1]);
+    assert_true(some > 1000 && apart <= some / 20);
+    assert_true(fabs(sum[1] / sum[0] - 1) < 0.002 && fabs(color[1] / color[0] - 1) < 0.01);
+    finish(&f);
+}
+
+static void what_compute_does_not_make_is_drawn(void** state)
+{
+    struct fixture f    = start(state, 50, 3e-4f);
+    hair_lod       lod  = hair_lod_default();
+    hair_view      view = front(HAIR_PATH_COMPUTED, 0.8f);
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_COMPUTED);
+    view.lod = &lod;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
+    view.lod       = NULL;
+    view.primitive = HAIR_LINES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
+    view.primitive = HAIR_RIBBONS;
+    view.coverage  = HAIR_COVERAGE_SHARES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
+    view.coverage = HAIR_COVERAGE_SAMPLES;
+    for (hair_pass pass = HAIR_PASS_COLOR; pass <= HAIR_PASS_OPACITY; ++pass) {
+        view.pass = pass;
+        int is    = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
+        assert_int_equal(hair_draw_path(&f.hair->draw, &view), is ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED);
+    }
+    finish(&f);
+}
+
+// In the host's own shader pixels are made where they are drawn.
+static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
+{
+    struct fixture         f    = start(state, 50, 3e-4f);
+    hair_view              view = front(HAIR_PATH_COMPUTED, 0.8f);
+    hair_shader_desc       desc = hair_shader_desc_default();
+    struct hair_test_frame frame;
+    desc.glsl = "vec4 hair_shade(hair_fragment f) { return vec4(f.t, 0.5, 0.0, 1.0); }";
+    for (int pixels = 0; pixels < 2; ++pixels) {
+        desc.at = pixels ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES;
+        hair_test_ok(f.test, hair_shader_create(f.test->context, &desc, &view.shader));
+        hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
+        hair_draw_free_raster(&f.hair->draw);
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        assert_int_equal(f.hair->draw.raster.nearest != 0, !pixels);
+        static float shown[4 * PIXELS];
+        hair_test_frame_read(&frame, shown);
+        uint32_t own = 0;
+        for (int i = 0; i < PIXELS; ++i) own += fabsf(shown[4 * i + 1] - 0.5f) < 0.001f;
+        assert_true(own > 100);
+        hair_test_frame_free(&frame);
+        hair_shader_destroy(view.shader);
+    }
+    finish(&f);
+}
+
+static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(void** state)
+{
+    struct fixture         f   = start(state, 50, 3e-4f);
+    struct hair_raster*    own = &f.hair->draw.raster;
+    struct hair_test_frame frame;
+    hair_view              view = front(HAIR_PATH_EXPANDED, 0.8f);
+    hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    assert_int_equal(own->nearest, 0);
+    view.path     = HAIR_PATH_COMPUTED;
+    view.view[14] = -40; // where it is a few pixels
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    print_message("    %zu numbers of %d pixels\n", own->room, PIXELS);
+    assert_in_range(own->room, 1, PIXELS / 10);
+    view.view[14] = -0.8f;
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    assert_in_range(own->room, 1000, 3 * PIXELS + 4);
+    view.path = HAIR_PATH_EXPANDED;
+    for (int i = 0; i < LONG_UNUSED; ++i) {
+        hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+        hair_test_ok(f.test, hair_draw(f.hair, &view));
+    }
+    assert_int_equal(own->nearest + own->tile + own->params, 0);
+    hair_test_frame_free(&frame);
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set),
+        HAIR_TEST(depth_made_by_compute_is_that_which_is_drawn),
+        HAIR_TEST(the_same_hair_is_made_the_same_bits),
+        HAIR_TEST(samples_cover_as_much_as_those_that_are_drawn),
+        HAIR_TEST(what_compute_does_not_make_is_drawn),
+        HAIR_TEST(pixels_of_the_hosts_own_shading_are_drawn),
+        HAIR_TEST(memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
