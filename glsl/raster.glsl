@@ -1,5 +1,5 @@
 // raster.glsl - segments of strands as pixels see them, for the passes that make those without units that draw: ribbons between
-// vertices that are expanded, as ribbon.geom has them.
+// vertices that are expanded or, of levels of detail, staged, as ribbon.geom has them.
 #include "expanded.glsl"
 #include "ribbon.glsl"
 
@@ -14,13 +14,19 @@ struct raster_ribbon {
     vec2 seen; // from where to where it is in front of the eye, of 1
 };
 
-// The places of its vertices, of what is expanded.
-int vertex_of(uint segment, out float width)
+// The place of its first vertex, by what its width is to be multiplied, and whether its strand has so many.
+int vertex_of(uint segment, out float width, out bool there)
 {
-    uint  each   = draw.segments;
+    uint  each   = draw.segments, k = segment % each;
     uvec4 record = texelFetch(strand_texture, int(segment / each)); // hair_strand
-    width        = uintBitsToFloat(record.y);
-    return int(record.x * (each + 1u) + segment % each);
+    there        = float(k) < uintBitsToFloat(record.w);
+#ifdef HAIR_WIDENED
+    width = 1.0;
+    return int(segment / each * (each + 1u) + k);
+#else
+    width = uintBitsToFloat(record.y);
+    return int(record.x * (each + 1u) + k);
+#endif
 }
 
 // Keep of a way from 0 to 1 what is not below 0, of what is so much at its ends.
@@ -35,7 +41,8 @@ raster_ribbon ribbon_of(uint segment)
 {
     raster_ribbon r;
     float         width;
-    int           at = vertex_of(segment, width);
+    bool          there;
+    int           at = vertex_of(segment, width, there);
     for (int end = 0; end < 2; ++end) {
         vec4 strand   = texelFetch(expanded_texture, at + end);
         vec3 tangent  = texelFetch(expanded_tangent_texture, at + end).xyz * 2.0 - 1.0;
@@ -44,7 +51,7 @@ raster_ribbon ribbon_of(uint segment)
     }
     vec4  a = r.middle[0], b = r.middle[1];
     float least = 1e-6 * max(abs(a.w), abs(b.w));
-    r.seen = vec2(0.0, 1.0);
+    r.seen = there ? vec2(0.0, 1.0) : vec2(2.0);
     keep(a.w - least, b.w - least, r.seen);
     if (raster.clamps == 0u) {
         keep(a.z, b.z, r.seen);

@@ -90,6 +90,8 @@ typedef uint32_t hair_uint;
 #define HAIR_SORTED_COMMAND 2
 #define HAIR_PAIRED_COMMAND 3
 #define HAIR_PAIRED_INDICES 6 // of a segment
+// Of the pass that writes their vertices for one view, as at HAIR_BIND_EXPANDED and the two after it, in the order of the list:
+#define HAIR_BIND_LISTED 3  // hair_draw_command[HAIR_COMMANDS], never written
 // Of the passes that sort their segments, these too:
 #define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
 #define HAIR_BIND_SORTED 1 // uvec2[]              per segment: the numbers of its vertices

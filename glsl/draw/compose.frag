@@ -16,10 +16,11 @@ vec4 color_of(uint segment, vec2 place)
 {
     raster_ribbon r = ribbon_of(segment);
     float share, depth, width;
+    bool  is_there;
     sees(outline_of(r), place, share, depth);
     vec2  w = mix(vec2(r.middle[0].w), vec2(r.middle[1].w), r.seen);
     float there = share * w.x / mix(w.y, w.x, share); // On the strand, of what that is on the picture.
-    int   at = vertex_of(segment, width);
+    int   at = vertex_of(segment, width, is_there);
     return mix(texelFetch(shaded_texture, at), texelFetch(shaded_texture, at + 1), mix(r.seen.x, r.seen.y, there));
 }
 #endif

@@ -182,7 +182,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     asked->unseen[kind] += (uint32_t)unseen;
     hair_path path = hair_draw_path(&hair->draw, view);
     asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
-    asked->expanded |= !unseen && hair_draw_expands(path);
+    asked->expanded |= !unseen && hair_draw_expands(path, view);
     asked->hides |= !unseen && hair_draw_hides(view);
     return !unseen && hair->draw.look.density > 0;
 }

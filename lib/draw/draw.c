@@ -48,6 +48,7 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_draw_free_self_shadow(draw);
     hair_draw_free_hidden(draw);
     hair_draw_free_raster(draw);
+    hair_draw_free_staged(draw);
     hair_draw_free_uvs(draw);
     hair_seats_release(draw->seats);
     draw->seats = NULL;
@@ -120,7 +121,7 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded with before, 0: nothing.
+// What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded or staged with before, 0: nothing.
 struct drawn {
     hair_gl_pass            pass, shade_pass;
     hair_path               path;
@@ -177,6 +178,9 @@ static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* v
 #define SHADE_FEATURES                                                                                       \
     (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(TINTED) | HAIR_GL_WITH(PAINTED) | HAIR_GL_WITH(BLOCKED))
 
+// What making pixels by compute does.
+#define RASTER_FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
+
 static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
                                 GLuint* out)
 {
@@ -193,7 +197,7 @@ static int is_paired(const struct hair_draw* draw, const hair_view* view)
            hair_draw_path(draw, view) == HAIR_PATH_EXPANDED;
 }
 
-// The pass that draws; and the one that shades before it, 0: there is none.
+// The pass that draws; and the one that shades or stages vertices before it, 0: there is none.
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
@@ -201,7 +205,8 @@ static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* v
     if (is_paired(draw, view)) row = HAIR_GL_PAIRED;
     *shade = 0;
     if (hair_draw_is_shaded(draw, view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
-    if (row == HAIR_GL_COMPOSE) return row | (features & HAIR_GL_WITH(DEPTH));
+    if (hair_draw_stages(hair_draw_path(draw, view), view)) *shade = hair_gl_with(HAIR_GL_STAGE, features);
+    if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
     return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
 }
 
@@ -212,6 +217,7 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
     out->path          = hair_draw_path(draw, view);
     out->pass          = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
     if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
+    if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
     if (out->shade_pass) result = need_program(draw, out->shade_pass, shader, &out->shade);
     return result ? result : need_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
 }
@@ -231,15 +237,17 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
-    if (!result && shade) result = need_program(draw, shade, shader, &program);
     if (!result && path == HAIR_PATH_COMPUTED)
-        result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & HAIR_GL_WITH(DEPTH));
+        result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
-        result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
+        if (shade)
+            result = need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader, &program);
+        if (!result)
+            result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
         if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
-        if (!result && (lit || hair_draw_expands(path)))
+        if (!result && (lit || hair_draw_expands(path, view)))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
         if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
     }
@@ -263,9 +271,12 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     int               computed = with->path == HAIR_PATH_COMPUTED;
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
-    if (hair_draw_expands(with->path)) hair_draw_bind_expanded(draw);
-    if (with->shade_pass) hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
-    if (computed) hair_draw_rasterise(draw, with->pass & HAIR_GL_WITH(DEPTH), &with->raster);
+    if (hair_draw_expands(with->path, view)) hair_draw_bind_expanded(draw);
+    if (hair_draw_stages(with->path, view))
+        hair_draw_stage(draw, with->shade_pass, with->shade);
+    else if (with->shade_pass)
+        hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
+    if (computed) hair_draw_rasterise(draw, with->pass & RASTER_FEATURES, &with->raster);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     if (hair_draw_is_shared(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
@@ -288,10 +299,11 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
 static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                                struct drawn* out)
 {
-    hair_gl_pass depth  = out->pass & HAIR_GL_WITH(DEPTH);
-    hair_result  result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, depth);
+    hair_gl_pass with   = out->pass & RASTER_FEATURES;
+    hair_result  result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
     out->nowhere        = !hair_draw_find_raster(draw, head, view, &out->raster);
-    return result || out->nowhere ? result : hair_draw_need_raster(draw, depth, &out->raster);
+    if (!result && view->lod) result = hair_draw_need_staged(draw, with & HAIR_GL_WITH(DEPTH));
+    return result || out->nowhere ? result : hair_draw_need_raster(draw, with, &out->raster);
 }
 
 // What followers are drawn with and from, made and brought up to date.
@@ -308,9 +320,10 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     if (!result && out->path != HAIR_PATH_TESSELLATION && out->path != HAIR_PATH_COMPUTED)
         result = hair_draw_make_indices(draw, is_paired(draw, view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
-    if (!result && hair_draw_expands(out->path)) result = hair_draw_need_expanded(draw, smooth, NULL);
+    if (!result && hair_draw_expands(out->path, view)) result = hair_draw_need_expanded(draw, smooth, NULL);
     if (!result && out->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
-    if (!result && out->shade_pass) result = hair_draw_need_shaded(draw);
+    if (!result && out->shade_pass && !hair_draw_stages(out->path, view))
+        result = hair_draw_need_shaded(draw);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);

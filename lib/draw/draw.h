@@ -11,6 +11,7 @@
 #include "lib/draw/raster.h"
 #include "lib/draw/self_shadow.h"
 #include "lib/draw/sorted.h"
+#include "lib/draw/staged.h"
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
 struct hair_fibres {
@@ -35,6 +36,7 @@ enum {
     HAIR_DRAW_MOTION,
     HAIR_DRAW_SORTED,
     HAIR_DRAW_RASTER,
+    HAIR_DRAW_STAGED,
     HAIR_DRAW_FIBRES,
     HAIR_DRAW_UVS,
     HAIR_DRAW_SELF_SHADOW,
@@ -68,6 +70,7 @@ struct hair_draw {
     struct hair_motion      motion;
     struct hair_sorted      sorted;
     struct hair_raster      raster;
+    struct hair_staged      staged;
     struct hair_self_shadow self_shadow;
     struct hair_hidden      hidden;
     struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
@@ -138,9 +141,11 @@ void hair_draw_listed(struct hair_draw* draw, int paired);
 // path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
 void      hair_draw_find_fastest(struct hair_draw* draw);
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
-int       hair_draw_expands(hair_path path); // it takes vertices that are written once
-int       hair_draw_is_shared(const hair_view* view);
-int       hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
+// Whether a path takes vertices of all followers for `view`, that are written once; or has its own.
+int hair_draw_expands(hair_path path, const hair_view* view);
+int hair_draw_stages(hair_path path, const hair_view* view);
+int hair_draw_is_shared(const hair_view* view);
+int hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
 // lights.c: whether it has maps of bodies that block lights.
 int hair_draw_is_blocked(const hair_view* view);
 
@@ -203,16 +208,22 @@ void        hair_draw_free_sorted(struct hair_draw* draw);
 void        hair_draw_sort(struct hair_draw* draw);
 void        hair_draw_sorted(struct hair_draw* draw);
 
-// raster.c: where in the window hair is to be looked for, and with what samples; 0: nowhere. `depth`: HAIR_GL_WITH(DEPTH), or 0
-// for colour too. Buffers for that; with everything bound that draws expanded strands, find what their samples see; and
+// staged.c: room for vertices of listed strands, of depth alone or of colour too; write them, and have them read in place of those
+// that are expanded.
+hair_result hair_draw_need_staged(struct hair_draw* draw, hair_gl_pass depth);
+void        hair_draw_free_staged(struct hair_draw* draw);
+void        hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
+
+// raster.c: where in the window hair is to be looked for, and with what samples; 0: nowhere. `with`: HAIR_GL_WITH(DEPTH),
+// else colour too, and HAIR_GL_WITH(WIDENED) of what is staged. Buffers for that; with everything bound that draws expanded strands, find what their samples see; and
 // draw that with the program that is current.
 int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_raster_params* out);
-hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass depth,
+hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                                   const struct hair_raster_params* params);
-void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass depth, struct hair_raster_params* params);
-void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
-void hair_draw_free_raster(struct hair_draw* draw);
+void        hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params);
+void        hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
+void        hair_draw_free_raster(struct hair_draw* draw);
 
 // hidden.c: whether `view` has what may hide hair; and where, if hair can be there at all. Programs and buffers for that; and with
 // everything bound that makes followers, find what patches are hidden.

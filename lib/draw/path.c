@@ -54,26 +54,33 @@ static int has_few_samples(const struct hair_gl* gl)
     return samples <= HAIR_RASTER_SAMPLES && most <= MOST_SAMPLES;
 }
 
+// Pixels that are made by compute are opaque, and of colour or depth alone.
+static int is_computable(const hair_view* view)
+{
+    int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
+    return shown && view->primitive == HAIR_RIBBONS;
+}
+
 static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
     hair_path path     = fastest[draw->driver].path[column];
     uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
-    if (hair_draw_expands(path) && vertices > MOST_EXPANDED) return HAIR_PATH_TESSELLATION;
-    return path == HAIR_PATH_COMPUTED && (view->shader || !has_few_samples(draw->gl)) ? HAIR_PATH_EXPANDED
-                                                                                      : path;
+    if ((path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED) && vertices > MOST_EXPANDED)
+        return HAIR_PATH_TESSELLATION;
+    if (path != HAIR_PATH_COMPUTED || (is_computable(view) && !view->shader && has_few_samples(draw->gl)))
+        return path;
+    return view->pass == HAIR_PASS_COLOR ? HAIR_PATH_EXPANDED : HAIR_PATH_TESSELLATION;
 }
 
-// Pixels that are made by compute are opaque, and of colour or depth alone.
-static int is_computable(const hair_view* view)
+int hair_draw_expands(hair_path path, const hair_view* view)
 {
-    int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
-    return shown && view->primitive == HAIR_RIBBONS && !view->lod;
+    return path == HAIR_PATH_EXPANDED || (path == HAIR_PATH_COMPUTED && !view->lod);
 }
 
-int hair_draw_expands(hair_path path)
+int hair_draw_stages(hair_path path, const hair_view* view)
 {
-    return path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED;
+    return path == HAIR_PATH_COMPUTED && view->lod;
 }
 
 // Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are

@@ -99,12 +99,12 @@ static hair_result need_tiles(struct hair_gl* gl, struct hair_raster* raster, si
 }
 
 // Numbers of samples, of depth one each.
-static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass depth)
+static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass with)
 {
-    return (size_t)params->columns * params->rows * params->samples * (depth ? 1 : 2);
+    return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);
 }
 
-hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass depth,
+hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                                   const struct hair_raster_params* params)
 {
     draw->used[HAIR_DRAW_RASTER] = draw->frame;
@@ -118,7 +118,7 @@ hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass depth,
     if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
     if (!result) result = need_tiles(gl, raster, params->tiles);
     if (result) return result;
-    return need_room(gl, "hair nearest", count_numbers(params, depth), &raster->nearest, &raster->room);
+    return need_room(gl, "hair nearest", count_numbers(params, with), &raster->nearest, &raster->room);
 }
 
 void hair_draw_free_raster(struct hair_draw* draw)
@@ -136,26 +136,27 @@ static uint32_t groups_for(uint64_t threads)
     return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
-void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass depth, struct hair_raster_params* params)
+void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params)
 {
     struct hair_gl*     gl        = draw->gl;
     struct hair_raster* raster    = &draw->raster;
     GLuint              buffers[] = {raster->nearest, raster->tile};
     uint64_t            segments  = (uint64_t)draw->followers * draw->look.segments;
     uint32_t            groups    = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
-    uint64_t            fours     = (count_numbers(params, depth) + 3) / 4;
+    uint64_t            fours     = (count_numbers(params, with) + 3) / 4;
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &draw->listed.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_gl_run(gl, HAIR_GL_RASTER_CLEAR | depth, groups_for(fours > params->tiles ? fours : params->tiles));
-    hair_gl_run(gl, HAIR_GL_RASTER | depth, groups);
-    if (depth || gl->long_atomics) return;
+    hair_gl_run(gl, hair_gl_with(HAIR_GL_RASTER_CLEAR, with),
+                groups_for(fours > params->tiles ? fours : params->tiles));
+    hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
+    if (with & HAIR_GL_WITH(DEPTH) || gl->long_atomics) return;
     params->claims = 1;
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_gl_run(gl, HAIR_GL_RASTER, groups);
+    hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
 }
 
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)

@@ -5,7 +5,7 @@ int hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
                         const struct hair_gl_shader* shader)
 {
     return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
-           hair_draw_expands(hair_draw_path(draw, view));
+           hair_draw_expands(hair_draw_path(draw, view), view);
 }
 
 hair_result hair_draw_need_shaded(struct hair_draw* draw)

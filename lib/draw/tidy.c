@@ -11,6 +11,7 @@ void hair_draw_tidy(struct hair_draw* draw, uint32_t frame)
         [HAIR_DRAW_FIBRES] = hair_draw_free_fibres, [HAIR_DRAW_UVS] = hair_draw_free_uvs,
         [HAIR_DRAW_SHADED] = hair_draw_free_shaded, [HAIR_DRAW_SELF_SHADOW] = hair_draw_free_self_shadow,
         [HAIR_DRAW_HIDDEN] = hair_draw_free_hidden, [HAIR_DRAW_RASTER] = hair_draw_free_raster,
+        [HAIR_DRAW_STAGED] = hair_draw_free_staged,
     };
     draw->frame = frame;
     for (int part = 0; part < HAIR_DRAW_PARTS; ++part)

@@ -284,6 +284,7 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
     hair_wind      wind    = hair_wind_default();
     hair_physics   physics = hair_physics_default();
     hair_tie       tie     = hair_tie_default();
+    hair_lod       lod     = hair_lod_default();
     uint64_t       plain, all;
     hair_test_ok(f.test, hair_step(f.hair, 0.02f));
     assert_int_equal(memory_of(&f).bytes, reported(&f));
@@ -304,6 +305,9 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
         view.coverage = i == 2 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
         view.path     = i == 0 ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED;
         draw(&f, &view, pixels);
+        view.lod = i == 0 ? &lod : NULL;
+        if (view.lod) draw(&f, &view, pixels);
+        view.lod = NULL;
         assert_int_equal(memory_of(&f).bytes, reported(&f));
     }
     all = memory_of(&f).bytes;

@@ -140,6 +140,15 @@ static void show_motion(struct fixture* f, hair_view* view)
     view->pass = HAIR_PASS_MOTION;
 }
 
+static void leave_out(struct fixture* f, hair_view* view)
+{
+    static hair_lod lod;
+    lod         = hair_lod_default();
+    lod.strands = 0.5f;
+    view->lod   = &lod;
+    put_a_ball_into(f, view);
+}
+
 static void show_solids(struct fixture* f, hair_view* view)
 {
     put_a_ball_into(f, view);
@@ -165,6 +174,7 @@ static const struct {
     {"depth", HAIR_PATH_TESSELLATION, lend_depth},
     {"depth, expanded", HAIR_PATH_EXPANDED, lend_depth},
     {"depth, computed", HAIR_PATH_COMPUTED, lend_depth},
+    {"levels of detail, computed", HAIR_PATH_COMPUTED, leave_out},
     {"velocities", HAIR_PATH_TESSELLATION, show_motion},
     {"solids", HAIR_PATH_TESSELLATION, show_solids},
 };

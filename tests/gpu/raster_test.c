@@ -138,12 +138,13 @@ struct picture {
     float pixels[4 * PIXELS], depth[PIXELS];
 };
 
-static void draw(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
-                 struct picture* out)
+static void draw_lod(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
+                     const hair_lod* lod, struct picture* out)
 {
     struct hair_test_frame frame;
     hair_view              view = front(path, away);
     view.pass                   = pass;
+    view.lod                    = lod;
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
     set(&view);
     hair_test_ok(f->test, hair_draw(f->hair, &view));
@@ -151,6 +152,12 @@ static void draw(struct fixture* f, hair_path path, hair_pass pass, float away, 
     hair_test_frame_read(&frame, out->pixels);
     hair_test_frame_read_depth(&frame, out->depth);
     hair_test_frame_free(&frame);
+}
+
+static void draw(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
+                 struct picture* out)
+{
+    draw_lod(f, path, pass, away, set, NULL, out);
 }
 
 // How many pixels are covered by both, how many by one alone, and of the others of how many it is not the same that is seen.
@@ -216,6 +223,32 @@ static void depth_made_by_compute_is_that_which_is_drawn(void** state)
     finish(&f);
 }
 
+static void levels_of_detail_are_those_that_are_drawn(void** state)
+{
+    static struct picture drawn, made;
+    struct fixture        f = start(state, 600, 3e-4f);
+    for (int i = 0; i < 4; ++i) {
+        hair_lod lod  = hair_lod_default();
+        float    away = i == 3 ? 3 : 0.8f;
+        lod.dynamic   = i >= 2;
+        if (i == 0) lod.strands = 0.37f;
+        if (i == 1) lod.segments = 0.4f;
+        if (i >= 2) lod.strand_pixels = 2, lod.segment_pixels = 6;
+        draw_lod(&f, HAIR_PATH_INSTANCED, HAIR_PASS_COLOR, away, set_nothing, &lod, &drawn);
+        draw_lod(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, away, set_nothing, &lod, &made);
+        struct difference d = compare(&drawn, &made);
+        print_message("    %d: %u pixels, %u of one alone, %u not alike\n", i, d.covered, d.alone, d.apart);
+        assert_true(d.covered > 100);
+        assert_true(d.alone <= 2 + d.covered / 40 && d.apart <= 2 + d.covered / 40);
+        draw_lod(&f, HAIR_PATH_COMPUTED, HAIR_PASS_DEPTH, away, set_nothing, &lod, &drawn);
+        uint32_t apart = 0;
+        for (int k = 0; k < PIXELS; ++k) apart += drawn.depth[k] != made.depth[k];
+        assert_int_equal(apart, 0);
+    }
+    assert_int_equal(f.hair->draw.expanded.vertices, 0);
+    finish(&f);
+}
+
 // Whichever thread comes first.
 static void the_same_hair_is_made_the_same_bits(void** state)
 {
@@ -266,10 +299,10 @@ static void what_compute_does_not_make_is_drawn(void** state)
     hair_lod       lod  = hair_lod_default();
     hair_view      view = front(HAIR_PATH_COMPUTED, 0.8f);
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_COMPUTED);
-    view.lod = &lod;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
-    view.lod       = NULL;
+    view.lod       = &lod;
     view.primitive = HAIR_LINES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
+    view.lod = NULL;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
     view.primitive = HAIR_RIBBONS;
     view.coverage  = HAIR_COVERAGE_SHARES;
@@ -342,6 +375,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set),
         HAIR_TEST(depth_made_by_compute_is_that_which_is_drawn),
+        HAIR_TEST(levels_of_detail_are_those_that_are_drawn),
         HAIR_TEST(the_same_hair_is_made_the_same_bits),
         HAIR_TEST(samples_cover_as_much_as_those_that_are_drawn),
         HAIR_TEST(what_compute_does_not_make_is_drawn),

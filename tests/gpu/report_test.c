@@ -151,6 +151,7 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
     check(&f, "expand", HAIR_WHY_UNCHANGED, 1);
     check(&f, "list", HAIR_WHY_UNCHANGED, 1);
     check(&f, "color", HAIR_WHY_DONE, 1);
+    check(&f, "solids", HAIR_WHY_NOT_CALLED, 0); // Vertices that are shaded by themselves are colour.
     f.view.view[12] = 20;
     run_frame(&f);
     check(&f, "color", HAIR_WHY_OUT_OF_VIEW, 1);
