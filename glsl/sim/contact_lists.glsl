@@ -31,17 +31,21 @@ vec3 halfway(vec3 position, vec3 way, float far)
 // One of a list, by its bit; of no bit the first solid.
 uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
 
-// A sphere at one moment, with the margin; and when a list is made, and at the step's end.
+// A sphere at one moment, with the margin.
 vec4 sphere_at(uint k, float share) { return mix(SOLID_START(k, 0), SOLID_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.margin); }
 
 struct sphere {
-    vec4 then, end;
+    vec4  end, moves; // when the step ends; and from when a list is made
+    float far, away;  // how far it moves; and a place is from its middle in the end
+    float off;        // the place stays from it
 };
 
-sphere sphere_of(uint k) { return sphere(sphere_at(k, share_then), sphere_at(k, 1.0)); }
-
-// How far off a place it stays.
-float off_sphere(vec3 place, sphere s) { return length(place - s.end.xyz) - max(s.then.w, s.end.w) - length(s.end.xyz - s.then.xyz); }
+sphere sphere_from(vec3 place, vec4 then, vec4 end)
+{
+    vec4  moves = end - then;
+    float far = length(moves.xyz), away = length(place - end.xyz);
+    return sphere(end, moves, far, away, away - max(then.w, end.w) - far);
+}
 
 float off_long(vec3 place, uint k, float reach)
 {
@@ -54,14 +58,16 @@ float off_long(vec3 place, uint k, float reach)
     return length(from_axis(place, end)) - end.radius - moves;
 }
 
-// Whether everywhere about a place, and all the time, b is less deep than a: then nothing is to be got out of b. From
-// place to place the difference of depths changes by that of two directions (Dunkl and Williams 1964), and by how both move.
-bool hides(sphere a, sphere b, vec3 place, float about)
+// Which of two spheres is hidden: everywhere about a place, and all the time, less deep than the other: then nothing is to be
+// got out of it. From place to place the difference of depths changes by that of two directions (Dunkl and Williams 1964), and
+// by how both move.
+bvec2 hidden(sphere a, sphere b, float about)
 {
-    vec4  moved = a.end - a.then, apart = b.end - b.then - moved, between = b.end - a.end;
-    float to_a = length(place - a.end.xyz), to_b = length(place - b.end.xyz), far = about + length(moved.xyz);
-    float least = to_a + to_b - 2.0 * far, rate = least > 0.0 ? min(2.0 * length(between.xyz) / least, 2.0) : 2.0;
-    return to_b - to_a - between.w > rate * far + length(apart.xyz) + abs(apart.w);
+    vec4  between = b.end - a.end, apart = b.moves - a.moves;
+    float off = length(between.xyz), less = b.away - a.away - between.w;
+    vec2  far = about + vec2(b.far, a.far), least = a.away + b.away - 2.0 * far;
+    vec2  rate = mix(vec2(2.0), min(2.0 * off / least, 2.0), greaterThan(least, vec2(0.0)));
+    return greaterThan(vec2(-less, less), rate * far + length(apart.xyz) + abs(apart.w));
 }
 
 // Of the solids around, for the rest of the step. Spheres that overlap, of which a body may be made, hide each other: most
@@ -72,17 +78,22 @@ void list_solids(uint i, vec3 middle, float far)
     float  about = min(ABOUT + 1.5 * far, params.cells_give);
     float  reach = FIT + max(0.5 * far, params.cells_give), nearest = reach, least = about;
     uint   count = min(list.y - list.x, uint(HAIR_CELL_SOLIDS));
-    sphere last = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0, 0.0, 0.0, -FARTHEST)), deepest = last;
+    sphere last = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0), 0.0, 0.0, 0.0), deepest = last;
+    uint   member[AT_ONCE], next[AT_ONCE], end = list.x + count;
+    for (uint a = 0u; a < AT_ONCE; ++a) next[a] = cell_entry(min(list.x + a, end - 1u));
     for (uint first = 0u; first < count; first += AT_ONCE) {
-        uint   member[AT_ONCE];
         sphere ball[AT_ONCE];
-        for (uint a = 0u; a < AT_ONCE; ++a) member[a] = cell_entry(list.x + min(first + a, count - 1u));
-        for (uint a = 0u; a < AT_ONCE; ++a) ball[a] = sphere_of(member[a] & HAIR_MEMBER_NUMBER);
+        for (uint a = 0u; a < AT_ONCE; ++a) {
+            uint k    = next[a] & HAIR_MEMBER_NUMBER;
+            member[a] = next[a];
+            ball[a]   = sphere_from(middle, sphere_at(k, share_then), sphere_at(k, 1.0));
+            next[a]   = cell_entry(min(list.x + first + AT_ONCE + a, end - 1u)); // Is read while this one is looked at.
+        }
         for (uint a = 0u; a < AT_ONCE; ++a) {
             uint  n = first + a, bit = 1u << (n & 31u);
             uvec2 mask    = n >= count ? uvec2(0u) : n < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
             bool  is_long = (member[a] & HAIR_MEMBER_LONG) != 0u;
-            float off     = off_sphere(middle, ball[a]);
+            float off     = ball[a].off;
             if (is_long) off = off_long(middle, member[a] & HAIR_MEMBER_NUMBER, reach);
             nearest = n < count ? min(nearest, off) : nearest;
             all |= off < reach ? mask : uvec2(0u);
@@ -91,8 +102,9 @@ void list_solids(uint i, vec3 middle, float far)
             others |= (member[a] & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
 #endif
             if (off < about && !is_long && n < count) {
-                if (hides(ball[a], last, middle, about)) few &= ~by_last;
-                if (hides(last, ball[a], middle, about) || hides(deepest, ball[a], middle, about)) few &= ~mask;
+                bvec2 less = hidden(last, ball[a], about); // deep
+                if (less.x) few &= ~by_last;
+                if (less.y || hidden(deepest, ball[a], about).y) few &= ~mask;
                 last    = ball[a];
                 by_last = mask;
                 if (off < least) {
