@@ -3,7 +3,7 @@
 // Of spheres and capsules out of the one it is deepest in, then of the one it is deepest in there: many that overlap, as one
 // body is made of them, are left by the shortest way out of all. A vertex that was in some may be as deep in any as it was
 // in the deepest, less what it is to come out in a substep.
-#include "sim/contact_lists.glsl"
+#include "sim/contact_find.glsl"
 
 #define ROUNDS 4u
 #define AGAIN 1e-6 // m: deep enough in another one to go on
@@ -16,14 +16,17 @@ bool is_around(uint k, vec3 end, float way)
 }
 
 // Out of the deepest of those that have not pushed yet though they keep it, else of all. `solids` becomes those around.
-uint leave_deepest(uint i, vec3 start, inout uvec2 solids, uvec2 owed, float enough_depth, vec3 head_moved,
-                   vec2 granted, inout outcome made, inout uvec2 met, out uvec2 from)
+uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, float enough_depth, vec3 head_moved,
+                   vec2 granted, inout outcome made, inout uvec2 met)
 {
-    vec3  end  = start + made.d - head_moved, normal;
+    vec3  end  = start + made.d - head_moved, normal, surface;
     float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
     uint  whose = 0u;
-    uvec2 around = uvec2(0u), left = solids, at = first_of(left), after;
-    from = uvec2(0u);
+    uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
+    if (solids == uvec2(0u)) return 0u;
+    left &= ~look_at_cached(i, solids, owed, end, way, most, was_most, depth, from, around);
+    bool  cached = from != uvec2(0u);
+    uvec2 at = first_of(left), after;
     // Which is the next one is read while this one is looked at.
     for (uint member = member_at(own(members), at), next; at.y != 0u; at = after, member = next) {
         left[at.x] &= ~at.y;
@@ -44,25 +47,34 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, uvec2 owed, float eno
         was_most   = max(was_most, was);
         around[at.x] |= first || deep > -2.0 * way ? at.y : 0u;
         if (rank > most) {
-            most  = rank;
-            depth = deep;
-            whose = k;
-            from  = at;
+            most   = rank;
+            depth  = deep;
+            whose  = k;
+            from   = mask_of(at);
+            cached = false;
         }
     }
     solids = around;
     depth -= max(was_most - granted.y, granted.x);
-    if (from.y == 0u || !(depth > enough_depth || most > 0.5 * FARTHEST)) return 0u;
-    depth_in(whose, start, made.d, head_moved, was, normal);
-    push_by(BODY_POSITION(whose, 1).w, depth, normal, surface_of(whose, end, head_moved, normal), made);
-    met[from.x] |= from.y;
+    if (from == uvec2(0u) || !(depth > enough_depth || most > 0.5 * FARTHEST)) return 0u;
+    float friction;
+    if (cached) {
+        touch_cached(head_moved, normal, surface, friction);
+    } else {
+        depth_in(whose, start, made.d, head_moved, was, normal);
+        surface  = surface_of(whose, end, head_moved, normal);
+        friction = BODY_POSITION(whose, 1).w;
+    }
+    push_by(friction, depth, normal, surface, made);
+    met |= from;
+    owed &= ~from;
     return 1u;
 }
 
 void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
 {
     vec2  granted = granted_to(i);
-    uvec2 owed = kept, tried, from;
+    uvec2 owed = kept, tried;
     uint  pushed = 1u;
     for (uint n = 0u; n < ROUNDS && pushed > 0u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
         vec3 end = start + made.d - head_moved;
@@ -73,8 +85,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
         around &= ~own(walked);
         uvec2 bodies = n < 2u ? solids & own(walked) : uvec2(0u);
 #endif
-        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, from);
-        if (pushed > 0u) owed[from.x] &= ~from.y;
+        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met);
 #ifdef HAIR_BODIES
         EACH_BIT(bodies) {
             uint  k = member_at(own(members), at) & HAIR_MEMBER_NUMBER;

@@ -31,6 +31,8 @@ vec3 halfway(vec3 position, vec3 way, float far)
 // One of a list, by its bit; of no bit the first solid.
 uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
 
+uvec2 mask_of(uvec2 at) { return at.x == 0u ? uvec2(at.y, 0u) : uvec2(0u, at.y); }
+
 // A sphere at one moment, with the margin.
 vec4 sphere_at(uint k, float share) { return mix(SOLID_START(k, 0), SOLID_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.margin); }
 
@@ -122,52 +124,4 @@ void list_solids(uint i, vec3 middle, float far)
 #ifdef HAIR_BODIES
     own(walked) = others;
 #endif
-}
-
-void find_root()
-{
-    uvec2 list = cell_members(root_now);
-    sunk       = 0.0;
-    if (root_is_free) return;
-    for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); n += lanes) {
-        uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
-        vec4 ball   = BALL(k);
-        if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
-    }
-    sunk = most_of(sunk);
-}
-
-// Whether what a vertex has listed will do for a way: nothing is touched on it, or no more than what is close.
-bool has_listed(uint i, vec3 middle, float far)
-{
-    float off = length(middle - own(listed_near).xyz) + 0.5 * far;
-    return has_lists && off <= max(own(listed_near).w, min(own(clear), params.cells_give));
-}
-
-void find_solids(vec3 head_moved)
-{
-    bool lacks = false;
-    EACH(guide_count) {
-        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
-        float far = length(way);
-        own(met)  = uvec2(0u);
-        lacks     = lacks || (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far));
-    }
-    if (!any_of(bvec2(lacks, false)).x) return;
-    find_root();
-    EACH(guide_count) {
-        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
-        float far = length(way);
-        if (!has_lists) own(reachable) = uvec2(0u);
-        if (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far)) list_solids(i, halfway(position, way, far), far);
-    }
-    has_lists = true;
-}
-
-// Of them those that are enough for a way.
-uvec2 enough(uint i, vec3 start, vec3 end)
-{
-    vec4  near = own(listed_near);
-    float far  = max(length(start - near.xyz), length(end - near.xyz));
-    return far < own(clear) ? uvec2(0u) : far <= near.w ? own(close) : own(reachable);
 }

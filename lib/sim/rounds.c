@@ -13,6 +13,7 @@
     13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
 #define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
 #define TIED_ENDS 30   // and what begins and ends these, for each tie
+#define CACHED 11 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
 #define HALVINGS 10    // of a work group's vertices, and what ends them: cyclic reduction
 #define AT_ONCE 8u     // guides, where each is a thread's
 #define IDLE 500       // of loops that go over methods and steps, and of those that nobody enters,
@@ -69,19 +70,19 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
 }
 
 // Of a vertex, in all tries of a substep.
-static uint32_t rounds_of_contact(const struct hair_sim* sim)
+static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_cells* cells  = &sim->contacts.cells;
     uint32_t                 solids = hair_sim_contacts(sim);
     uint32_t                 others = solids - lesser(sim->solids.capsules, solids);
-    if (sim->contacts.any) return 44 * (cells->rounds + 20) + 3 * cells->longest;
+    if (sim->contacts.any) return 44 * (cells->rounds + 20 + (by_thread ? 0 : CACHED)) + 3 * cells->longest;
     return solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
 }
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
 {
     uint32_t around    = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
-    uint32_t each      = rounds_of_contact(sim);
+    uint32_t each      = rounds_of_contact(sim, by_thread);
     uint32_t look      = sim->contacts.any ? 0 : 6 * (hair_sim_contacts(sim) + 1); // By guide and root.
     struct loops loops = loops_of_methods(sim);
     add_leader(sim, by_thread, &loops);

@@ -1,0 +1,59 @@
+// contact_find.glsl - of any number of solids those that a vertex can touch in a substep.
+#include "sim/contact_cache.glsl"
+
+void find_root()
+{
+    uvec2 list = cell_members(root_now);
+    sunk       = 0.0;
+    if (root_is_free) return;
+    for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); n += lanes) {
+        uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
+        vec4 ball   = BALL(k);
+        if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
+    }
+    sunk = most_of(sunk);
+}
+
+// Whether what a vertex has listed will do for a way: nothing is touched on it, or no more than what is close.
+bool has_listed(uint i, vec3 middle, float far)
+{
+    float off = length(middle - own(listed_near).xyz) + 0.5 * far;
+    return has_lists && off <= max(own(listed_near).w, min(own(clear), params.cells_give));
+}
+
+void find_solids(vec3 head_moved)
+{
+    bool lacks = false;
+    EACH(guide_count) {
+        vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
+        float far = length(way);
+        own(met)  = uvec2(0u);
+        lacks     = lacks || (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far));
+    }
+    if (any_of(bvec2(lacks, false)).x) {
+        find_root();
+        EACH(guide_count) {
+            vec3  way = own(wanted) - head_moved, position = root_now + GET(place) + own(wanted) - root_moved;
+            float far = length(way);
+            if (!has_lists) own(reachable) = uvec2(0u);
+            if (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far)) {
+                list_solids(i, halfway(position, way, far), far);
+                cache_close(i);
+            }
+        }
+        has_lists = true;
+    }
+#ifndef HAIR_THREAD_PER_GUIDE
+    EACH(guide_count) {
+        if (own(reachable) != uvec2(0u)) advance_cached(root_now - root_moved + head_moved + GET(place));
+    }
+#endif
+}
+
+// Of them those that are enough for a way.
+uvec2 enough(uint i, vec3 start, vec3 end)
+{
+    vec4  near = own(listed_near);
+    float far  = max(length(start - near.xyz), length(end - near.xyz));
+    return far < own(clear) ? uvec2(0u) : far <= near.w ? own(close) : own(reachable);
+}
