@@ -3,10 +3,10 @@
 // Of spheres and capsules out of the one it is deepest in, then of the one it is deepest in there: many that overlap, as one
 // body is made of them, are left by the shortest way out of all. A vertex that was in some may be as deep in any as it was
 // in the deepest, less what it is to come out in a substep.
-#include "sim/contact_find.glsl"
-
 #define ROUNDS 4u
 #define AGAIN 1e-6 // m: deep enough in another one to go on
+
+#include "sim/contact_find.glsl"
 
 // What is far from all that it is need not be looked at: also not after a push as long as the way.
 bool is_around(uint k, vec3 end, float way)
@@ -15,17 +15,19 @@ bool is_around(uint k, vec3 end, float way)
     return length(end - ball.xyz) <= ball.w + 2.0 * way;
 }
 
-// Out of the deepest of those that have not pushed yet though they keep it, else of all. `solids` becomes those around.
+// Out of the deepest of those that have not pushed yet though they keep it, else of all. `solids` becomes those around;
+// `is_out` if it is known that none is left to be pushed by.
 uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, float enough_depth, vec3 head_moved,
-                   vec2 granted, inout outcome made, inout uvec2 met)
+                   vec2 granted, inout outcome made, inout uvec2 met, out bool is_out)
 {
     vec3  end  = start + made.d - head_moved, normal, surface;
     float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
     uint  whose = 0u;
     uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
+    is_out = false;
     if (solids == uvec2(0u)) return 0u;
     left &= ~look_at_cached(i, solids, owed, end, way, most, was_most, depth, from, around);
-    bool  cached = from != uvec2(0u);
+    bool  cached = from != uvec2(0u), all_cached = left == uvec2(0u);
     uvec2 at = first_of(left), after;
     // Which is the next one is read while this one is looked at.
     for (uint member = member_at(own(members), at), next; at.y != 0u; at = after, member = next) {
@@ -68,6 +70,8 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     push_by(friction, depth, normal, surface, made);
     met |= from;
     owed &= ~from;
+    if (all_cached && (owed & solids) == uvec2(0u))
+        is_out = is_out_of_cached(solids, start + made.d - head_moved, length(made.d - head_moved), granted.x);
     return 1u;
 }
 
@@ -76,6 +80,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
     vec2  granted = granted_to(i);
     uvec2 owed = kept, tried;
     uint  pushed = 1u;
+    bool  is_out;
     for (uint n = 0u; n < ROUNDS && pushed > 0u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
         vec3 end = start + made.d - head_moved;
         tried    = enough(i, start, end);
@@ -85,20 +90,22 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
         around &= ~own(walked);
         uvec2 bodies = n < 2u ? solids & own(walked) : uvec2(0u);
 #endif
-        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met);
+        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, is_out);
 #ifdef HAIR_BODIES
         EACH_BIT(bodies) {
             uint  k = member_at(own(members), at) & HAIR_MEMBER_NUMBER;
             vec3  way = made.d - head_moved, normal, surface;
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
                 float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
-                pushed += push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+                uint by = push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
+                pushed += by;
+                is_out = is_out && by == 0u;
                 around[at.x] |= at.y;
             }
         }
 #endif
         bool led = tried != enough(i, start, start + made.d - head_moved); // To others.
         solids   = led ? own(reachable) : around;
-        if (!led && bitCount(solids.x) + bitCount(solids.y) < 2) break;
+        if (!led && (is_out || bitCount(solids.x) + bitCount(solids.y) < 2)) break;
     }
 }

@@ -5,6 +5,7 @@
 #ifdef HAIR_THREAD_PER_GUIDE // That has no room for them.
 
 void  cache_close(uint i) {}
+bool  is_out_of_cached(uvec2 solids, vec3 end, float way, float granted) { return false; }
 void  touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float friction) {}
 uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
                      inout float depth, inout uvec2 from, inout uvec2 around)
@@ -96,6 +97,18 @@ void touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float 
     normal   = deepest_out.w > 1e-9 ? deepest_out.xyz / deepest_out.w : vec3(0.0, 1.0, 0.0);
     surface  = head_moved + deepest_way.xyz + cross(deepest_spin.xyz, normal * deepest_way.w);
     friction = deepest_spin.w;
+}
+
+// Whether those looked at leave nothing to get out of: to look at them again would find none that is deep enough.
+bool is_out_of_cached(uvec2 solids, vec3 end, float way, float granted)
+{
+    bool is_out = true;
+    for (uint a = 0u; a < CACHED; ++a) {
+        float away   = length(end - cached_now[a].xyz);
+        bool  out_of = cached_now[a].w - away - granted <= AGAIN && away > way + cached_way[a].w;
+        is_out       = is_out && (out_of || (solids & cached_bit[a]) == uvec2(0u));
+    }
+    return is_out;
 }
 
 #endif

@@ -13,7 +13,7 @@
     13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
 #define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
 #define TIED_ENDS 30   // and what begins and ends these, for each tie
-#define CACHED 11 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
+#define CACHED 16 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
 #define HALVINGS 10    // of a work group's vertices, and what ends them: cyclic reduction
 #define AT_ONCE 8u     // guides, where each is a thread's
 #define IDLE 500       // of loops that go over methods and steps, and of those that nobody enters,
