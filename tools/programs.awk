@@ -1,10 +1,11 @@
 # programs.awk - what `make glsl` compiles: options of glslc, one shader a line, for programs that rows of passes.inl can be compiled to.
 # Reads what the preprocessor leaves of the table: '@"DEFINE" NAME' for each feature, '"features" "stages"' for each row. Of the
-# mixtures of a row's features those with none, one, all and all but one of them; solvers also as one subgroup of 32 threads.
+# mixtures of a row's features those with none, one, all and all but one of them, and any number of solids by themselves; solvers also as one subgroup of 32 threads.
 
 function exists(mixture) # some scene needs it
 {
     if (mixture ~ / (ANY|BODIES) / && mixture !~ / SOLIDS /) return 0
+    if (mixture ~ / FEW / && (mixture !~ / ANY / || mixture ~ / THREAD /)) return 0
     return 1
 }
 
@@ -57,6 +58,9 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     count = split(all, has, " ")
     print_program(" ", stages)
     print_program(mixed, stages)
+    if (all ~ / ANY /) print_program(" SOLIDS ANY ", stages)
+    if (all ~ / FEW /) print_program(" SOLIDS ANY FEW ", stages)
+    if (all ~ / FEW /) print_program(" SOLIDS ANY BODIES FEW ", stages)
     if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity
     for (i = 1; i <= count; i++) {
         print_program(" " has[i] " ", stages)

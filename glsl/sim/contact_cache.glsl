@@ -1,8 +1,8 @@
 // contact_cache.glsl - the spheres that are close to a vertex, in registers: it looks at them several times in a substep, and
-// would wait for memory each time. Spheres that overlap hide each other, so that few are close.
+// would wait for memory each time, with no other guide to go on with. Spheres that overlap hide each other, so that few are close.
 #include "sim/contact_lists.glsl"
 
-#ifdef HAIR_THREAD_PER_GUIDE // That has no room for them.
+#ifndef HAIR_FEW_GUIDES // Of many, more are under way at once without: registers are few.
 
 void  cache_close(uint i) {}
 bool  is_out_of_cached(uvec2 solids, vec3 end, float way, float granted) { return false; }

@@ -43,7 +43,7 @@ void find_solids(vec3 head_moved)
         }
         has_lists = true;
     }
-#ifndef HAIR_THREAD_PER_GUIDE
+#ifdef HAIR_FEW_GUIDES
     EACH(guide_count) {
         if (own(reachable) != uvec2(0u)) advance_cached(root_now - root_moved + head_moved + GET(place));
     }

@@ -20,6 +20,7 @@ FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE") // else a work group
 FEATURE(CURVED, "HAIR_CURVED")           // curved or flat strands
 FEATURE(SOLIDS, "HAIR_SOLIDS")           // few
 FEATURE(ANY, "HAIR_ANY")                 // any number of them
+FEATURE(FEW, "HAIR_FEW_GUIDES")         // that wait for memory, and leave room for what they keep of it
 FEATURE(BODIES, "HAIR_BODIES")           // such that are no capsules among them
 FEATURE(HITS, "HAIR_HITS")               // followers have met solids
 FEATURE(DEPTH, "HAIR_DEPTH")             // no colour
@@ -42,7 +43,7 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the ho
 #define WITH(name) HAIR_GL_WITH(name)
 #define SOLVER_FEATURES \
     SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(CURVED) | WITH(SOLIDS) | WITH(ANY) | \
-        WITH(BODIES)
+        WITH(BODIES) | WITH(FEW)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
         WITH(SHARES) | WITH(WIDENED)

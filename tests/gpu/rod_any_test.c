@@ -355,76 +355,6 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
     for (int kind = 1; kind < 3; ++kind) assert_true(fallbacks[kind] <= 2 * fallbacks[0] + 8);
 }
 
-#define HEAP 60
-#define HEAP_VERTICES 256
-#define HEAP_FRAMES 96
-#define HEAP_RISES 90 // frame, from which on it does so at 10 m/s
-
-// A heap of balls that overlap, 6 to 25 mm, each of which goes its own way to and fro, and spins as a capsule can as well. In the end it
-// rises through the hair.
-static void place_heap(hair_solid* heap, int frame)
-{
-    uint32_t random = 11;
-    for (int i = 0; i < HEAP; ++i) {
-        float p[4], way = 0.0025f * (float)(frame % 40 < 20 ? frame % 20 : 20 - frame % 20);
-        for (int k = 0; k < 4; ++k) {
-            random = random * 1664525u + 1013904223u;
-            p[k]   = (float)(random >> 8) / 16777216.0f;
-        }
-        heap[i]          = hair_test_body(HAIR_SHAPE_SPHERE, 0.05f * p[0] - 0.025f, 0.15f * p[1] - 0.25f,
-                                          0.05f * p[2] - 0.025f);
-        heap[i].size[0]  = 0.006f + 0.019f * p[3];
-        heap[i].friction = p[0];
-        hair_test_turn(&heap[i], 1, 0.02 * frame);
-        heap[i].position[1] += 10.0f / 60 * fmaxf((float)frame - HEAP_RISES, 0);
-        heap[i].position[i % 3] += (i & 4 ? 1.0f : -1.0f) * way * p[(i + 1) % 3];
-    }
-}
-
-// Hair falls over it, or begins inside, and where it is after each frame is written down.
-static void fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_shape shape, int inside,
-                         float* track)
-{
-    static hair_solid        heap[HEAP];
-    hair_physics             physics = hair_test_loose(0.3f);
-    struct hair_test_strands strands = hair_test_strands_make(8, 32);
-    struct hair_test_living  living;
-    double                   deepest = -INFINITY;
-    for (int k = 0; k < 8; ++k)
-        hair_test_add_straight(&strands, 32, hair_v3(-0.12f, -0.09f, 0.01f * (float)k - 0.035f),
-                               hair_v3(1, inside ? -0.5f : 0.2f, 0), 0.3f);
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, mapping, 0, &physics);
-    hair_test_live(test, &strands, &desc, &living);
-    hair_test_strands_free(&strands);
-    for (int frame = 0; frame < HEAP_FRAMES; ++frame) {
-        place_heap(heap, frame);
-        for (int i = 0; i < HEAP; ++i) heap[i].shape = shape;
-        hair_test_set_solids(&living, heap, HEAP);
-        hair_test_wait(&living, 1);
-        hair_test_read_guides(&living);
-        for (int i = 0; i < HEAP && frame <= HEAP_RISES; ++i)
-            deepest = fmax(deepest, hair_test_depth(&living, &heap[i]));
-        memcpy(track + 3 * HEAP_VERTICES * frame, living.positions, 12 * HEAP_VERTICES);
-    }
-    print_message("    up to %.2g m deep, stretch %.2g\n", deepest, hair_test_stretch(&living));
-    assert_true(inside || deepest < 1e-3);
-    assert_true(hair_test_stretch(&living) < 0.02);
-    hair_test_die(&living);
-}
-
-// Most of a ball's neighbours are not looked at, since it is deeper than they are, nor again any that is known to be left.
-// Capsules are looked at always.
-static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
-{
-    static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
-    for (int n = 0; n < 4; ++n) {
-        hair_mapping mapping = n % 2 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
-        fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, n / 2, track[0]);
-        fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, n / 2, track[1]);
-        assert_memory_equal(track[0], track[1], sizeof track[0]);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -434,7 +364,6 @@ int main(void)
         HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
         HAIR_TEST(among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
         HAIR_TEST(many_balls_along_a_line_are_left_as_the_post_that_they_make_is),
-        HAIR_TEST(balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
