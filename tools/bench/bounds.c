@@ -148,6 +148,7 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
     if (!bench_studio_make(bench, &desc, &studio)) return false;
     struct bench_shot shot = bench_studio_shot(&studio);
     shot.samples           = 4;
+    shot.view.path         = HAIR_PATH_AUTO;
     bool done              = bench_studio_set(&studio, &shot);
     for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two compile what they need.
         done = bench_studio_step(&studio, NULL) && bench_studio_draw(&studio, NULL);
