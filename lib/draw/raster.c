@@ -21,13 +21,46 @@ static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
 }
 
 // The part of a viewport that hair can be in, as whole pixels of the window; along one axis.
-static uint32_t find_pixels(float origin, float size, const float part[2], uint32_t* first)
+static uint32_t find_pixels(float origin, float size, float lower, float upper, uint32_t* first)
 {
-    float from = fmaxf(floorf(origin + part[0] * size - BESIDE), floorf(origin));
-    float to   = fminf(ceilf(origin + part[1] * size + BESIDE), ceilf(origin + size));
-    from       = fmaxf(from, 0); // The window begins there.
+    float to   = fminf(ceilf(origin + upper * size + BESIDE), ceilf(origin + size));
+    float from = fmaxf(floorf(origin + lower * size - BESIDE), floorf(origin));
+    from       = fmaxf(fminf(from, to), 0); // The window begins there.
     *first     = (uint32_t)from;
     return to > from ? (uint32_t)(to - from) : 0;
+}
+
+// From the head's origin to the viewport, as hair_draw_find_unit() has it, and where in that hair is: the lower corner and the upper.
+static void find_place(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                       const float unit[16], float matrix[16], float window[4])
+{
+    hair_mat4 own = hair_mat4_from_head(view->view, head), to_viewport;
+    float     projection[16], placed[16], clip[16];
+    hair_draw_project(draw, view, projection);
+    memcpy(placed, &own, sizeof placed);
+    hair_mat4_multiply(projection, placed, clip);
+    hair_mat4_multiply(unit, clip, matrix);
+    memcpy(&to_viewport, matrix, sizeof to_viewport);
+    window[0] = window[1] = 0;
+    window[2] = window[3] = 1;
+    if (draw->held) hair_draw_find_window(draw, head, view->lod, &to_viewport, window);
+}
+
+// Clip space of its pixels; and from the head's origin to them.
+static void write_pixels(const float viewport[4], const float unit[16], float matrix[16],
+                         struct hair_raster_params* out)
+{
+    const float first[2] = {(float)out->first_x, (float)out->first_y};
+    const float count[2] = {(float)out->columns, (float)out->rows};
+    float*      part     = &out->part.x;
+    for (int k = 0; k < 2; ++k) {
+        float from = (first[k] - viewport[k]) / viewport[2 + k], to = from + count[k] / viewport[2 + k];
+        part[k]     = (from - unit[12 + k]) / unit[5 * k];
+        part[2 + k] = (to - unit[12 + k]) / unit[5 * k];
+        for (int i = k; i < 16; i += 4)
+            matrix[i] = matrix[i] * viewport[2 + k] + matrix[i - k + 3] * (viewport[k] - first[k]);
+    }
+    memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
 int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
@@ -35,35 +68,16 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
 {
     struct hair_gl* gl          = draw->gl;
     GLfloat         viewport[4] = {0}, range[2] = {0, 1};
-    hair_mat4       own = hair_mat4_from_head(view->view, head);
-    float           projection[16], placed[16], clip[16], unit[16], matrix[16], window[4] = {0, 0, 1, 1};
+    float           unit[16], matrix[16], window[4];
     memset(out, 0, sizeof *out);
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
     hair_draw_find_unit(gl, unit);
-    hair_draw_project(draw, view, projection);
-    memcpy(placed, &own, sizeof placed);
-    hair_mat4_multiply(projection, placed, clip);
-    hair_mat4_multiply(unit, clip, matrix);
-    memcpy(&out->to_window, matrix, sizeof matrix);
-    if (draw->held) hair_draw_find_window(draw, head, view->lod, &out->to_window, window);
-    for (int k = 0; k < 2; ++k) window[2 + k] = fmaxf(window[2 + k], window[k]);
-    out->columns = find_pixels(viewport[0], viewport[2], (float[]){window[0], window[2]}, &out->first_x);
-    out->rows    = find_pixels(viewport[1], viewport[3], (float[]){window[1], window[3]}, &out->first_y);
-    // Clip space of those pixels, and from there to them.
-    const float first[2] = {(float)out->first_x, (float)out->first_y};
-    const float count[2] = {(float)out->columns, (float)out->rows};
-    for (int k = 0; k < 2; ++k) {
-        float  from = (first[k] - viewport[k]) / viewport[2 + k], to = from + count[k] / viewport[2 + k];
-        float* part     = &out->part.x;
-        part[k]         = (from - unit[12 + k]) / unit[5 * k];
-        part[2 + k]     = (to - unit[12 + k]) / unit[5 * k];
-        float pixels[4] = {0};
-        for (int i = 0; i < 4; ++i)
-            pixels[i] = matrix[4 * i + k] * viewport[2 + k] + matrix[4 * i + 3] * (viewport[k] - first[k]);
-        for (int i = 0; i < 4; ++i) matrix[4 * i + k] = pixels[i];
-    }
-    memcpy(&out->to_window, matrix, sizeof matrix);
+    find_place(draw, head, view, unit, matrix, window);
+    out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
+    out->rows    = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
+    if (!out->columns || !out->rows) return 0;
+    write_pixels(viewport, unit, matrix, out);
     out->depth_from = range[0];
     out->depth_by   = range[1] - range[0];
     out->clamps     = gl->IsEnabled(GL_DEPTH_CLAMP);
@@ -71,7 +85,7 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
     out->across     = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles      = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     find_samples(gl, out);
-    return out->columns > 0 && out->rows > 0;
+    return 1;
 }
 
 // Hair that comes nearer does not have it made anew each time.
