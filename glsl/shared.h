@@ -303,7 +303,7 @@ HAIR_SIZE(hair_rod, 64)
 // still resolve micrometres; the displacement is kept rather than differenced, for the same reason.
 struct hair_state {
     // xyz: m, world axes, from the head's origin at the end of the substep; w: of a guide's first vertex, how much
-    // of the past a solver knows: 0 nothing, it is at rest; 1 the displacement; 2 hair_history as well; see rod.comp
+    // of the past a solver knows: 0 nothing, it is at rest; 1 the displacement; 2 hair_history as well; see predict.glsl
     hair_vec4 position;
     hair_vec4 displacement; // xyz: m, over the last substep, in the world; w: tension / line density, m^2/s^2
 };
@@ -322,7 +322,7 @@ HAIR_SIZE(hair_held, 32)
 // What BDF2 knows of a guide vertex beside its state: displacements per substep that its velocities stand for.
 struct hair_history {
     hair_vec4 rate;        // xyz: at the end of the last substep, m
-    hair_vec4 rate_before; // xyz: of the one before
+    hair_vec4 rate_before; // xyz: of the one before; w: 1: the vertex touched a solid at the end of the last
 };
 HAIR_SIZE(hair_history, 32)
 

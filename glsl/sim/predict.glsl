@@ -17,14 +17,15 @@
 #define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
 #define IS_BACK(method) (HAS_BACK && (method) == BACK)
 #define IS_LEADER(method) (HAIR_SOLVER == LEADER || (method) == LEADER)
+#define LEAPS(method) (IS_BACK(method) && known < 2.0) // See past.glsl.
 
 #if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
 #define KEEPS_RATES
 #define HAS_BACK (HAIR_SOLVER != LEADER)
 OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
 OWN(vec3, rate_before); // and of the one before
+OWN(float, touched);    // 1: something, at the end of the last substep
 OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
-float of_force;         // what a force does in the substep, displacement times mass: s^2
 
 #define GUESSED 0.5      // of the tension that was: see pull_on
 #define MOST_GUESSED 0.5 // of the distance to a neighbour, which that may move a vertex
@@ -43,14 +44,15 @@ int own_method; // of the guide
 const int own_method = HAIR_SOLVER;
 #endif
 OWN(vec4, aim);         // rest position from the root, in groom space; w^2
-float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between, of SHAKE: it waits
+float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between: of SHAKE, it waits; else it leaps
+float     of_force;  // what a force does in the substep, displacement times mass: s^2
 vec4      turn_then; // turn_now, of the substep before
 
 // The configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
-    if (own(slack) == 0.0) return IS_SHAKE(method) ? vec3(0.0) : held_move(i);
-    return IS_BACK(method) ? last / 3.0 : vec3(0.0);
+    if (IS_SHAKE(method) || LEAPS(method)) return vec3(0.0);
+    return own(slack) == 0.0 ? held_move(i) : IS_BACK(method) ? last / 3.0 : vec3(0.0);
 }
 
 #ifdef HAIR_WIND
@@ -69,11 +71,12 @@ void leap(uint i, vec3 force, vec3 bending)
 #endif
 }
 
-// What BDF2, or implicit Euler, begins with: h v.
-vec3 rate_from(uint i, bool two)
+// What BDF2, a leap or implicit Euler begins with: h v.
+vec3 rate_from(uint i, int method)
 {
 #ifdef KEEPS_RATES
-    return two ? (4.0 * own(rate) - own(rate_before)) / 3.0 : known < 2.0 ? own(displacement) : own(rate);
+    if (known < 2.0) return own(displacement);
+    return IS_BACK(method) ? (4.0 * own(rate) - own(rate_before)) / 3.0 : own(rate);
 #else
     return own(displacement);
 #endif
@@ -81,15 +84,17 @@ vec3 rate_from(uint i, bool two)
 
 // x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
 // ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f), f of the end but for q.
-void step_back(uint i, bool two, vec3 force, vec3 bending)
+// A leap is x' = x + d + q, of the right side h^2 (m (g + c (u - v)) + f) with f of the start.
+void step_back(uint i, int method, vec3 force, vec3 bending)
 {
-    float h = params.gravity.w, b = two ? 2.0 / 3.0 : 1.0;
-    vec3  hv = rate_from(i, two);
-    own(wanted) = two ? own(displacement) / 3.0 : vec3(0.0);
+    float h = params.gravity.w, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
+    bool  leaps = LEAPS(method);
+    vec3  hv = rate_from(i, method), q = leaps ? -params.damping * h * hv : b * hv;
+    own(wanted) = leaps ? hv : IS_BACK(method) ? own(displacement) / 3.0 : vec3(0.0);
 #ifdef HAIR_WIND
-    hv += b * drifts;
+    q += leaps ? drifts - by_parts(drags, hv) : b * b * drifts;
 #endif
-    PUT(moved, (b * hv + b * b * h * h * force) / own(slack) + b * b * h * h * bending);
+    PUT(moved, (q + of_force * force) / own(slack) + of_force * bending);
 #ifdef HAIR_WIND
     PUT(moved, dragged_back(i, b, GET(moved)));
 #endif
@@ -107,7 +112,7 @@ void pull_on()
     EACH(guide_count - 1u) {
         vec3  to   = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
         float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
-        own(tension) = clamp(GUESSED * own(tension), -most, most);
+        own(tension) = known < 2.0 ? 0.0 : clamp(GUESSED * own(tension), -most, most); // Of an impact nothing.
         PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
     }
     MEET;
@@ -116,19 +121,16 @@ void pull_on()
 
 void predict(int method)
 {
-    bool at_end  = !IS_SHAKE(method); // is where forces are of
+    bool at_end  = !IS_SHAKE(method) && !LEAPS(method); // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
     find_edges();
     MEET;
     find_bending();
+    of_force = params.gravity.w * params.gravity.w * (IS_BACK(method) && at_end ? 4.0 / 9.0 : 1.0);
 #ifdef KEEPS_RATES
-    of_force = params.gravity.w * params.gravity.w;
-    if (IS_BACK(method)) {
-        of_force *= 4.0 / 9.0;
-        pull_on();
-    }
+    if (IS_BACK(method)) pull_on();
 #endif
 
     EACH(guide_count) {
@@ -137,7 +139,7 @@ void predict(int method)
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
-        feel_air(i, before, share, IS_SHAKE(method) ? own(displacement) : rate_from(i, IS_BACK(method)));
+        feel_air(i, before, share, IS_SHAKE(method) ? own(displacement) : rate_from(i, method));
 #endif
         own(wanted)  = held_move(i);
         vec3 bending = by_segments(i);
@@ -152,14 +154,14 @@ void predict(int method)
         PUT(moved, vec3(0.0));
         if (own(slack) > 0.0) {
             if (IS_SHAKE(method)) leap(i, force, bending);
-            else step_back(i, IS_BACK(method), force, bending);
+            else step_back(i, method, force, bending);
         }
     }
     if (IS_SHAKE(method)) {
         EACH(guide_count - 1u) { PUT(lever, GET(edge)); }
         MEET;
     }
-    if (at_end) {
+    if (!IS_SHAKE(method)) {
         solve_implicit(method >= EULER);
         EACH(guide_count) {
             if (own(slack) > 0.0) own(wanted) += GET(moved);

@@ -15,9 +15,8 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
+#include "sim/past.glsl"
 #include "sim/ride.glsl"
-
-#define STRUCK 0.1   // m/s: a contact that takes more than this away is an impact
 
 // Where SHAKE fails a strand is kinked, and swings from vertex to vertex as no explicit method can follow: it would fail
 // again and again, or flail without failing. Implicit Euler calms it, for 16 substeps: of `known`, so much for each.
@@ -63,6 +62,7 @@ void load()
 #ifdef KEEPS_RATES
         own(rate)        = known < 2.0 ? own(displacement) : history[at].rate.xyz;
         own(rate_before) = history[at].rate_before.xyz;
+        own(touched)     = history[at].rate_before.w;
         own(tension)     = state[at].displacement.w;
 #endif
     }
@@ -78,7 +78,7 @@ void store()
             if (CURVED) material[at] = seen(section);
 #ifdef KEEPS_RATES
             history[at].rate         = vec4(own(rate), 0.0);
-            history[at].rate_before  = vec4(own(rate_before), 0.0);
+            history[at].rate_before  = vec4(own(rate_before), own(touched));
             state[at].displacement.w = own(tension);
 #endif
         }
@@ -90,26 +90,13 @@ void count_in(uint what)
     if (lane == 0u) atomicAdd(health[what], 1u);
 }
 
-#ifdef KEEPS_RATES
-// An impact ends what was, and so does what sticks. Of what slides on, only the part that the contact stops: along the
-// surface BDF2 would else do with 4/9 of every force.
-void forget(uint i, vec3 d)
-{
-    vec3 lost   = own(displacement) - d;
-    bool struck = length(lost - pass_on(own(touch), lost)) > STRUCK * params.gravity.w;
-    bool ends   = struck || own(touch).w == STICKS;
-    own(rate)        = ends ? d : d + pass_on(own(touch), own(rate) - d);
-    own(rate_before) = ends ? d : d + pass_on(own(touch), own(rate_before) - d);
-}
-#endif
-
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
 void accept(int method, bool waits, vec3 head_moved)
 {
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     vec3 root_d = GET_AT(moved, 0u);
-    bool lost   = false;
+    bool lost = false, struck = false;
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
         if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
@@ -123,9 +110,8 @@ void accept(int method, bool waits, vec3 head_moved)
         precise vec3 from_root = from_head - root_now;
         PUT(place, from_root);
 #ifdef KEEPS_RATES
-        own(rate_before) = IS_LEADER(method) ? kept : own(rate); // It may be what was not finite.
-        own(rate)        = IS_BACK(method) ? 1.5 * d - 0.5 * own(displacement) : kept;
-        if (SOLIDS && own(touch).w != FREE) forget(i, d);
+        struck = struck || is_struck(i, d);
+        keep_rates(i, method, d, kept);
         bool slacks  = IS_LEADER(method) || i + 1u >= guide_count || bits_of(own(tension)) >= 0x7f800000u;
         own(tension) = slacks ? 0.0 : own(tension);
 #endif
@@ -133,9 +119,10 @@ void accept(int method, bool waits, vec3 head_moved)
         if (i < guide_count)
             lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
     }
+    bvec2 found = any_of(bvec2(lost, struck));
     if (own_method == SHAKE) known = IS_SHAKE(method) ? 1.0 : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
-    else known = method == BACK || method == EULER ? 2.0 : 1.0;
-    if (!any_of(bvec2(lost, false)).x) return;
+    else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : 2.0 : 1.0;
+    if (!found.x) return;
 
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
     EACH(guide_count) {
@@ -195,7 +182,7 @@ void main()
         root_moved = root_now - root_then + head_moved;
 
         bool waits = own_method == SHAKE && known > 1.0;
-        int method = waits || (own_method == BACK && known < 2.0) ? EULER : own_method;
+        int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
         for (;; ++method) {
             predict(method);
             find_solids(head_moved);
