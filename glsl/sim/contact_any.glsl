@@ -3,7 +3,7 @@
 // Of spheres and capsules out of the one it is deepest in, then of the one it is deepest in there: many that overlap, as one
 // body is made of them, are left by the shortest way out of all. A vertex that was in some may be as deep in any as it was
 // in the deepest, less what it is to come out in a substep.
-#define ROUNDS 4u
+#define ROUNDS 6u
 #define AGAIN 1e-6 // m: deep enough in another one to go on
 
 #include "sim/contact_find.glsl"
