@@ -226,9 +226,10 @@ static bool is_wanted_of_width(const struct bench* bench, const struct setting* 
     return all ? setting->segments->count >= 8 && setting->segments->count <= 32 : usual;
 }
 
-// What compute makes pixels of; else they are drawn.
-static bool is_computed(const struct setting* setting)
+// What compute makes pixels of; else they are drawn. Software rasterisers have nothing of it, and no time to lose.
+static bool is_computed(const struct bench* bench, const struct setting* setting)
 {
+    if (bench->options.quick && bench->software) return false;
     return setting->primitive == primitives && setting->lod == lods;
 }
 
@@ -239,7 +240,7 @@ static bool is_wanted(const struct bench* bench, const struct subject* subject, 
     bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
     if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
         return false;
-    if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(setting)) return false;
+    if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(bench, setting)) return false;
     if (subject->width > 0) return is_wanted_of_width(bench, setting);
     bool whole = setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED;
     return (!bench->options.quick && whole) ||
