@@ -766,9 +766,9 @@ typedef enum hair_path {
                          ///< hair_lod as HAIR_PATH_INSTANCED.
     /// As HAIR_PATH_EXPANDED, but pixels too are made by compute, and come to the framebuffer as rectangles: for GPUs of which
     /// few units draw. Of HAIR_PASS_COLOR and HAIR_PASS_DEPTH as ribbons, by samples, without a shader that shades pixels;
-    /// all else is drawn as by HAIR_PATH_EXPANDED. With a hair_lod vertices are written for each view, as many bytes. What is blended is blended once, the nearest. Depth functions
-    /// other than less and greater are taken for less. Up to 16 samples; memory: 8 bytes, of depth alone 4, for each
-    /// sample of the pixels that hair can be in, and half as many again.
+    /// all else is drawn as by HAIR_PATH_EXPANDED. With a hair_lod vertices are written for each view, as many bytes. What is
+    /// blended is blended once, the nearest. Depth functions other than less and greater are taken for less. Up to 16 samples;
+    /// memory: 8 bytes, of depth alone 4, for each sample of the pixels that hair can be in, and half as many again.
     HAIR_PATH_COMPUTED,
     HAIR_PATH_AUTO ///< What was measured to be the fastest on this driver: by its name, never by timing. hair_report says
                    ///< which it is.
