@@ -3,6 +3,7 @@
 #version 450 core
 #include "strand.glsl"
 #include "run.glsl"
+#include "packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };
@@ -15,7 +16,6 @@ void main()
         uint          number   = i / each;
         float         t        = place_of(i % each, float(draw.segments));
         hair_follower follower = fetch_follower(number);
-        vec3          color    = min(shade(fragment_of(follower, number, evaluate(follower, number, t), t)), HAIR_MOST_LIGHT);
-        shaded[i]              = uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
+        shaded[i]              = pack_color(shade(fragment_of(follower, number, evaluate(follower, number, t), t)));
     }
 }

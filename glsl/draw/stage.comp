@@ -3,6 +3,7 @@
 #version 450 core
 #include "strand.glsl"
 #include "workgroup.glsl"
+#include "packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
@@ -21,11 +22,9 @@ void main()
     vec3  own    = uintBitsToFloat(record.yzw); // of hair_strand
     if (float(i % each) >= own.z + 1.0) return;
     strand_vertex v     = strand_at(record.x, place_of(i % each, own.z), own.x, own.y);
-    vec3          share = v.tangent * 0.5 + 0.5;
     expanded[i]         = v.position;
-    expanded_tangent[i] = uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
+    expanded_tangent[i] = pack_tangent(v.tangent);
 #ifndef HAIR_DEPTH
-    vec3 color = min(v.color, HAIR_MOST_LIGHT);
-    shaded[i]  = uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
+    shaded[i] = pack_color(v.color);
 #endif
 }

@@ -3,6 +3,7 @@
 #version 450 core
 #include "evaluate.glsl"
 #include "run.glsl"
+#include "packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_EXPANDED) writeonly restrict buffer expanded_buffer { vec4 expanded[]; };
@@ -14,8 +15,7 @@ void main()
     uint       each = draw.segments + 1u;
     for (uint i = run.first; i < run.end; i += run.stride) {
         hair_point point = evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
-        vec3       share    = point.tangent * 0.5 + 0.5;
         expanded[i]         = vec4(point.position, point.radius);
-        expanded_tangent[i] = uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
+        expanded_tangent[i] = pack_tangent(point.tangent);
     }
 }

@@ -179,6 +179,7 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
 // expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
 // drawn: parameters of a view, then only of those that it draws, each time. Whether those of all are there; and how many
 // work groups of a pass over such a share of them are for each patch.
+size_t      hair_draw_count_vertices(const struct hair_draw* draw); // of all followers
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn);
 int         hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);

@@ -6,7 +6,7 @@
 
 #define MOST_ROUNDS 4096 // of a thread: Mesa's software rasteriser leaves loops after 65,535
 
-static size_t count_vertices(const struct hair_draw* draw)
+size_t hair_draw_count_vertices(const struct hair_draw* draw)
 {
     return (size_t)draw->followers * (draw->look.segments + 1);
 }
@@ -15,7 +15,7 @@ static hair_result make(struct hair_draw* draw)
 {
     struct hair_gl*       gl       = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
-    size_t                vertices = count_vertices(draw);
+    size_t                vertices = hair_draw_count_vertices(draw);
     if (expanded->vertices == vertices) return HAIR_OK;
     hair_draw_free_expanded(draw);
     hair_result result =
@@ -58,7 +58,7 @@ static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smoo
 
 int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
-    return draw->expanded.vertices == count_vertices(draw) && is_fresh(draw, smooth);
+    return draw->expanded.vertices == hair_draw_count_vertices(draw) && is_fresh(draw, smooth);
 }
 
 uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
@@ -109,7 +109,7 @@ hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_sm
 {
     struct hair_gl* gl       = draw->gl;
     int             kept     = draw->expanded.vertices > 0;
-    size_t          count    = count_vertices(draw);
+    size_t          count    = hair_draw_count_vertices(draw);
     hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
     hair_result result = hair_draw_need_expanded(draw, smooth, NULL);

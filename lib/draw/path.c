@@ -65,7 +65,7 @@ static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view*
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
     hair_path path     = fastest[draw->driver].path[column];
-    uint64_t  vertices = (uint64_t)draw->followers * (draw->look.segments + 1);
+    size_t    vertices = hair_draw_count_vertices(draw);
     if ((path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED) && vertices > MOST_EXPANDED)
         return HAIR_PATH_TESSELLATION;
     if (path != HAIR_PATH_COMPUTED || (is_computable(view) && !view->shader && has_few_samples(draw->gl)))

@@ -9,28 +9,23 @@ static const struct {
                               [HAIR_STAGED_TANGENT]  = {"hair staged tangents", GL_RGBA16, 8},
                               [HAIR_STAGED_SHADED]   = {"hair staged colours", GL_RGBA16F, 8}};
 
-static size_t count_vertices(const struct hair_draw* draw)
-{
-    return (size_t)draw->followers * (draw->look.segments + 1);
-}
-
 hair_result hair_draw_need_staged(struct hair_draw* draw, hair_gl_pass depth)
 {
     draw->used[HAIR_DRAW_STAGED] = draw->frame;
     struct hair_gl*     gl       = draw->gl;
     struct hair_staged* staged   = &draw->staged;
     int                 count    = depth ? HAIR_STAGED_SHADED : HAIR_STAGED_PARTS;
+    size_t              vertices = hair_draw_count_vertices(draw);
     hair_result         result   = HAIR_OK;
-    if (staged->vertices != count_vertices(draw)) hair_draw_free_staged(draw);
+    if (staged->vertices != vertices) hair_draw_free_staged(draw);
     for (int i = 0; i < count && !result; ++i) {
         if (staged->texture[i]) continue;
-        result = hair_gl_storage(gl, parts[i].label, count_vertices(draw) * parts[i].size, NULL,
-                                 &staged->buffer[i]);
+        result = hair_gl_storage(gl, parts[i].label, vertices * parts[i].size, NULL, &staged->buffer[i]);
         if (!result)
             result = hair_gl_buffer_texture(gl, parts[i].label, parts[i].format, staged->buffer[i],
                                             &staged->texture[i]);
     }
-    staged->vertices = count_vertices(draw);
+    staged->vertices = vertices;
     if (result) hair_draw_free_staged(draw);
     return result;
 }

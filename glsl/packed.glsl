@@ -1,0 +1,14 @@
+// packed.glsl - vertices of strands as they are kept: see HAIR_BIND_EXPANDED_TANGENT and HAIR_BIND_SHADED.
+#include "shared.h"
+
+uvec2 pack_tangent(vec3 tangent)
+{
+    vec3 share = tangent * 0.5 + 0.5;
+    return uvec2(packUnorm2x16(share.xy), packUnorm2x16(vec2(share.z, 0.0)));
+}
+
+uvec2 pack_color(vec3 color)
+{
+    color = min(color, HAIR_MOST_LIGHT);
+    return uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
+}
