@@ -6,7 +6,7 @@
 //
 // A root that is held nearer to solids than the margin, or in one, leaves what follows it no way out that is as long
 // as it is: there a vertex may be as deep as its root, less a fifth of its distance from it.
-#include "sim/solids.glsl"
+#include "sim/contact_capsules.glsl"
 
 #define FREE 0.0
 #define SLIDES 1.0
@@ -19,40 +19,14 @@
 
 OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
 OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it
-OWN(uvec2, reachable); // solids, one bit each,
-OWN(uvec2, met);       // and those met in this substep
-float share_then, share_now; // of the step that is done at the substep's start and end
+#ifdef HAIR_ANY
+#define BITS uvec2 // one for each solid of a list,
+#else
+#define BITS uint // or for each there is
+#endif
+OWN(BITS, reachable); // solids,
+OWN(BITS, met);       // and those met in this substep
 float sunk;                  // how deep in solids the root is held. m
-
-struct capsule { // a solid at one moment
-    vec3  start, axis;
-    float radius;
-};
-
-capsule solid_at(uint k, float share)
-{
-    vec4 a = mix(SOLID_START(k, 0), SOLID_END(k, 0), share);
-    vec4 b = mix(SOLID_START(k, 1), SOLID_END(k, 1), share);
-    return capsule(a.xyz, b.xyz - a.xyz, a.w + params.margin);
-}
-
-float nearest_share(vec3 position, capsule solid)
-{
-    return clamp(dot(position - solid.start, solid.axis) / max(dot(solid.axis, solid.axis), 1e-12), 0.0, 1.0);
-}
-
-vec3 from_axis(vec3 position, capsule solid)
-{
-    return position - solid.start - nearest_share(position, solid) * solid.axis;
-}
-
-// How far the axis of a solid moves in this substep, at most.
-float swept_by(uint k, capsule now)
-{
-    capsule then = solid_at(k, share_then);
-    vec3    start = now.start - then.start;
-    return max(length(start), length(start + now.axis - then.axis));
-}
 
 // How deep a vertex may be; and how far it comes out in a substep if it was deeper.
 vec2 granted_to(uint i)
@@ -65,16 +39,18 @@ vec2 granted_to(uint i)
 // stays. And how deep it was, and the normal there. A vertex that goes right through is stopped where it goes in.
 float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out vec3 normal)
 {
-    capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
+    capsule now = solid_now(k), then = solid_then(k);
     vec3    end = start + d - head_moved;
     vec3    out_a = from_axis(start, then), out_b = from_axis(end, now), pass = out_b - out_a;
     float   away  = length(out_b);
     float   depth = now.radius - away;
     normal        = away > 1e-9 ? out_b / away : vec3(0.0, 1.0, 0.0);
-    float a = dot(pass, pass), b = dot(out_a, pass), c = dot(out_a, out_a) - now.radius * now.radius, root = b * b - a * c;
-    if (c > 0.0 && b < 0.0 && root > 0.0 && dot(out_b, out_a) < 0.0) {
-        normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
-        depth  = now.radius - dot(normal, out_b);
+    if (dot(out_b, out_a) < 0.0) {
+        float a = dot(pass, pass), b = dot(out_a, pass), c = dot(out_a, out_a) - now.radius * now.radius, root = b * b - a * c;
+        if (c > 0.0 && b < 0.0 && root > 0.0) {
+            normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
+            depth  = now.radius - dot(normal, out_b);
+        }
     }
     was = then.radius - length(out_a);
     return depth;
@@ -83,7 +59,7 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out v
 // What the surface does there, at the end of the displacement.
 vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
 {
-    capsule now = solid_at(k, share_now), then = solid_at(k, share_then);
+    capsule now = solid_now(k), then = solid_then(k);
     float along = nearest_share(end, now);
     return head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
            cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
@@ -107,7 +83,7 @@ float root_depth_in(uint k, bool is_body)
 #ifdef HAIR_BODIES
     if (is_body) return depth_of_place(k, root_now);
 #endif
-    capsule solid = solid_at(k, share_now);
+    capsule solid = solid_now(k);
     return solid.radius - length(from_axis(root_now, solid));
 }
 
@@ -131,21 +107,6 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
     made.freedom = stuck ? vec4(normal, STICKS) : left_of(made.freedom, normal);
 }
 
-// The same, if it is deep enough in it to matter, or kept by it; returns of how many.
-uint push_from(uvec2 at, float factor, float depth, vec3 normal, vec3 surface, uvec2 kept, inout outcome made, inout uvec2 met)
-{
-    if (depth <= 0.0 && (kept[at.x] & at.y) == 0u) return 0u;
-    push_by(factor, depth, normal, surface, made);
-    met[at.x] |= at.y;
-    return 1u;
-}
-
-uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
-
-// One loop for both words: a software rasteriser goes once through what is in one that nobody enters.
-#define EACH_BIT(bits)                                                                                       \
-    for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
-
 #ifdef HAIR_ANY
 #include "sim/contact_any.glsl"
 #else
@@ -154,7 +115,7 @@ uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) :
 
 // What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
 // would have to pull.
-outcome allowed(uint i, vec3 want, uvec2 solids, uvec2 kept, vec3 head_moved, inout uvec2 met)
+outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
 {
     outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
     get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);

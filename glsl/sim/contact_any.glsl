@@ -6,6 +6,12 @@
 #define ROUNDS 6u
 #define AGAIN 1e-6 // m: deep enough in another one to go on
 
+uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
+
+// One loop for both words: a software rasteriser goes once through what is in one that nobody enters.
+#define EACH_BIT(bits)                                                                                       \
+    for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
+
 #include "sim/contact_find.glsl"
 
 // What is far from all that it is need not be looked at: also not after a push as long as the way.
@@ -97,9 +103,12 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
             vec3  way = made.d - head_moved, normal, surface;
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
                 float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
-                uint by = push_from(at, BODY_POSITION(k, 1).w, depth, normal, surface, kept, made, met);
-                pushed += by;
-                is_out = is_out && by == 0u;
+                if (depth > 0.0 || (kept[at.x] & at.y) != 0u) {
+                    push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
+                    met[at.x] |= at.y;
+                    is_out = false;
+                    ++pushed;
+                }
                 around[at.x] |= at.y;
             }
         }

@@ -37,8 +37,8 @@ void try_wanted(vec3 head_moved, bool keep)
         PUT(moved, own(wanted));
         if (SOLIDS) {
             own(touch) = own(slip) = vec4(0.0);
-            if ((own(reachable).x | own(reachable).y) != 0u) {
-                outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : uvec2(0u), head_moved, own(met));
+            if (own(reachable) != BITS(0u)) {
+                outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : BITS(0u), head_moved, own(met));
                 PUT(moved, made.d);
                 own(touch) = made.freedom;
                 own(slip)  = made.slip;

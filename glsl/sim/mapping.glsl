@@ -5,6 +5,8 @@
 //   EACH(n)  for the vertices i below n, in any order. A subgroup goes over those beyond as well: nothing of them is
 //            looked at
 //   OWN      what only its vertex sees: a register, or an array; own(name)
+//   PARKED   the same, seldom looked at: of a subgroup in shared memory, for it has more under way at once the fewer
+//            registers it takes; parked(name)
 //   SHARED   what its neighbours see too: seen(name), BEFORE(name). Of vectors SHARED_VEC3: GET(name), PUT(name, v),
 //            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
 //            within a condition that differs between vertices, nor in an EACH that writes it
@@ -41,6 +43,8 @@
 #define SHARED_VEC3(name) vec3 name
 #define OWN(T, name) T name
 #define own(name) name
+#define PARKED(T, name) shared T name[32]
+#define parked(name) name[lane]
 #define seen(name) name
 #define GET(name) name
 #define PUT(name, v) name = v
@@ -87,6 +91,8 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
 #define RENEW(name)
 #define OWN(T, name) T name[MOST]
 #define own(name) name[i]
+#define PARKED(T, name) OWN(T, name)
+#define parked(name) own(name)
 #define MEET
 #define lane 0u
 #define lanes 1u
@@ -109,6 +115,8 @@ struct { vec3 place, moved, edge, lever, handed; } mine; // what is shared of th
 #define RENEW(name) EACH(guide_count) { mine.name = name[i]; }
 #define OWN(T, name) T name
 #define own(name) name
+#define PARKED(T, name) OWN(T, name)
+#define parked(name) own(name)
 #define MEET synchronise()
 #define lane gl_LocalInvocationID.x
 #define lanes uint(HAIR_GUIDE_THREADS)

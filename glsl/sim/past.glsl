@@ -23,14 +23,14 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
     vec3 last = own(displacement), before = own(rate); // Which may be what was not finite.
     bool leapt = LEAPS(method);
     own(rate)        = IS_BACK(method) ? 1.5 * d - 0.5 * last : kept;
-    own(rate_before) = IS_LEADER(method) ? kept : leapt ? 0.5 * (d + last) : before;
+    parked(rate_before) = IS_LEADER(method) ? kept : leapt ? 0.5 * (d + last) : before;
     if (!SOLIDS) return;
     // What comes to touch has no past across the surface, and what sticks none at all. What slides on has all of it: only
     // so a curved surface turns it by as much as other forces do, and not by 9/4 of that.
     bool touches = own(touch).w != FREE, comes = touches && (leapt || own(touched) == 0.0), sticks = own(touch).w == STICKS;
-    vec3 rate_on = d + pass_on(own(touch), own(rate) - d), before_on = d + pass_on(own(touch), own(rate_before) - d);
+    vec3 rate_on = d + pass_on(own(touch), own(rate) - d), before_on = d + pass_on(own(touch), parked(rate_before) - d);
     own(rate)        = sticks ? d : comes ? rate_on : own(rate);
-    own(rate_before) = sticks ? d : comes ? before_on : own(rate_before);
+    parked(rate_before) = sticks ? d : comes ? before_on : parked(rate_before);
     own(touched)     = touches ? 1.0 : 0.0;
 }
 #endif

@@ -23,7 +23,7 @@
 #define KEEPS_RATES
 #define HAS_BACK (HAIR_SOLVER != LEADER)
 OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
-OWN(vec3, rate_before); // and of the one before
+PARKED(vec3, rate_before); // and of the one before
 OWN(float, touched);    // 1: something, at the end of the last substep
 OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
 
@@ -76,7 +76,7 @@ vec3 rate_from(uint i, int method)
 {
 #ifdef KEEPS_RATES
     if (known < 2.0) return own(displacement);
-    return IS_BACK(method) ? (4.0 * own(rate) - own(rate_before)) / 3.0 : own(rate);
+    return IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
 #else
     return own(displacement);
 #endif

@@ -61,7 +61,7 @@ void load()
 #endif
 #ifdef KEEPS_RATES
         own(rate)        = known < 2.0 ? own(displacement) : history[at].rate.xyz;
-        own(rate_before) = history[at].rate_before.xyz;
+        parked(rate_before) = history[at].rate_before.xyz;
         own(touched)     = history[at].rate_before.w;
         own(tension)     = state[at].displacement.w;
 #endif
@@ -78,7 +78,7 @@ void store()
             if (CURVED) material[at] = seen(section);
 #ifdef KEEPS_RATES
             history[at].rate         = vec4(own(rate), 0.0);
-            history[at].rate_before  = vec4(own(rate_before), own(touched));
+            history[at].rate_before  = vec4(parked(rate_before), own(touched));
             state[at].displacement.w = own(tension);
 #endif
         }
@@ -130,7 +130,7 @@ void accept(int method, bool waits, vec3 head_moved)
         own(displacement) = still;
         if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
 #ifdef KEEPS_RATES
-        own(rate) = own(rate_before) = still;
+        own(rate) = parked(rate_before) = still;
         own(tension) = 0.0;
 #endif
     }

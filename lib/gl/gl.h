@@ -158,7 +158,7 @@ void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 
 // source.c --------------------------------------------------------------------------------------------------
 
-#define HAIR_GL_MAX_SOURCES 32 // Files of one shader, itself included.
+#define HAIR_GL_MAX_SOURCES 48 // Files of one shader, itself included.
 
 struct hair_gl_source {
     char*    text; // To free; with every include in place.

@@ -1,0 +1,62 @@
+// contact_capsules.glsl - solids as capsules, or what is around them, at the moments of a substep.
+#include "sim/solids.glsl"
+
+float share_then, share_now; // of the step that is done at the substep's start and end
+
+struct capsule { // a solid at one moment, with the margin
+    vec3  start, axis;
+    float radius, square; // of the axis, m^2
+};
+
+capsule solid_at(uint k, float share)
+{
+    vec4 a = mix(SOLID_START(k, 0), SOLID_END(k, 0), share);
+    vec4 b = mix(SOLID_START(k, 1), SOLID_END(k, 1), share);
+    vec3 axis = b.xyz - a.xyz;
+    return capsule(a.xyz, axis, a.w + params.margin, max(dot(axis, axis), 1e-12));
+}
+
+float nearest_share(vec3 position, capsule solid)
+{
+    return clamp(dot(position - solid.start, solid.axis) / solid.square, 0.0, 1.0);
+}
+
+vec3 from_axis(vec3 position, capsule solid)
+{
+    return position - solid.start - nearest_share(position, solid) * solid.axis;
+}
+
+// How far the axis of a solid moves, at most.
+float swept(capsule then, capsule now)
+{
+    vec3 start = now.start - then.start;
+    return max(length(start), length(start + now.axis - then.axis));
+}
+
+// At the start and at the end of the substep: solid_then, solid_now; and how far each moves in it. Threads that have a guide
+// together work it out once, each for another solid; share_solid() and then SOLIDS_MEET come before all else.
+#if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
+#define SOLIDS_MEET
+void    share_solid(uint k, capsule then, capsule now, float moves) {}
+capsule solid_then(uint k) { return solid_at(k, share_then); }
+capsule solid_now(uint k) { return solid_at(k, share_now); }
+float   moves_of(uint k) { return swept(solid_then(k), solid_now(k)); }
+#else
+#define SOLIDS_MEET synchronise()
+shared vec4  shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS];
+shared float shared_moves[HAIR_FEW_SOLIDS];
+
+void share_solid(uint k, capsule then, capsule now, float moves)
+{
+    shared_start[2u * k]      = vec4(then.start, then.radius);
+    shared_axis[2u * k]       = vec4(then.axis, then.square);
+    shared_start[2u * k + 1u] = vec4(now.start, now.radius);
+    shared_axis[2u * k + 1u]  = vec4(now.axis, now.square);
+    shared_moves[k]           = moves;
+}
+
+capsule shared_solid(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
+capsule solid_then(uint k) { return shared_solid(2u * k); }
+capsule solid_now(uint k) { return shared_solid(2u * k + 1u); }
+float   moves_of(uint k) { return shared_moves[k]; }
+#endif
