@@ -16,27 +16,54 @@ uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inou
 #else
 
 #define CACHED 4u
-uint  cached_solid[CACHED];
 uvec2 cached_bit[CACHED]; // of the list; of none none
+
+// Where they are when the step starts and ends, how they spin and their share of friction: of a subgroup read once, when a
+// list is made.
+#ifdef HAIR_SUBGROUP
+PARKED(vec4, cached_start[CACHED]);
+PARKED(vec4, cached_end[CACHED]);
+PARKED(vec4, cached_turn[CACHED]);
+#define CACHED_START(a) cached_start[a][lane]
+#define CACHED_END(a) cached_end[a][lane]
+#define CACHED_TURN(a) cached_turn[a][lane]
+#else
+uint cached_solid[CACHED];
+#define CACHED_START(a) SOLID_START(cached_solid[a], 0)
+#define CACHED_END(a) SOLID_END(cached_solid[a], 0)
+#define CACHED_TURN(a) vec4(SOLID_SPIN(cached_solid[a]).xyz, BODY_POSITION(cached_solid[a], 1).w)
+#endif
+
+void cache(uint a, uint k)
+{
+#ifdef HAIR_SUBGROUP
+    CACHED_START(a) = SOLID_START(k, 0);
+    CACHED_END(a)   = SOLID_END(k, 0);
+    CACHED_TURN(a)  = vec4(SOLID_SPIN(k).xyz, BODY_POSITION(k, 1).w);
+#else
+    cached_solid[a] = k;
+#endif
+}
 
 // The first of them, in the order of the list, up to one that is no sphere.
 void cache_close(uint i)
 {
     uvec2 left = own(close);
     bool  spheres = true;
+    uint  member[CACHED];
 #ifdef HAIR_BODIES
     left &= ~own(walked);
 #endif
     for (uint a = 0u; a < CACHED; ++a) {
-        uvec2 at        = first_of(left);
-        cached_bit[a]   = mask_of(at);
-        cached_solid[a] = member_at(own(members), at);
+        uvec2 at      = first_of(left);
+        cached_bit[a] = mask_of(at);
+        member[a]     = member_at(own(members), at);
         left &= ~cached_bit[a];
     }
     for (uint a = 0u; a < CACHED; ++a) {
-        spheres      = spheres && (cached_solid[a] & HAIR_MEMBER_LONG) == 0u;
-        cached_bit[a]   = spheres ? cached_bit[a] : uvec2(0u);
-        cached_solid[a] = cached_solid[a] & HAIR_MEMBER_NUMBER;
+        spheres       = spheres && (member[a] & HAIR_MEMBER_LONG) == 0u;
+        cached_bit[a] = spheres ? cached_bit[a] : uvec2(0u);
+        cache(a, member[a] & HAIR_MEMBER_NUMBER);
     }
 }
 
@@ -49,11 +76,10 @@ void advance_cached(vec3 start)
 {
     vec4 margin = vec4(0.0, 0.0, 0.0, params.margin);
     for (uint a = 0u; a < CACHED; ++a) {
-        uint k         = cached_solid[a];
-        vec4 begins    = SOLID_START(k, 0), ends = SOLID_END(k, 0), then = mix(begins, ends, share_then) + margin;
+        vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a), then = mix(begins, ends, share_then) + margin;
         cached_now[a]  = mix(begins, ends, share_now) + margin;
         cached_way[a]  = vec4(cached_now[a].xyz - then.xyz, length(cached_now[a].xyz - then.xyz));
-        cached_spin[a] = vec4(SOLID_SPIN(k).xyz * (share_now - share_then), BODY_POSITION(k, 1).w);
+        cached_spin[a] = vec4(turns.xyz * (share_now - share_then), turns.w);
         cached_was[a]  = then.w - length(start - then.xyz);
     }
 }

@@ -16,8 +16,9 @@ bool has_lists = false;
 #define FIT 0.02    // m
 #define ABOUT 0.001 // m
 
-// So many members of a list are read at once: a thread of a GPU waits for each as long as for all of them.
-#ifdef HAIR_SUBGROUP
+// So many members of a list are read at once: a thread of a GPU waits for each as long as for all of them. Of many guides
+// others go on meanwhile.
+#if defined(HAIR_SUBGROUP) && defined(HAIR_FEW_GUIDES)
 #define AT_ONCE 4u
 #else
 #define AT_ONCE 1u
