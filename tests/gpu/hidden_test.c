@@ -9,6 +9,7 @@
 
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
+#include "tests/support/haircut.h"
 #include "tests/support/trace.h"
 
 #define SIZE 96
@@ -37,23 +38,16 @@ static const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1}
 
 static void make_hair(struct fixture* f)
 {
-    hair_asset*     asset = NULL;
     hair_style_desc style = hair_style_desc_default();
-    hair_groom_desc groom = hair_groom_desc_default();
     hair_desc       desc  = hair_desc_default();
     hair_look       look  = hair_look_default();
-    style.host = groom.host = &f->test->host.host;
-    style.guide_count       = 200;
-    look.radius             = 1e-3f;
-    look.segments           = 8;
-    look.shading            = HAIR_SHADING_LINES;
-    desc.look               = &look;
+    style.guide_count     = 200;
+    look.radius           = 1e-3f;
+    look.segments         = 8;
+    look.shading          = HAIR_SHADING_LINES;
+    desc.look             = &look;
     memcpy(desc.transform, head, sizeof head);
-    hair_test_ok(f->test, hair_asset_generate(&style, &asset));
-    hair_test_ok(f->test, hair_asset_fill(asset, &groom));
-    groom.follower_count = 3000;
-    hair_test_ok(f->test, hair_groom_create(&groom, &f->groom));
-    hair_asset_destroy(asset);
+    f->groom = hair_test_haircut(f->test, &style, 3000);
     hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &f->hair));
 }
 

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <hair/hair_asset.h>
-
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
+#include "tests/support/haircut.h"
 
 // Tools are not linked into tests.
 #include "tools/common/flip.c"
@@ -26,24 +25,17 @@ struct fixture {
 // Few strands, each as wide as several; `curly`: in curls, and a ball that many of them run into.
 static struct fixture start(void** state, int curly)
 {
-    struct fixture  f     = {.test = *state};
-    hair_asset*     asset = NULL;
-    hair_style_desc of    = hair_style_desc_default();
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_desc       how   = hair_desc_default();
-    hair_look       look  = hair_look_default();
-    hair_solid      ball  = hair_solid_default();
-    of.host = desc.host = &f.test->host.host;
-    of.style            = HAIR_STYLE_CURLY;
+    struct fixture  f    = {.test = *state};
+    hair_style_desc of   = hair_style_desc_default();
+    hair_desc       how  = hair_desc_default();
+    hair_look       look = hair_look_default();
+    hair_solid      ball = hair_solid_default();
+    of.style             = HAIR_STYLE_CURLY;
     if (curly) hair_test_ok(f.test, hair_look_preset(&look, HAIR_LOOK_CURLY));
     hair_test_ok(f.test, hair_look_color(&look, HAIR_COLOR_BLOND));
     look.radius = 5e-4f;
     how.look    = &look;
-    hair_test_ok(f.test, hair_asset_generate(&of, &asset));
-    hair_test_ok(f.test, hair_asset_fill(asset, &desc));
-    desc.follower_count = curly ? 1500 : 200;
-    hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
-    hair_asset_destroy(asset);
+    f.groom     = hair_test_haircut(f.test, &of, curly ? 1500 : 200);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     ball.size[0]     = 0.06f;
     ball.position[0] = 0.1f, ball.position[1] = 1.55f, ball.position[2] = 0.05f;

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <hair/hair_asset.h>
-
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
+#include "tests/support/haircut.h"
 
 enum { WIDTH = 203, HEIGHT = 157, PIXELS = WIDTH * HEIGHT, LONG_UNUSED = 242 };
 
@@ -20,22 +19,15 @@ struct fixture {
 // Wavy hair of that radius, m.
 static struct fixture start(void** state, uint32_t followers, float radius)
 {
-    struct fixture  f     = {.test = *state};
-    hair_asset*     asset = NULL;
-    hair_style_desc of    = hair_style_desc_default();
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_desc       how   = hair_desc_default();
-    hair_look       look  = hair_look_default();
-    of.host = desc.host = &f.test->host.host;
-    of.style            = HAIR_STYLE_CURLY;
-    look.radius         = radius;
-    look.segments       = 24;
-    how.look            = &look;
-    hair_test_ok(f.test, hair_asset_generate(&of, &asset));
-    hair_test_ok(f.test, hair_asset_fill(asset, &desc));
-    desc.follower_count = followers;
-    hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
-    hair_asset_destroy(asset);
+    struct fixture  f    = {.test = *state};
+    hair_style_desc of   = hair_style_desc_default();
+    hair_desc       how  = hair_desc_default();
+    hair_look       look = hair_look_default();
+    of.style             = HAIR_STYLE_CURLY;
+    look.radius          = radius;
+    look.segments        = 24;
+    how.look             = &look;
+    f.groom              = hair_test_haircut(f.test, &of, followers);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     return f;

@@ -1,0 +1,17 @@
+// haircut.c - built-in haircuts, for tests of what is seen of hair.
+#include "tests/support/haircut.h"
+
+hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* style, uint32_t followers)
+{
+    hair_style_desc of    = *style;
+    hair_groom_desc desc  = hair_groom_desc_default();
+    hair_asset*     asset = NULL;
+    hair_groom*     groom = NULL;
+    of.host = desc.host = &test->host.host;
+    hair_test_ok(test, hair_asset_generate(&of, &asset));
+    hair_test_ok(test, hair_asset_fill(asset, &desc));
+    desc.follower_count = followers;
+    hair_test_ok(test, hair_groom_create(&desc, &groom));
+    hair_asset_destroy(asset);
+    return groom;
+}
