@@ -104,6 +104,13 @@ void bench_die(struct bench_living* living)
     *living = (struct bench_living){0};
 }
 
+bool bench_restart(struct bench_living* living)
+{
+    float matrix[16];
+    bench_matrix(&living->scene->head, matrix);
+    return !hair_set_transform(living->hair, matrix) && !hair_reset(living->hair);
+}
+
 bool bench_step(struct bench_living* living, const struct hair_reference_rod_pose* head, double dt)
 {
     float matrix[16];
@@ -194,7 +201,6 @@ static bool run_frames(struct bench_living* living, uint32_t frames,
 {
     bool        software                  = living->bench->software;
     hair_timing before[BENCH_MOST_PASSES] = {{0}};
-    if (hair_reset(living->hair)) return false;
     glFinish();
     passes_since(living->bench->context, before);
     double start = hair_now(), passes = 0;
@@ -212,10 +218,7 @@ static bool run_frames(struct bench_living* living, uint32_t frames,
 static bool run_once(struct bench_living* living, uint32_t frames,
                      const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
-    float matrix[16];
-    bench_matrix(&living->scene->head, matrix);
-    return !bench_was_interrupted() && !hair_set_transform(living->hair, matrix) &&
-           run_frames(living, frames, heads, dt, ms);
+    return !bench_was_interrupted() && bench_restart(living) && run_frames(living, frames, heads, dt, ms);
 }
 
 // A GPU that has had nothing to do is slower at first: it is kept busy, frame upon frame, until it no longer is.

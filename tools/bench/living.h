@@ -22,6 +22,9 @@ struct bench_living {
 bool bench_live(struct bench* bench, const struct bench_scene* scene, struct bench_living* out);
 void bench_die(struct bench_living* living);
 
+// Back to rest, the head where it starts. False: the library refused.
+bool bench_restart(struct bench_living* living);
+
 // One frame with the head at `head` at its end (NULL: it stays). False: the library refused.
 bool bench_step(struct bench_living* living, const struct hair_reference_rod_pose* head, double dt);
 

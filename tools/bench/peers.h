@@ -1,0 +1,9 @@
+// peers.h - what others do of the suite `accuracy`, measured elsewhere, as rows.
+#ifndef HAIR_TOOLS_BENCH_PEERS_H
+#define HAIR_TOOLS_BENCH_PEERS_H
+
+#include "tools/bench/bench.h"
+
+void bench_add_peers(struct bench* bench);
+
+#endif
