@@ -27,7 +27,11 @@ PARKED(vec3, rate_before); // and of the one before
 OWN(float, touched);    // 1: something, at the end of the last substep
 OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
 
-#define GUESSED 0.5      // of the tension that was: see pull_on
+#define GUESSED 0.5      // of the tension that was, at least: see guessed_part
+#define SLOW 0.3         // w h up to which all of it is,
+#define FAST 1.0         // and from which on no more
+#define STILL 0.05       // m/s from the root: what moves no faster is,
+#define MOVING 0.2       // and what is no longer
 #define MOST_GUESSED 0.5 // of the distance to a neighbour, which that may move a vertex
 #define FIND_TENSION(part) own(tension) -= (part) * own(solution) / of_force
 #else
@@ -101,10 +105,19 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 }
 
 #ifdef KEEPS_RATES
-// Half the tension that the last substep left, along where segments will be if they go on as they moved: fit_lengths finds
-// the rest, along what that leads to. What swings crosswise at w is fed by the one way and damped by the other. Half of
-// each does not feed it up to w h of 3, and damps it by (w h)^4 / 100 in a substep; fit_lengths alone feeds it from 1.6
-// on, and damps it by (w h)^4 / 5.
+// The tension that the last substep left, or part of it, along where segments will be if they go on as they moved:
+// fit_lengths finds the rest, along what that leads to. What swings crosswise at w is fed by the one way and damped by the
+// other. Half of each does not feed it up to w h of 3, and damps it by (w h)^4 / 100 in a substep; fit_lengths alone feeds
+// it from 1.6 on, and damps it by (w h)^4 / 5. All of it is right to a higher order, but feeds soonest, and what friction
+// holds creeps. So that is for what moves, and slowly swings: where tension's waves are as short as bending's, which is
+// implicit, they swing at tension / sqrt(stiffness).
+float guessed_part(uint i)
+{
+    float h = params.gravity.w, stiffness = own(strain).w * own(rest_length) * min(params.ratio.x, params.ratio.z);
+    float w = abs(own(tension)) * inversesqrt(max(stiffness, 1e-20)), d = length(own(displacement) - root_moved);
+    return mix(1.0, GUESSED, max(smoothstep(SLOW, FAST, w * h), 1.0 - smoothstep(STILL * h, MOVING * h, d)));
+}
+
 void pull_on()
 {
     EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
@@ -112,7 +125,7 @@ void pull_on()
     EACH(guide_count - 1u) {
         vec3  to   = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
         float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
-        own(tension) = known < 2.0 ? 0.0 : clamp(GUESSED * own(tension), -most, most); // Of an impact nothing.
+        own(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * own(tension), -most, most); // Of an impact nothing.
         PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
     }
     MEET;
