@@ -73,8 +73,10 @@ static const struct lod {
 
 static const struct segments {
     uint32_t count;
-    bool     quick;
-} segments[] = {{4, false}, {8, true}, {16, false}, {32, true}, {64, false}};
+    bool     quick, between; // the last: only where rows are close
+} segments[] = {{4, false, false},  {8, true, false},  {12, false, true},
+                {16, false, false}, {20, false, true}, {24, false, true},
+                {28, false, true},  {32, true, false}, {64, false, false}};
 
 // Of one pixel.
 static const struct samples {
@@ -212,11 +214,22 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
+// How many strands and in how many segments, each with each: what takes about as long as something else is then among the
+// rows. By the path that software rasterisers take.
+static bool is_wanted_closely(const struct bench* bench, const struct setting* setting)
+{
+    return bench->software && !bench->options.quick && setting->path->path == HAIR_PATH_EXPANDED &&
+           setting->lod->share > 0 && setting->segments->count >= 8 && setting->segments->count <= 32 &&
+           setting->samples->supersample == 1;
+}
+
 // Of widths it is how strands are drawn that counts: how many, in how many segments, by three paths, one thing changed at
 // a time where samples are many.
 static bool is_wanted_of_width(const struct bench* bench, const struct setting* setting)
 {
     bool usual = setting->segments->count == 32, all = setting->lod == lods;
+    if (is_wanted_closely(bench, setting)) return true;
+    if (setting->segments->between) return false;
     if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
                  (setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED ||
@@ -242,6 +255,7 @@ static bool is_wanted(const struct bench* bench, const struct subject* subject, 
         return false;
     if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(bench, setting)) return false;
     if (subject->width > 0) return is_wanted_of_width(bench, setting);
+    if (setting->segments->between) return false;
     bool whole = setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED;
     return (!bench->options.quick && whole) ||
            (setting->lod->quick && setting->segments->quick && setting->samples->quick);
