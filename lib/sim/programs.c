@@ -17,8 +17,9 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// Guides whose work groups wait for the solids that they look up, and so keep them at hand: of 1,024 on an H200 a body of a
-// thousand balls takes 1.9 times what one of ten capsules does, else 2.6; but of 10,201 guides 2.9, else 1.8.
+// Guides whose work groups wait for the solids that they look up, and so keep them at hand and read several at once: of 1,024
+// on an H200 a body of a thousand balls takes 1.8 times what one of ten capsules does. Of 10,201, without either, 2.3 times;
+// with them more, for they take registers that others want.
 static int has_few_guides(const struct hair_sim* sim)
 {
     return sim->guides <= MOST_FEW && !hair_sim_is_by_thread(sim);
