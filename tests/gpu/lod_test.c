@@ -24,16 +24,8 @@ struct fixture {
 // A built-in haircut of few strands, each as wide as several.
 static struct fixture start(void** state, hair_style style, uint32_t followers, float radius)
 {
-    struct fixture  f    = {.test = *state};
-    hair_style_desc of   = hair_style_desc_default();
-    hair_desc       how  = hair_desc_default();
-    hair_look       look = hair_look_default();
-    of.style             = style;
-    look.radius          = radius;
-    look.segments        = 24;
-    how.look             = &look;
-    f.groom              = hair_test_haircut(f.test, &of, followers);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    struct fixture f = {.test = *state};
+    f.hair           = hair_test_wear(f.test, style, followers, radius, &f.groom);
     return f;
 }
 

@@ -19,16 +19,8 @@ struct fixture {
 // Wavy hair of that radius, m.
 static struct fixture start(void** state, uint32_t followers, float radius)
 {
-    struct fixture  f    = {.test = *state};
-    hair_style_desc of   = hair_style_desc_default();
-    hair_desc       how  = hair_desc_default();
-    hair_look       look = hair_look_default();
-    of.style             = HAIR_STYLE_CURLY;
-    look.radius          = radius;
-    look.segments        = 24;
-    how.look             = &look;
-    f.groom              = hair_test_haircut(f.test, &of, followers);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
+    struct fixture f = {.test = *state};
+    f.hair           = hair_test_wear(f.test, HAIR_STYLE_CURLY, followers, radius, &f.groom);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     return f;
 }

@@ -15,3 +15,19 @@ hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* sty
     hair_asset_destroy(asset);
     return groom;
 }
+
+hair_instance* hair_test_wear(struct hair_test* test, hair_style style, uint32_t followers, float radius,
+                              hair_groom** groom)
+{
+    hair_style_desc of   = hair_style_desc_default();
+    hair_desc       desc = hair_desc_default();
+    hair_look       look = hair_look_default();
+    hair_instance*  hair = NULL;
+    of.style             = style;
+    look.radius          = radius;
+    look.segments        = 24;
+    desc.look            = &look;
+    *groom               = hair_test_haircut(test, &of, followers);
+    hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
+    return hair;
+}
