@@ -126,15 +126,15 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
 
 static hair_result read_one(struct reader* reader, const char* name, size_t length)
 {
-    struct hair_gl_source* out = reader->out;
-    if (length >= sizeof out->file[0] || out->files == HAIR_GL_MAX_SOURCES)
+    struct hair_gl_source* out    = reader->out;
+    uint32_t               number = out->files;
+    for (uint32_t i = 0; i < number; ++i) // Each file once.
+        if (strlen(out->file[i]) == length && memcmp(out->file[i], name, length) == 0) return HAIR_OK;
+    if (length >= sizeof out->file[0] || number == HAIR_GL_MAX_SOURCES)
         return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader %s includes too much", out->file[0]);
-    uint32_t number = out->files;
-    char*    own    = out->file[number];
+    char* own = out->file[number];
     memcpy(own, name, length);
     own[length] = 0;
-    for (uint32_t i = 0; i < number; ++i)
-        if (strcmp(out->file[i], own) == 0) return HAIR_OK; // Each file once.
     ++out->files;
 
     char*       read    = NULL;
