@@ -1,4 +1,4 @@
-// contact_cache.glsl - the spheres that are close to a vertex, in registers: it looks at them several times in a substep, and
+// contact_cache.glsl - the spheres that are close to a vertex, at hand: it looks at them several times in a substep, and
 // would wait for memory each time, with no other guide to go on with. Spheres that overlap hide each other, so that few are close.
 #include "sim/contact_lists.glsl"
 

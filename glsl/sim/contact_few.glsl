@@ -9,7 +9,7 @@
 uint bodies()
 {
 #ifdef HAIR_BODIES
-    return params.bodies0;
+    return params.bodies;
 #else
     return 0u;
 #endif

@@ -177,8 +177,7 @@ static void write_solids(const struct hair_sim* sim, struct hair_step_params* pa
     }
     params->solids = hair_solids_bodies(&sim->solids, &sim->at_step, &sim->head, params->solid, params->body);
     for (uint32_t i = 0; i < params->solids; ++i)
-        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE)
-            *(i < 32 ? &params->bodies0 : &params->bodies1) |= 1u << i % 32;
+        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
 }
 
 static float share_of(double from, double dt)
