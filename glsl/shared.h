@@ -253,7 +253,8 @@ typedef uint32_t hair_uint;
 #define HAIR_HIDE_TEXELS 8 // and that a box is looked up in, at most
 
 #define HAIR_NO_HIT 1e9
-#define HAIR_HIT_THREADS 32     // of a work group that looks at one follower
+#define HAIR_HIT_FOLLOWERS 32    // that a work group looks at,
+#define HAIR_HIT_THREADS 4       // for each of them so many
 #define HAIR_HIT_COLUMNS 4096u   // of the texture with a texel per follower, where a prepass finds hits
 #define HAIR_SWITCH_ZONE 0.2     // of the length, above the first vertex inside
 #define HAIR_REPAIR_INTERVALS 8  // that the curves of repair.glsl cut a follower into

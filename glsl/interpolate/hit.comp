@@ -1,25 +1,21 @@
 // hit.comp - the first vertex of each follower that is inside a solid (Tariq 2010): by a thread that stops there, or with
-// HAIR_GROUP_PER_FOLLOWER by a work group that looks at several vertices at once. The root is where it is: only what comes
-// after it counts. With HAIR_PREPASS hit.tese has found it.
+// HAIR_HIT_GROUP by several that share its vertices. The root is where it is: only what comes after it counts. With
+// HAIR_PREPASS hit.tese has found it.
 #version 450 core
 #include "follower.glsl"
 #include "field.glsl"
 #include "workgroup.glsl"
 
-#ifdef HAIR_GROUP_PER_FOLLOWER
-layout(local_size_x = HAIR_HIT_THREADS) in;
+// Beside each other: followers, which are mostly of the same guides as those beside them, so that these are read once for
+// all. Each at the same vertex.
+#ifdef HAIR_HIT_GROUP
+layout(local_size_x = HAIR_HIT_FOLLOWERS, local_size_y = HAIR_HIT_THREADS) in;
 #else
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 #endif
 
 layout(std430, binding = HAIR_BIND_HIT) writeonly restrict buffer hit_buffer { float hit[]; };
 layout(std430, binding = HAIR_BIND_LIST) restrict buffer list_buffer { uint list[]; };
-
-bool is_inside(hair_follower follower, uint k, bool beyond)
-{
-    float t = float(k) / float(draw.segments);
-    return field_distance(interpolate(follower, t, UNTOUCHED, beyond).position) < 0.0;
-}
 
 #ifdef HAIR_PREPASS
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D prepass_texture;
@@ -28,56 +24,48 @@ float find_first(uint number, hair_follower follower)
 {
     return texelFetch(prepass_texture, ivec2(number % HAIR_HIT_COLUMNS, number / HAIR_HIT_COLUMNS), 0).x;
 }
-#elif defined(HAIR_GROUP_PER_FOLLOWER)
-shared uint least;
+#else
+bool is_inside(hair_follower follower, uint k, bool beyond)
+{
+    float t = float(k) / float(draw.segments);
+    return field_distance(interpolate(follower, t, UNTOUCHED, beyond).position) < 0.0;
+}
 
 float find_first(uint number, hair_follower follower)
 {
-    uint found  = HAIR_NO_SOLID;
-    bool longer = follower.length_ratio > 1.0;
-    if (gl_LocalInvocationID.x == 0u) least = found;
-    for (uint from = 1u; from <= draw.segments && found == HAIR_NO_SOLID; from += HAIR_HIT_THREADS) {
-        uint k = from + gl_LocalInvocationID.x;
-        synchronise();
-        bool inside = false;
-        if (k <= draw.segments && !longer) inside = is_inside(follower, k, false); // Without a read of tangents.
-        if (k <= draw.segments && longer) inside = is_inside(follower, k, true);
-        if (inside) atomicMin(least, k);
-        synchronise();
-        found = least;
-    }
-    return found == HAIR_NO_SOLID ? HAIR_NO_HIT : float(found);
-}
-#else
-float find_first(uint number, hair_follower follower)
-{
     // Where loops are run for several followers at once, that for all but the longest needs half as much of memory.
-    uint last = draw.segments, k = 1u;
+    uint last = draw.segments, k = 1u + gl_LocalInvocationID.y;
     if (follower.length_ratio <= 1.0)
-        while (k <= last && !is_inside(follower, k, false)) ++k;
+        while (k <= last && !is_inside(follower, k, false)) k += gl_WorkGroupSize.y;
     else
-        while (k <= last && !is_inside(follower, k, true)) ++k;
+        while (k <= last && !is_inside(follower, k, true)) k += gl_WorkGroupSize.y;
     return k <= last ? float(k) : HAIR_NO_HIT;
 }
 #endif
 
+#ifdef HAIR_HIT_GROUP
+shared float found[HAIR_HIT_THREADS][HAIR_HIT_FOLLOWERS];
+
+float least_of_all(float first)
+{
+    found[gl_LocalInvocationID.y][gl_LocalInvocationID.x] = first;
+    synchronise();
+    for (uint i = 1u; i < HAIR_HIT_THREADS; ++i) first = min(first, found[i][gl_LocalInvocationID.x]);
+    return first;
+}
+#else
+float least_of_all(float first) { return first; }
+#endif
+
 void main()
 {
-#ifdef HAIR_GROUP_PER_FOLLOWER
-    uint number = hair_group();
-#else
-    uint number = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-#endif
+    uint number = hair_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (number == 0u) list[1u - draw.turn] = 0u; // For the next time.
-    if (number >= draw.followers) return;
-    hair_follower follower = fetch_follower(number);
+    hair_follower follower = fetch_follower(min(number, draw.followers - 1u));
     bool          switches = draw.collision == HAIR_COLLISION_IS_SWITCH;
     bool          minds    = !switches || follower.multi > 0.0;
-    float         first    = HAIR_NO_HIT;
-    if (minds) first = find_first(number, follower);
-#ifdef HAIR_GROUP_PER_FOLLOWER
-    if (gl_LocalInvocationID.x > 0u) return;
-#endif
+    float         first    = least_of_all(minds ? find_first(number, follower) : HAIR_NO_HIT);
+    if (number >= draw.followers || gl_LocalInvocationID.y > 0u) return;
     hit[number] = first;
     if (first < HAIR_NO_HIT && !switches) list[2u + atomicAdd(list[draw.turn], 1u)] = number;
 }

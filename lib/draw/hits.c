@@ -72,13 +72,13 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    uint32_t groups   = (draw->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     int      by_group = !hits->prepass && !gl->software;
+    uint32_t each     = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
     if (by_group) {
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     }
-    hair_gl_run(gl, pass_of(draw), by_group ? draw->followers : groups);
+    hair_gl_run(gl, pass_of(draw), (draw->followers + each - 1) / each);
     if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
         hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);

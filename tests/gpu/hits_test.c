@@ -190,7 +190,7 @@ static void the_first_vertex_inside_is_found(void** state)
     finish(&f);
 }
 
-// On a GPU a work group looks at each follower.
+// On a GPU threads of a work group share the vertices of a follower.
 static void a_work_group_finds_the_same(void** state)
 {
     static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
