@@ -87,8 +87,7 @@ float root_depth_in(uint k, bool is_body)
     return solid.radius - length(from_axis(root_now, solid));
 }
 
-// What solids have made of a displacement, and what they leave of it. Without those met: what goes round through a member of a
-// struct glslang follows for ever, where `precise` is.
+// What solids have made of a displacement, and what they leave of it.
 struct outcome {
     vec3  d;
     vec4  freedom, slip; // as touch and slip have them

@@ -43,27 +43,31 @@ void load()
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
 #endif
     EACH(guide_count) {
-        uint at      = guide_first + min(i, guide_count - 1u);
-        vec4 segment = i < guide_count ? rod[at].segment : vec4(0.0);
+        // All that is read is asked for before any of it is looked at: a GPU waits for all of it as long as for one.
+        uint       at       = guide_first + min(i, guide_count - 1u);
+        hair_state was      = state[at];
+        vec4       segment  = rod[at].segment;
+        own(strain)         = rod[at].strain;
+#ifdef KEEPS_RATES
+        hair_history past   = history[at];
+        own(rate)           = known < 2.0 ? was.displacement.xyz * rescale : past.rate.xyz;
+        parked(rate_before) = past.rate_before.xyz;
+        own(touched)        = past.rate_before.w;
+        own(tension)        = was.displacement.w;
+#endif
+        segment *= i < guide_count ? 1.0 : 0.0;
         // A root that is held is where the scalp has it, wherever it was when it was not.
-        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? state[at].position.xyz - root_then : vec3(0.0));
-        own(displacement) = state[at].displacement.xyz * rescale;
+        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
+        own(displacement) = was.displacement.xyz * rescale;
         own(rest_length)  = segment.x;
         own(slack)        = segment.y;
         own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
-        own(strain)       = rod[at].strain;
 #ifdef HAIR_TIED
         load_tie(i);
 #endif
         if (CURVED) seen(section) = material[at];
 #ifdef HAIR_CROWD
         own(push) = texelFetch(push_texture, int(at)).xyz;
-#endif
-#ifdef KEEPS_RATES
-        own(rate)        = known < 2.0 ? own(displacement) : history[at].rate.xyz;
-        parked(rate_before) = history[at].rate_before.xyz;
-        own(touched)     = history[at].rate_before.w;
-        own(tension)     = state[at].displacement.w;
 #endif
     }
 }
@@ -90,6 +94,14 @@ void count_in(uint what)
     if (lane == 0u) atomicAdd(health[what], 1u);
 }
 
+// What no compiler takes for a sum whose parts it may take away again. `precise` says so too, but of all that leads there:
+// then nothing in a substep is multiplied and added at once.
+vec3 rounded(vec3 v)
+{
+    uint nothing = params.substeps >> 31;
+    return uintBitsToFloat(floatBitsToUint(v) ^ nothing);
+}
+
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
 void accept(int method, bool waits, vec3 head_moved)
@@ -106,9 +118,8 @@ void accept(int method, bool waits, vec3 head_moved)
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
-        precise vec3 from_head = root_now + (GET(place) + (d - root_moved));
-        precise vec3 from_root = from_head - root_now;
-        PUT(place, from_root);
+        vec3 from_head = rounded(root_now + (GET(place) + (d - root_moved)));
+        PUT(place, from_head - root_now);
 #ifdef KEEPS_RATES
         struck = struck || is_struck(i, d);
         keep_rates(i, method, d, kept);
