@@ -390,7 +390,7 @@ struct hair_step_params {
     float     rescale;     // of displacements, where the substep's length has changed; else 1
     hair_uint vertices; // of all guides
     hair_uint bodies; // a bit for each solid that is no capsule, of HAIR_FEW_SOLIDS
-    hair_uint unused;
+    hair_uint rounds; // of implicit.glsl's reduction, before its last
     // Of the grid in which any number of solids are looked up, from the head's origin.
     hair_vec4 cells_lower; // xyz: its corner, m; w: 1 / side of a cell, 1/m
     hair_uint cells_x, cells_y, cells_z;

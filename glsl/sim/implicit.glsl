@@ -42,15 +42,18 @@ void solve_implicit(bool euler)
         substitute(euler);
         return;
     }
-    uint i = lane, pair = i & ~1u, row_of = guide_first + i;
-    vec3 r = i < guide_count ? GET(moved) : vec3(0.0);
-    for (uint reach = 2u; reach < guide_count; reach *= 2u, row_of += params.vertices) {
-        vec4 m = i < guide_count ? reduction[row_of] : vec4(0.0);
+    uint i = lane;
+    bool there = i < guide_count;
+    uint row_of = there ? guide_first + i : (params.rounds + 1u) * params.vertices, next = there ? params.vertices : 0u;
+    uint pair = i & ~1u, rounds = params.rounds;
+    vec3 r = there ? GET(moved) : vec3(0.0);
+    for (uint reach = 2u; reach < guide_count && rounds > 0u; reach *= 2u, --rounds, row_of += next) {
+        vec4 m    = reduction[row_of];
+        uint up = pair - reach, down = pair + reach;
         lend(r);
-        r += m.x * lent_by(pair - reach) + m.y * lent_by(pair + 1u - reach) +
-             m.z * lent_by(pair + reach) + m.w * lent_by(pair + 1u + reach);
+        r += m.x * lent_by(up) + m.y * lent_by(up + 1u) + m.z * lent_by(down) + m.w * lent_by(down + 1u);
     }
-    vec4 m = i < guide_count ? reduction[row_of] : vec4(0.0);
+    vec4 m = reduction[row_of];
     lend(r);
     PUT(moved, m.x * lent_by(pair) + m.y * lent_by(pair + 1u));
 }

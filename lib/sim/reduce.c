@@ -3,10 +3,17 @@
 //
 // Pairs of vertices make the five diagonals of a system three of 2x2 blocks. In round n the block B is freed of the
 // blocks B - 2^n and B + 2^n, r += a r_(B-2^n) + c r_(B+2^n); after the last x = D^-1 r. Per vertex and round a row
-// of a and one of c.
+// of a and one of c. Bending reaches less far the shorter a substep is: rounds from which no vertex learns anything are
+// left out.
 #include "lib/sim/rod.h"
 
+#include <math.h>
+#include <string.h>
+
 #define MOST_BLOCKS (HAIR_MAX_GUIDE_VERTICES / 2)
+// Of a vertex's displacement over a substep of 1/240 s, what others make: less is nothing. Of shorter ones as much less as
+// keeps the error that makes one of second order, for they are the more.
+#define HEARD 1e-4
 
 struct block { // of 2x2, row by row
     double m[4];
@@ -73,11 +80,27 @@ static void write_round(const struct hair_guide* guide, uint32_t block, struct b
             (hair_vec4){(float)a.m[2 * r], (float)a.m[2 * r + 1], (float)c.m[2 * r], (float)c.m[2 * r + 1]};
 }
 
-static void reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
-                         hair_vec4* out)
+static double least_heard(double substep)
+{
+    double ratio = 240 * substep;
+    return HEARD * fmin(ratio * ratio * ratio, 1);
+}
+
+// By how much displacements d_j change d_i = a r_j / D_i, with r_j = D_j d_j.
+static double share_of(struct block a, struct block own, struct block far)
+{
+    double most = 0;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) most = fmax(most, fabs(a.m[2 * i + j] * far.m[3 * j] / own.m[3 * i]));
+    return most;
+}
+
+// `last`: one for every round it may come after. Returns after how many no more than `least` is heard.
+static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
+                             double least, hair_vec4* out, hair_vec4* last)
 {
     static const struct block none  = {{0, 0, 0, 0}};
-    uint32_t                  count = (guide->count + 1) / 2, round = 0;
+    uint32_t                  count = (guide->count + 1) / 2, round = 0, heard = 0;
     struct block_row          row[2][MOST_BLOCKS];
     for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of(rod, guide->count, b);
     for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
@@ -93,10 +116,15 @@ static void reduce_guide(const struct hair_guide* guide, const struct hair_rod* 
             to[b].own                    = plus(from[b].own,
                                                 plus(up ? times(a, up->after) : none, down ? times(c, down->before) : none));
             write_round(guide, b, a, c, out + (size_t)round * vertices);
+            write_round(guide, b, inverse(from[b].own), none, last + (size_t)round * vertices);
+            double share = fmax(up ? share_of(a, from[b].own, up->own) : 0,
+                                down ? share_of(c, from[b].own, down->own) : 0);
+            if (!(share <= least)) heard = round + 1;
         }
     }
     for (uint32_t b = 0; b < count; ++b)
-        write_round(guide, b, inverse(row[round % 2][b].own), none, out + (size_t)round * vertices);
+        write_round(guide, b, inverse(row[round % 2][b].own), none, last + (size_t)round * vertices);
+    return heard;
 }
 
 uint32_t hair_rods_rounds(uint32_t most_vertices)
@@ -106,9 +134,20 @@ uint32_t hair_rods_rounds(uint32_t most_vertices)
     return rounds;
 }
 
-void hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const struct hair_rod* rod,
-                      uint32_t vertices, hair_vec4* out)
+uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const struct hair_rod* rod,
+                          uint32_t vertices, double substep, hair_vec4* out, hair_vec4* last)
 {
-    for (uint32_t i = 0; i < count; ++i)
-        if (rod[guides[i].first].factor.x > 0) reduce_guide(&guides[i], rod + guides[i].first, vertices, out);
+    uint32_t rounds = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (!(rod[guides[i].first].factor.x > 0)) continue;
+        uint32_t own =
+            reduce_guide(&guides[i], rod + guides[i].first, vertices, least_heard(substep), out, last);
+        rounds = own > rounds ? own : rounds;
+    }
+    for (uint32_t i = 0; i < count; ++i) { // Of a guide with fewer after those that it has.
+        uint32_t own  = hair_rods_rounds(guides[i].count) - 1;
+        size_t   from = (size_t)(own < rounds ? own : rounds) * vertices + guides[i].first;
+        memcpy(out + from, last + from, guides[i].count * sizeof *out);
+    }
+    return rounds;
 }

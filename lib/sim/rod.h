@@ -45,10 +45,11 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
                          const hair_physics* physics, hair_solver solver);
 
 // The own method's systems for work groups: one vec4 per vertex and round, round after round; zeros where a guide has
-// no such system. A guide of n vertices needs hair_rods_rounds(n) rounds.
+// no such system. A guide of n vertices has hair_rods_rounds(n) rounds at most, and out and last, which is room to work in,
+// are for as many. Returns after how many the last comes.
 uint32_t hair_rods_rounds(uint32_t most_vertices);
-void     hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const struct hair_rod* rod,
-                          uint32_t vertices, hair_vec4* out);
+uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const struct hair_rod* rod,
+                          uint32_t vertices, double substep, hair_vec4* out, hair_vec4* last);
 
 // Whether rods for `a` are others than for `b`.
 int hair_rods_differ(const hair_physics* a, const hair_physics* b);

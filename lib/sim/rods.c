@@ -44,20 +44,27 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
     return 0;
 }
 
-// For work groups only, and of methods that have such systems.
-static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, GLuint* buffer)
+// For work groups only, and of methods that have such systems. Ends with a row of nothing, which is read for vertices that a
+// guide has not.
+static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
+                                  GLuint* buffer, uint32_t* rounds)
 {
     const hair_host* host  = &sim->gl->host;
     int              there = 0;
     for (uint32_t i = 0; i < sim->guides && !there; ++i) there = rod[sim->rods->guides[i].first].factor.x > 0;
     if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
-    uint32_t   rounds = hair_rods_rounds(sim->most_vertices);
-    size_t     count  = (size_t)rounds * sim->guide_vertices;
-    hair_vec4* out    = hair_alloc(host, count, sizeof *out);
-    if (!out) return hair_fail_memory(host, "the implicit systems of guides");
-    hair_rods_reduce(sim->rods->guides, sim->guides, rod, sim->guide_vertices, out);
-    hair_result result = hair_gl_storage(sim->gl, "hair reduction", count * sizeof *out, out, buffer);
+    uint32_t    most = hair_rods_rounds(sim->most_vertices), vertices = sim->guide_vertices;
+    size_t      count = (size_t)most * vertices;
+    hair_vec4 * out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
+    hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
+    if (!result) {
+        *rounds = hair_rods_reduce(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
+        count   = (size_t)(*rounds + 1) * vertices;
+        memset(out + count, 0, sizeof *out);
+        result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
+    }
     hair_free(host, out);
+    hair_free(host, last);
     return result;
 }
 
@@ -94,7 +101,8 @@ static hair_result make(struct hair_sim* sim, int struck)
     hair_rods_tie(rods->guides, rods->rest, sim->ties.knot, sim->ties.count, &sim->physics, sim->solver,
                   substep, rod);
     GLuint      buffer = 0, reduction = 0;
-    hair_result result = make_reduction(sim, rod, &reduction);
+    uint32_t    rounds = 0;
+    hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
     if (!result)
         result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
     if (result) {
@@ -104,6 +112,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         hair_gl_free_buffer(sim->gl, &sim->reduction);
         sim->rod       = buffer;
         sim->reduction = reduction;
+        sim->rounds    = rounds;
         rods->made_for = sim->physics;
         rods->struck   = struck;
         rods->tied     = sim->ties.which;
@@ -213,6 +222,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->friction = physics->friction;
     params->rescale  = (float)(h / sim->last_substep);
     params->vertices = sim->guide_vertices;
+    params->rounds   = sim->rounds;
 }
 
 int hair_sim_is_curved(const struct hair_sim* sim)

@@ -35,6 +35,7 @@ struct hair_sim {
     double               substep;                           // s
     GLuint               guide, rest, state, health, step;  // buffers, as in shared.h
     GLuint               rod, history, material, reduction; // the same; 0 under redblack
+    uint32_t             rounds;                            // of the reduction, before its last
     struct hair_rods*    rods;                              // under redblack NULL
     int                  by_thread;                         // a thread per guide, not a work group
     int                  struck; // there have been solids: the accurate solver's own substep is for impacts

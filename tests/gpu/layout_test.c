@@ -95,7 +95,7 @@ static const struct member members[] = {
     FLOAT(hair_step_params, rescale),
     UINT(hair_step_params, vertices),
     UINT(hair_step_params, bodies),
-    UINT(hair_step_params, unused),
+    UINT(hair_step_params, rounds),
     VEC4(hair_step_params, cells_lower),
     UINT(hair_step_params, cells_x),
     UINT(hair_step_params, cells_y),
