@@ -48,9 +48,10 @@
 #define seen(name) name
 #define GET(name) name
 #define PUT(name, v) name = v
-#define BEFORE(name) subgroupShuffle(name, (lane - 1u) & 31u)
+// Of 32 threads shuffles go round: of the number of a thread five bits count.
+#define BEFORE(name) subgroupShuffle(name, lane - 1u)
 #define BEFORE_VEC3(name) BEFORE(name)
-#define AFTER_VEC3(name) subgroupShuffle(name, (lane + 1u) & 31u)
+#define AFTER_VEC3(name) subgroupShuffle(name, lane + 1u)
 #define GET_AT(name, k) subgroupShuffle(name, k)
 #define PUT_AT(name, k, v)                                                                                   \
     if ((k) == lane) name = v
@@ -65,7 +66,7 @@ float sum_of(float v) { return subgroupAdd(v); }
 float most_of(float v) { return subgroupMax(v); }
 vec3  lent;
 void  lend(vec3 v) { lent = v; }
-vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread & 31u); }
+vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 
 #else
 
