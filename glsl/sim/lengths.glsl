@@ -100,11 +100,16 @@ void move_stiffly(bool euler)
     }
 }
 
-// Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on.
+// Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on. Of a leap, whose
+// forces are those of the start, what is lacking at first is made up for along the segments there.
 void correct_lengths(int method, uint n)
 {
     bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && (CURVED ? !of_start : IS_BACK(method));
     uint segments = guide_count - 1u;
+    if (SOLIDS && LEAPS(method) && n == 0u) {
+        EACH(segments) { PUT(edge, normalize(AFTER_VEC3(place) - GET(place))); }
+        MEET;
+    }
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge), along_before = before, along = GET(edge);
         if (HAIR_SOLVER == SHAKE) { // Which alone has other directions.
