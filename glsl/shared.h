@@ -331,7 +331,7 @@ HAIR_SIZE(hair_history, 32)
 struct hair_capsule {
     hair_vec4 start[2]; // xyz: ends of the axis, m; w: radius, m
     hair_vec4 end[2];
-    hair_vec4 spin; // xyz: turn about its own axis (a sphere: any) over the step, radians
+    hair_vec4 spin; // xyz: turn about its own axis (a sphere: any) over the step, radians; w: way of an end, at most, m
 };
 HAIR_SIZE(hair_capsule, 80)
 

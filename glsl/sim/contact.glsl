@@ -125,8 +125,9 @@ outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inou
 // sticks can be found: by a tension that grows until something slips.
 vec3 pass_on(vec4 freedom, vec3 d)
 {
-    vec3 part = dot(d, freedom.xyz) * freedom.xyz;
-    return freedom.w == FREE ? d : freedom.w == SLIDES ? d - part : freedom.w == GLIDES ? part : STICK_PASS * (d - part);
+    vec3 part = dot(d, freedom.xyz) * freedom.xyz, rest = d - part; // Of what is free the normal is 0.
+    rest *= freedom.w == STICKS ? STICK_PASS : 1.0;
+    return mix(rest, part, bvec3(freedom.w == GLIDES));
 }
 
 // The transpose of what a contact makes of a small change of what is wanted: of what slides friction takes a share across

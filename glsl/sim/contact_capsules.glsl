@@ -26,37 +26,29 @@ vec3 from_axis(vec3 position, capsule solid)
     return position - solid.start - nearest_share(position, solid) * solid.axis;
 }
 
-// How far the axis of a solid moves, at most.
-float swept(capsule then, capsule now)
-{
-    vec3 start = now.start - then.start;
-    return max(length(start), length(start + now.axis - then.axis));
-}
+// How far it moves in the substep, at most.
+float moves_of(uint k) { return SOLID_SPIN(k).w * (share_now - share_then); }
 
-// At the start and at the end of the substep: solid_then, solid_now; and how far each moves in it. Threads that have a guide
-// together work it out once, each for another solid; share_solid() and then SOLIDS_MEET come before all else.
+// At the start and at the end of the substep: solid_then, solid_now. Threads that have a guide together work it out once, each
+// for another solid; share_solid() and then SOLIDS_MEET come before all else.
 #if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
 #define SOLIDS_MEET
-void    share_solid(uint k, capsule then, capsule now, float moves) {}
+void    share_solid(uint k, capsule then, capsule now) {}
 capsule solid_then(uint k) { return solid_at(k, share_then); }
 capsule solid_now(uint k) { return solid_at(k, share_now); }
-float   moves_of(uint k) { return swept(solid_then(k), solid_now(k)); }
 #else
 #define SOLIDS_MEET synchronise()
-shared vec4  shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS];
-shared float shared_moves[HAIR_FEW_SOLIDS];
+shared vec4 shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS];
 
-void share_solid(uint k, capsule then, capsule now, float moves)
+void share_solid(uint k, capsule then, capsule now)
 {
     shared_start[2u * k]      = vec4(then.start, then.radius);
     shared_axis[2u * k]       = vec4(then.axis, then.square);
     shared_start[2u * k + 1u] = vec4(now.start, now.radius);
     shared_axis[2u * k + 1u]  = vec4(now.axis, now.square);
-    shared_moves[k]           = moves;
 }
 
 capsule shared_solid(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
 capsule solid_then(uint k) { return shared_solid(2u * k); }
 capsule solid_now(uint k) { return shared_solid(2u * k + 1u); }
-float   moves_of(uint k) { return shared_moves[k]; }
 #endif

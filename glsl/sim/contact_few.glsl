@@ -25,13 +25,12 @@ void find_solids(vec3 head_moved)
     if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
     SOLIDS_MEET; // Who still reads those of the substep before?
     for (uint k = lane; k < params.solids; k += lanes) {
-        capsule then = solid_at(k, share_then), now = solid_at(k, share_now);
-        float   moves = swept(then, now);
-        share_solid(k, then, now, moves);
-        if (length(from_axis(root_now, now)) < now.radius + longest + moves) near |= 1u << k;
+        capsule now = solid_at(k, share_now);
+        share_solid(k, solid_at(k, share_then), now);
+        if (length(from_axis(root_now, now)) < now.radius + longest + moves_of(k)) near |= 1u << k;
     }
     SOLIDS_MEET;
-    near = all_bits(uvec2(near, 0u)).x;
+    near = bits_of_lanes(near);
     sunk = 0.0;
     if (!root_is_free)
         EACH_BIT(near) sunk = max(sunk, root_depth_in(k, (bit & bodies()) != 0u));

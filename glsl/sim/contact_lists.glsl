@@ -55,10 +55,8 @@ float off_long(vec3 place, uint k, float reach)
     vec4  ball = BALL(k);
     float off  = length(place - ball.xyz) - ball.w;
     if (off >= reach) return off; // Of what is long there is more around.
-    capsule then = solid_at(k, share_then), end = solid_at(k, 1.0);
-    vec3    start = end.start - then.start;
-    float   moves = max(length(start), length(start + end.axis - then.axis));
-    return length(from_axis(place, end)) - end.radius - moves;
+    capsule end = solid_at(k, 1.0);
+    return length(from_axis(place, end)) - end.radius - (1.0 - share_then) * SOLID_SPIN(k).w;
 }
 
 // Which of two spheres is hidden: everywhere about a place, and all the time, less deep than the other: then nothing is to be

@@ -11,7 +11,8 @@
 //            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
 //            within a condition that differs between vertices, nor in an EACH that writes it
 //   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
-//            any of the guide's threads has, sum_of and most_of do that too
+//            any of the guide's threads has, sum_of and most_of do that too; bits_of_lanes, all_bits of bits that a thread
+//            has only where i % lanes is its own number
 //   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v); after it
 //            RENEW(name) what it has put, since a vertex's own is kept in registers too
 //   lend     makes a vector seen by all threads of a work group or subgroup, as lent_by(thread), which goes round
@@ -62,6 +63,7 @@
 uint  hair_guide_number() { return hair_group(); }
 bvec2 any_of(bvec2 v) { return bvec2(subgroupAny(v.x), subgroupAny(v.y)); }
 uvec2 all_bits(uvec2 bits) { return subgroupOr(bits); }
+uint  bits_of_lanes(uint bits) { return subgroupBallot(bits != 0u).x; }
 float sum_of(float v) { return subgroupAdd(v); }
 float most_of(float v) { return subgroupMax(v); }
 vec3  lent;
@@ -100,6 +102,7 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 uint  hair_guide_number() { return hair_group() * GROUP_THREADS + gl_LocalInvocationID.x; }
 bvec2 any_of(bvec2 v) { return v; }
 uvec2 all_bits(uvec2 bits) { return bits; }
+uint  bits_of_lanes(uint bits) { return bits; }
 float sum_of(float v) { return v; }
 float most_of(float v) { return v; }
 
@@ -146,6 +149,7 @@ uvec2 all_bits(uvec2 bits)
     return bits;
 }
 bvec2 any_of(bvec2 v) { return notEqual(all_bits(uvec2(v)), uvec2(0u)); }
+uint  bits_of_lanes(uint bits) { return all_bits(uvec2(bits, 0u)).x; }
 
 void lend(vec3 v)
 {

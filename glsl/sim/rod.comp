@@ -9,6 +9,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #endif
 #include "sim/rod.glsl"
 layout(local_size_x = GROUP_THREADS) in;
@@ -106,13 +107,12 @@ vec3 rounded(vec3 v)
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head.
 void accept(int method, bool waits, vec3 head_moved)
 {
-    float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
-    vec3 root_d = GET_AT(moved, 0u);
     bool lost = false, struck = false;
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
         if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
-            vec3  relative = d - root_d;
+            float fastest  = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+            vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
             float speed    = length(relative);
             float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);

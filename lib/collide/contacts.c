@@ -83,6 +83,21 @@ static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
     return (hair_vec4){spin.x, spin.y, spin.z, 0};
 }
 
+static float way_of(hair_vec4 from, hair_vec4 to)
+{
+    return hair_length(hair_v3(to.x - from.x, to.y - from.y, to.z - from.z));
+}
+
+static struct hair_capsule capsule_of(const hair_solid* before, const hair_solid* now,
+                                      const struct hair_pose* head_before, const struct hair_pose* head_now)
+{
+    struct hair_capsule around = {.spin = spin_between(before, now)};
+    place(before, head_before, around.start);
+    place(now, head_now, around.end);
+    around.spin.w = fmaxf(way_of(around.start[0], around.end[0]), way_of(around.start[1], around.end[1]));
+    return around;
+}
+
 // From the head to the surface.
 static float distance_of(const hair_solid* solid, const struct hair_pose* head)
 {
@@ -137,9 +152,7 @@ static uint32_t fill(const struct hair_solids* solids, const struct hair_pose* h
     for (uint32_t i = 0; i < count; ++i) {
         const hair_solid *now    = &solids->now.solid[chosen[i]],
                          *before = hair_solids_before(solids, chosen[i]);
-        place(before, head_before, around[i].start);
-        place(now, head_now, around[i].end);
-        around[i].spin = spin_between(before, now);
+        around[i]                = capsule_of(before, now, head_before, head_now);
         if (out) out[i] = body_of(before, now, head_before, head_now);
     }
     return count;
@@ -164,10 +177,8 @@ struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32
     const hair_solid* now    = &solids->now.solid[i];
     hair_solid        before = *hair_solids_before(solids, i);
     before.form = now->form, before.scale = now->scale; // It may have had another.
-    struct hair_contact contact = {.body = body_of(&before, now, head_before, head_now)};
-    place(&before, head_before, contact.around.start);
-    place(now, head_now, contact.around.end);
-    contact.around.spin = spin_between(&before, now);
+    struct hair_contact contact = {.around = capsule_of(&before, now, head_before, head_now),
+                                   .body   = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_FORM) return contact;
     const hair_form* form = now->form;
     contact.body.size     = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_FORM};

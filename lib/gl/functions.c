@@ -28,7 +28,8 @@ static int find_subgroup(const struct hair_gl* gl)
 {
     const char* vendor   = (const char*)gl->GetString(GL_VENDOR);
     const GLint features = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_VOTE_BIT_KHR |
-                           GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR | GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
+                           GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR | GL_SUBGROUP_FEATURE_BALLOT_BIT_KHR |
+                           GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
     GLint size = 0, stages = 0, there = 0;
     if (!vendor || !strstr(vendor, "NVIDIA") || !has_extension(gl, "GL_KHR_shader_subgroup")) return 0;
     gl->GetIntegerv(GL_SUBGROUP_SIZE_KHR, &size);
