@@ -71,55 +71,69 @@ bvec2 hidden(sphere a, sphere b, float about)
     return greaterThan(vec2(-less, less), rate * far + length(apart.xyz) + abs(apart.w));
 }
 
-// Of the solids around, for the rest of the step. Spheres that overlap, of which a body may be made, hide each other: most
-// of them by one that is next to them in the list, or by the deepest.
+// Which of those that are near a place are close to it, in the order of their list. Spheres that overlap, of which a body may be
+// made, hide each other: most of them by one that is next to them in the list, or by the deepest.
+uvec2 find_close(vec3 place, uint first, uvec2 near, float about, float reach)
+{
+    sphere last  = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0), 0.0, 0.0, 0.0), deepest = last;
+    uvec2  close = uvec2(0u), by_last = uvec2(0u);
+    float  least = about;
+    EACH_BIT(near) {
+        uint   member = member_at(first, at), k = member & HAIR_MEMBER_NUMBER;
+        uvec2  mask   = mask_of(at);
+        bool   long_  = (member & HAIR_MEMBER_LONG) != 0u;
+        sphere ball   = sphere_from(place, sphere_at(k, share_then), sphere_at(k, 1.0));
+        float  off    = ball.off;
+        if (long_) off = off_long(place, k, reach);
+        close |= off < about ? mask : uvec2(0u);
+        if (off < about && !long_) {
+            bvec2 less = hidden(last, ball, about); // deep
+            if (less.x) close &= ~by_last;
+            if (less.y || hidden(deepest, ball, about).y) close &= ~mask;
+            last    = ball;
+            by_last = mask;
+            if (off < least) {
+                least   = off;
+                deepest = ball;
+            }
+        }
+    }
+    return close;
+}
+
+// Of the solids around, for the rest of the step: most of a list are off by what is around them.
 void list_solids(uint i, vec3 middle, float far)
 {
-    uvec2  list = cell_members(middle), all = uvec2(0u), few = uvec2(0u), others = uvec2(0u), by_last = uvec2(0u);
-    float  about = min(ABOUT + 1.5 * far, params.cells_give);
-    float  reach = FIT + max(0.5 * far, params.cells_give), nearest = reach, least = about;
-    uint   count = min(list.y - list.x, uint(HAIR_CELL_SOLIDS));
-    sphere last = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0), 0.0, 0.0, 0.0), deepest = last;
-    uint   member[AT_ONCE], next[AT_ONCE], end = list.x + count;
+    uvec2 list  = cell_members(middle), all = uvec2(0u), near = uvec2(0u), others = uvec2(0u);
+    float about = min(ABOUT + 1.5 * far, params.cells_give);
+    float reach = FIT + max(0.5 * far, params.cells_give), nearest = reach;
+    uint  count = min(list.y - list.x, uint(HAIR_CELL_SOLIDS));
+    uint  member[AT_ONCE], next[AT_ONCE], end = list.x + count;
     for (uint a = 0u; a < AT_ONCE; ++a) next[a] = cell_entry(min(list.x + a, end - 1u));
     for (uint first = 0u; first < count; first += AT_ONCE) {
-        sphere ball[AT_ONCE];
+        vec4 ball[AT_ONCE];
         for (uint a = 0u; a < AT_ONCE; ++a) {
-            uint k    = next[a] & HAIR_MEMBER_NUMBER;
             member[a] = next[a];
-            ball[a]   = sphere_from(middle, sphere_at(k, share_then), sphere_at(k, 1.0));
+            ball[a]   = BALL(next[a] & HAIR_MEMBER_NUMBER);
             next[a]   = cell_entry(min(list.x + first + AT_ONCE + a, end - 1u)); // Is read while this one is looked at.
         }
         for (uint a = 0u; a < AT_ONCE; ++a) {
             uint  n = first + a, bit = 1u << (n & 31u);
-            uvec2 mask    = n >= count ? uvec2(0u) : n < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
-            bool  is_long = (member[a] & HAIR_MEMBER_LONG) != 0u;
-            float off     = ball[a].off;
-            if (is_long) off = off_long(middle, member[a] & HAIR_MEMBER_NUMBER, reach);
+            uvec2 mask = n >= count ? uvec2(0u) : n < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
+            float off  = length(middle - ball[a].xyz) - ball[a].w;
             nearest = n < count ? min(nearest, off) : nearest;
             all |= off < reach ? mask : uvec2(0u);
-            few |= off < about ? mask : uvec2(0u);
+            near |= off < about ? mask : uvec2(0u);
 #ifdef HAIR_BODIES
             others |= (member[a] & HAIR_MEMBER_WALKED) != 0u ? mask : uvec2(0u);
 #endif
-            if (off < about && !is_long && n < count) {
-                bvec2 less = hidden(last, ball[a], about); // deep
-                if (less.x) few &= ~by_last;
-                if (less.y || hidden(deepest, ball[a], about).y) few &= ~mask;
-                last    = ball[a];
-                by_last = mask;
-                if (off < least) {
-                    least   = off;
-                    deepest = ball[a];
-                }
-            }
         }
     }
     own(members)     = list.x;
     own(listed_near) = vec4(middle, about);
     own(reachable)   = all;
     own(clear)       = nearest;
-    own(close)       = few;
+    own(close)       = find_close(middle, list.x, near, about, reach);
 #ifdef HAIR_BODIES
     own(walked) = others;
 #endif

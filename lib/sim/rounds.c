@@ -75,7 +75,7 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
     const struct hair_cells* cells  = &sim->contacts.cells;
     uint32_t                 solids = hair_sim_contacts(sim);
     uint32_t                 others = solids - lesser(sim->solids.capsules, solids);
-    if (sim->contacts.any) return 66 * (cells->rounds + 20 + (by_thread ? 0 : CACHED)) + 3 * cells->longest;
+    if (sim->contacts.any) return 66 * (cells->rounds + 20 + (by_thread ? 0 : CACHED)) + 6 * cells->longest;
     return solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
 }
 
