@@ -29,6 +29,8 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     vec3  end  = start + made.d - head_moved, normal, surface;
     float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
     uint  whose = 0u;
+    vec4  deepest = vec4(vec3(0.0), -FARTHEST), second = deepest; // xyz: normal; w: depth
+    float third = -FARTHEST, clears = FARTHEST;                   // depth of others; by how far none is gone through
     uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
     is_out = false;
     if (solids == uvec2(0u)) return 0u;
@@ -43,23 +45,33 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
         uint  k     = member & HAIR_MEMBER_NUMBER;
         bool  first = (owed[at.x] & at.y) != 0u, whole = (member & HAIR_MEMBER_LONG) != 0u;
         float deep  = 0.0;
+        normal      = vec3(0.0);
         if (!whole) { // A sphere that is farther away than the vertex comes is not gone through.
             vec4  then = sphere_at(k, share_then), now = sphere_at(k, share_now);
             float away = length(end - now.xyz);
             was        = then.w - length(start - then.xyz);
+            float past = away - way - length(now.xyz - then.xyz);
             deep       = now.w - away;
-            whole      = away <= way + length(now.xyz - then.xyz);
+            normal     = (end - now.xyz) / max(away, 1e-9);
+            clears     = min(clears, past);
+            whole      = past <= 0.0;
         }
         if (whole) deep = depth_in(k, start, made.d, head_moved, was, normal);
+        if (whole) clears = 0.0;
         float rank = first ? deep + FARTHEST : deep;
         was_most   = max(was_most, was);
         around[at.x] |= first || deep > -2.0 * way ? at.y : 0u;
-        if (rank > most) {
-            most   = rank;
-            depth  = deep;
-            whose  = k;
-            from   = mask_of(at);
-            cached = false;
+        bool deeper = rank > most;
+        vec4 less   = deeper ? deepest : vec4(normal, deep);
+        third       = max(third, min(second.w, less.w));
+        second      = less.w > second.w ? less : second;
+        if (deeper) {
+            most    = rank;
+            depth   = deep;
+            deepest = vec4(normal, deep);
+            whose   = k;
+            from    = mask_of(at);
+            cached  = false;
         }
     }
     solids = around;
@@ -73,11 +85,19 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
         surface  = surface_of(whose, end, head_moved, normal);
         friction = BODY_POSITION(whose, 1).w;
     }
+    vec3 before = made.d;
     push_by(friction, depth, normal, surface, made);
     met |= from;
     owed &= ~from;
-    if (all_cached && (owed & solids) == uvec2(0u))
+    if ((owed & solids) != uvec2(0u)) return 1u;
+    if (all_cached) {
         is_out = is_out_of_cached(solids, start + made.d - head_moved, length(made.d - head_moved), granted.x);
+    } else if (!HAS_CACHE) { // Farther away, as from any ball, by at least what of the way is along the normal.
+        vec3  pushed = made.d - before;
+        float far    = length(pushed);
+        is_out       = max(was_most - granted.y, max(second.w - dot(pushed, second.xyz), third + far) - AGAIN) <= granted.x &&
+                 clears > 2.0 * far;
+    }
     return 1u;
 }
 

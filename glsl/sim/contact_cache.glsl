@@ -3,6 +3,7 @@
 #include "sim/contact_lists.glsl"
 
 #ifndef HAIR_FEW_GUIDES // Of many, more are under way at once without: registers are few.
+#define HAS_CACHE false
 
 void  cache_close(uint i) {}
 bool  is_out_of_cached(uvec2 solids, vec3 end, float way, float granted) { return false; }
@@ -15,6 +16,7 @@ uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inou
 
 #else
 
+#define HAS_CACHE true
 #define CACHED 4u
 uvec2 cached_bit[CACHED]; // of the list; of none none
 
