@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tests/support/rods.h"
 
@@ -81,6 +82,79 @@ static void the_factors_are_of_the_implicit_systems(void** state)
             assert_true(f->rod[1].factor.x == 0 && f->rod[1].factor_euler.x > 0 && f->rod[1].segment.w == 0);
         }
     free(a);
+    free(f);
+}
+
+// x of A x = r by the factors.
+static void substitute(const struct hair_test_rod* f, double* x)
+{
+    uint32_t n = f->guide.count;
+    for (uint32_t i = 0; i < n; ++i) {
+        if (i > 0) x[i] -= (double)f->rod[i - 1].factor.y * x[i - 1];
+        if (i > 1) x[i] -= (double)f->rod[i - 2].factor.z * x[i - 2];
+    }
+    for (uint32_t i = 0; i < n; ++i) x[i] *= (double)f->rod[i].factor.x;
+    for (uint32_t i = n; i-- > 0;) {
+        if (i + 1 < n) x[i] -= (double)f->rod[i].factor.y * x[i + 1];
+        if (i + 2 < n) x[i] -= (double)f->rod[i].factor.z * x[i + 2];
+    }
+}
+
+// The same by so many rounds of the reduction, as a work group does it.
+static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
+{
+    double before[MOST + 2] = {0};
+    for (uint32_t round = 0; round <= rounds; ++round) {
+        uint32_t reach = round < rounds ? 2u << round : 0;
+        if (reach >= n) continue;
+        for (uint32_t i = 0; i < n; ++i) before[i] = x[i];
+        for (uint32_t i = 0; i < n; ++i) {
+            const hair_vec4* m    = &row[round * n + i];
+            uint32_t         pair = i & ~1u;
+            double           sum  = reach ? x[i] : 0;
+            if (pair >= reach)
+                sum += (double)m->x * before[pair - reach] + (double)m->y * before[pair + 1 - reach];
+            if (reach && pair + reach < n)
+                sum += (double)m->z * before[pair + reach] + (double)m->w * before[pair + 1 + reach];
+            x[i] = sum;
+        }
+    }
+}
+
+static void what_the_reduction_leaves_out_is_not_heard(void** state)
+{
+    (void)state;
+    static const uint32_t lengths[] = {2, 3, 20, 32, 65, 256};
+    static const double   steps[]   = {1.0 / 120, 1.0 / 240, 1.0 / 480, 1.0 / 960};
+    struct hair_test_rod* f         = hair_test_rod_make();
+    f->physics.hold                 = 0;
+    for (int k = 0; k < 6; ++k) {
+        uint32_t n = lengths[k], rounds[4], all = hair_rods_rounds(n) - 1;
+        for (int s = 0; s < 4; ++s) {
+            double    x[MOST], y[MOST], off = 0, most = 0, heard = 1e-4 * fmin(pow(240 * steps[s], 3), 1);
+            hair_vec4 out[9 * MOST], last[9 * MOST];
+            memset(out, 0, sizeof out);
+            memset(last, 0, sizeof last);
+            hair_test_rod_straight(f, n, 0.3, PI / 2);
+            hair_test_rod_write(f, HAIR_SOLVER_DIRECT, steps[s]);
+            rounds[s] = hair_rods_reduce(&f->guide, 1, f->rod, n, steps[s], out, last);
+            for (uint32_t i = 0; i < n;
+                 ++i) // Momenta: what displacements come of differs less from vertex to vertex.
+                x[i] = y[i] =
+                    (double)f->rod[i].segment.y > 0 ? sin(0.3 * i) / (double)f->rod[i].segment.y : 0;
+            substitute(f, x);
+            reduce(out, n, rounds[s], y);
+            for (uint32_t i = 0; i < n; ++i) {
+                off  = fmax(off, fabs(x[i] - y[i]));
+                most = fmax(most, fabs(x[i]));
+            }
+            printf("%u vertices, 1/%.0f s: %u of %u rounds, off by %.1e, heard from %.1e on\n", n,
+                   1 / steps[s], rounds[s], all, off / most, heard);
+            assert_true(rounds[s] <= all);
+            assert_true(off <= (4 * heard + 2e-6) * most); // Of two blocks of two, on both sides.
+        }
+        assert_true(n < 20 || rounds[3] < all);
+    }
     free(f);
 }
 
@@ -273,6 +347,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_factors_are_of_the_implicit_systems),
+        cmocka_unit_test(what_the_reduction_leaves_out_is_not_heard),
         cmocka_unit_test(the_substep_of_the_accurate_solver_is_stable),
         cmocka_unit_test(a_solve_in_single_precision_is_good_at_any_stiffness),
         cmocka_unit_test(stiffness_is_limited_to_what_single_precision_bears),
