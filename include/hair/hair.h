@@ -535,7 +535,7 @@ typedef enum hair_mapping {
 /// How the first vertex of a follower that is inside a solid is found: the answer is the same.
 typedef enum hair_first_hit {
     HAIR_FIRST_HIT_AUTO = 0, ///< The faster: by compute.
-    HAIR_FIRST_HIT_COMPUTE,  ///< A thread per follower.
+    HAIR_FIRST_HIT_COMPUTE,  ///< Vertices are gone through up to the first.
     HAIR_FIRST_HIT_PREPASS ///< Tariq 2010: vertices are drawn as points, a texel per follower keeps the least.
 } hair_first_hit;
 

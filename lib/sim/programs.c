@@ -18,7 +18,7 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 }
 
 // Guides whose work groups wait for the solids that they look up, and so keep them at hand and read several at once: of 1,024
-// on an H200 a body of a thousand balls takes 1.8 times what one of ten capsules does. Of 10,201, without either, 2.3 times;
+// on an H200 a body of a thousand balls takes 1.9 times what one of ten capsules does. Of 10,201, without either, 2.3 times;
 // with them more, for they take registers that others want.
 static int has_few_guides(const struct hair_sim* sim)
 {
