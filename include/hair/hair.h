@@ -524,8 +524,9 @@ HAIR_API hair_result hair_look_curl_like(hair_look* look, const float* positions
 typedef enum hair_mapping {
     HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
     HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other by compute.
-    HAIR_MAPPING_THREAD,   ///< A thread per guide: fastest on software rasterisers, which may not let one
-                           ///< thread do all for long guides among many solids. Then a work group does.
+    /// A thread per guide: fastest on software rasterisers, which may not let one thread do all for long guides among many
+    /// solids. Then a work group does, as on hardware for guides of more than 128 vertices.
+    HAIR_MAPPING_THREAD,
     /// Of redblack, on a rigid head, for comparison: without compute shaders, as Tariq 2010 under Direct3D 10: vertices are
     /// captured by transform feedback, from one buffer into another, for every phase of every iteration. To be created and
     /// stepped without transform feedback of the host under way. hair_health.reset counts nothing.

@@ -6,6 +6,7 @@
 #define TWO_PI 6.28318530718f
 #define REDBLACK_SUBSTEP (1.0 / 120)
 #define EARLY 1e-6         // of a substep
+#define MOST_OF_THREAD 128 // vertices: what keeps more for itself NVIDIA's driver does not link
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
@@ -26,6 +27,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->guide_vertices  = groom->info.guide_vertex_count;
     sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
+    if (sim->most_vertices > MOST_OF_THREAD && !gl->software) sim->by_thread = 0;
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
     sim->air.ball      = groom->skull;

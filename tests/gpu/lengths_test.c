@@ -168,6 +168,21 @@ static void check_sizes(void** state, hair_context* context, int way)
     }
 }
 
+static void on_hardware_work_groups_have_the_longest_guides(void** state)
+{
+    struct hair_test* test     = *state;
+    struct hair_gl*   gl       = &test->context->gl;
+    int               software = gl->software, thread_way = 5;
+    for (int hardware = 0; hardware < 2; ++hardware)
+        for (uint32_t vertices = 128; vertices <= 129; ++vertices) {
+            gl->software     = !hardware;
+            struct fixture f = start(state, vertices, thread_way);
+            assert_int_equal(f.hair->sim.by_thread, !hardware || vertices == 128);
+            finish(&f);
+        }
+    gl->software = software;
+}
+
 static void one_size_of_work_group_runs(void** state)
 {
     struct hair_test* test = *state;
@@ -284,6 +299,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(there_are_no_more_samples_than_the_longest_guide_needs),
         HAIR_TEST(followers_at_rest_are_where_they_were_fitted),
+        HAIR_TEST(on_hardware_work_groups_have_the_longest_guides),
         HAIR_TEST(one_size_of_work_group_runs),
         HAIR_TEST(guides_move_and_stay_whole),
         HAIR_TEST(strands_and_guides_of_every_length_are_drawn),
