@@ -28,6 +28,27 @@ OWN(BITS, reachable); // solids,
 OWN(BITS, met);       // and those met in this substep
 float sunk;                  // how deep in solids the root is held. m
 
+// The vertices that can touch any. Of software rasterisers, which run what is within a condition for vertices for which it is
+// not true as well, a thread goes from one to the next.
+#ifdef HAIR_THREAD_PER_GUIDE
+#define LISTS_REACHING true
+#define EACH_REACHING for (uint i = first_reaching; i < guide_count; i = next_reaching[i])
+uint first_reaching, next_reaching[MOST];
+
+void list_reaching()
+{
+    first_reaching = guide_count;
+    for (uint i = guide_count; i-- > 0u;) {
+        next_reaching[i] = first_reaching;
+        first_reaching   = own(reachable) != BITS(0u) ? i : first_reaching;
+    }
+}
+#else
+#define LISTS_REACHING false
+#define EACH_REACHING EACH(guide_count)
+void list_reaching() {}
+#endif
+
 // How deep a vertex may be; and how far it comes out in a substep if it was deeper.
 vec2 granted_to(uint i)
 {

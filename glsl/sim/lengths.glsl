@@ -30,20 +30,24 @@ bool  owed;              // it went another way than the strand wants: there is 
 #define MOST_STEPS 8u
 #define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
 
+void meet_solids(uint i, vec3 head_moved, bool keep)
+{
+    outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : BITS(0u), head_moved, own(met));
+    PUT(moved, made.d);
+    own(touch) = made.freedom;
+    own(slip)  = made.slip;
+}
+
 // Which displacement is allowed of what is wanted.
 void try_wanted(vec3 head_moved, bool keep)
 {
     EACH(guide_count) {
         PUT(moved, own(wanted));
-        if (SOLIDS) {
-            own(touch) = own(slip) = vec4(0.0);
-            if (own(reachable) != BITS(0u)) {
-                outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : BITS(0u), head_moved, own(met));
-                PUT(moved, made.d);
-                own(touch) = made.freedom;
-                own(slip)  = made.slip;
-            }
-        }
+        if (SOLIDS) own(touch) = own(slip) = vec4(0.0);
+        if (SOLIDS && !LISTS_REACHING && own(reachable) != BITS(0u)) meet_solids(i, head_moved, keep);
+    }
+    if (SOLIDS && LISTS_REACHING) {
+        EACH_REACHING { meet_solids(i, head_moved, keep); }
     }
 }
 

@@ -197,6 +197,7 @@ void main()
         for (;; ++method) {
             predict(method);
             find_solids(head_moved);
+            list_reaching();
             if (fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved)) break;
 #ifdef KEEPS_RATES
             EACH(guide_count) { own(tension) = 0.0; } // This one was led to nothing.

@@ -44,12 +44,12 @@ static struct loops loops_of_methods(const struct hair_sim* sim)
 {
     uint32_t     tried = sim->solver == HAIR_SOLVER_FOLLOW ? 0 : TRIED, predicted = tried + 1;
     uint32_t     curved = hair_sim_is_curved(sim) ? 1 : 0, tied = sim->ties.count > 0;
-    uint32_t     met = hair_sim_contacts(sim) > 0 ? 2 : 0, stiff = stiff_steps(sim);
+    uint32_t     met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
-    loops.over         = predicted * (8 + tied + met + (curved ? 7 : 2));
+    loops.over         = predicted * (8 + tied + 3 * met + (curved ? 7 : 2));
     loops.rows         = predicted * curved;
     loops.along        = predicted * 2;
-    loops.over += tried * (LOOKS * (3 + tied) + STEPS * 4 + stiff * (curved ? 6 : 3));
+    loops.over += tried * (LOOKS * (3 + tied + met) + STEPS * 4 + stiff * (curved ? 6 : 3));
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
     return loops;
