@@ -80,10 +80,10 @@ static void write_round(const struct hair_guide* guide, uint32_t block, struct b
             (hair_vec4){(float)a.m[2 * r], (float)a.m[2 * r + 1], (float)c.m[2 * r], (float)c.m[2 * r + 1]};
 }
 
-static double least_heard(double substep)
+static double least_heard(double substep, int is_free)
 {
     double ratio = 240 * substep;
-    return HEARD * fmin(ratio * ratio * ratio, 1);
+    return is_free ? 0 : HEARD * fmin(ratio * ratio * ratio, 1); // What is free flies on.
 }
 
 // By how much displacements d_j change d_i = a r_j / D_i, with r_j = D_j d_j.
@@ -124,6 +124,13 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
     }
     for (uint32_t b = 0; b < count; ++b)
         write_round(guide, b, inverse(row[round % 2][b].own), none, last + (size_t)round * vertices);
+    // Where others go on nothing is left out for it that is not left out for it alone.
+    for (uint32_t n = heard; n < round; ++n) {
+        size_t from = (size_t)n * vertices + guide->first;
+        memset(out + from, 0, guide->count * sizeof *out);
+        memcpy(last + from + vertices, last + (size_t)heard * vertices + guide->first,
+               guide->count * sizeof *last);
+    }
     return heard;
 }
 
@@ -140,9 +147,10 @@ uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const
     uint32_t rounds = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (!(rod[guides[i].first].factor.x > 0)) continue;
-        uint32_t own =
-            reduce_guide(&guides[i], rod + guides[i].first, vertices, least_heard(substep), out, last);
-        rounds = own > rounds ? own : rounds;
+        const struct hair_rod* first = rod + guides[i].first;
+        double                 least = least_heard(substep, first->segment.y > 0);
+        uint32_t               own   = reduce_guide(&guides[i], first, vertices, least, out, last);
+        rounds                       = own > rounds ? own : rounds;
     }
     for (uint32_t i = 0; i < count; ++i) { // Of a guide with fewer after those that it has.
         uint32_t own  = hair_rods_rounds(guides[i].count) - 1;
