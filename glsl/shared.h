@@ -215,6 +215,7 @@ typedef uint32_t hair_uint;
 #define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,
 #define HAIR_FEW_SOLIDS 16         // of them as many as solvers of rods look at one by one: grids are faster for more
 #define HAIR_CELL_SOLIDS 64        // and in a cell of the grid where it has not
+#define HAIR_CONTACT_ROUNDS 4000   // of a substep's loops over these, where a thread counts them: see lib/sim/rounds.c
 #define HAIR_CONTACT_TEXELS 13
 #define HAIR_MEMBER_NUMBER 1048575u // of a member of a cell: which hair_contact,
 #define HAIR_MEMBER_WALKED 16777216u // and whether it is no sphere or capsule,

@@ -49,6 +49,19 @@ void list_reaching()
 void list_reaching() {}
 #endif
 
+// Rounds that a thread of a software rasteriser may yet go from solid to solid in a substep, of the few that it may go in all:
+// see lib/sim/rounds.c. Without any left each vertex leaves the solid it is deepest in, and the strand is led.
+#if defined(HAIR_THREAD_PER_GUIDE) && defined(HAIR_ANY)
+uint rounds_left;
+void grant_rounds() { rounds_left = HAIR_CONTACT_ROUNDS; }
+void take_rounds(uint count) { rounds_left -= min(count, rounds_left); }
+bool has_rounds() { return rounds_left > 0u; }
+#else
+void grant_rounds() {}
+void take_rounds(uint count) {}
+bool has_rounds() { return true; }
+#endif
+
 // How deep a vertex may be; and how far it comes out in a substep if it was deeper.
 vec2 granted_to(uint i)
 {

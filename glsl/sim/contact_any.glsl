@@ -34,6 +34,7 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
     is_out = false;
     if (solids == uvec2(0u)) return 0u;
+    take_rounds(uint(bitCount(left.x) + bitCount(left.y)) + 2u);
     left &= ~look_at_cached(i, solids, owed, end, way, most, was_most, depth, from, around);
     bool  cached = from != uvec2(0u), all_cached = left == uvec2(0u);
     uvec2 at = first_of(left), after;
@@ -107,7 +108,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
     uvec2 owed = kept, tried;
     uint  pushed = 1u;
     bool  is_out;
-    for (uint n = 0u; n < ROUNDS && pushed > 0u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
+    for (uint n = 0u; n < ROUNDS && pushed > 0u && (n == 0u || has_rounds()); ++n) { // In a loop, so that a compiler need not make so much of it twice.
         vec3 end = start + made.d - head_moved;
         tried    = enough(i, start, end);
         if (n == 0u) solids = tried | kept;
@@ -119,6 +120,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
         pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, is_out);
 #ifdef HAIR_BODIES
         EACH_BIT(bodies) {
+            take_rounds(BODY_STEPS + 2u);
             uint  k = member_at(own(members), at) & HAIR_MEMBER_NUMBER;
             vec3  way = made.d - head_moved, normal, surface;
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {

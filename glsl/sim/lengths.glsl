@@ -167,7 +167,7 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
         } else {
             measure(tolerance);
             // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-            if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS) return !broken;
+            if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS || !has_rounds()) return !broken;
             owed = false;
             correct_lengths(method, n);
         }

@@ -192,6 +192,7 @@ void main()
         place_root(params.substep[s].rotation, params.substep[s].displacement.w);
         root_moved = root_now - root_then + head_moved;
 
+        grant_rounds();
         bool waits = own_method == SHAKE && known > 1.0;
         int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
         for (;; ++method) {

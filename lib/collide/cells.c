@@ -5,7 +5,7 @@
 
 uint32_t hair_member_rounds(uint32_t member)
 {
-    return member & HAIR_MEMBER_WALKED ? WALK : 2;
+    return member & HAIR_MEMBER_WALKED ? WALK : 0;
 }
 
 // Room ------------------------------------------------------------------------------------------------------

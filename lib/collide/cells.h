@@ -12,7 +12,7 @@ struct hair_cells_desc {
     float    give;        // m
     float    margin;      // m
     float    share_start; // of the step that has been done, may be below 0: solids move from there to 1
-    uint32_t most_rounds; // of a list together: see hair_member_rounds
+    uint32_t most_rounds; // of walks in a list together: see hair_member_rounds
 };
 
 struct hair_cell_bounds {
@@ -34,7 +34,7 @@ struct hair_cells {
     hair_vec3                lower; // corner, m
     float                    size;  // of a cell, m
     uint32_t                 cells[3];
-    uint32_t                 rounds, longest; // of the worst list, and solids in the longest
+    uint32_t                 rounds, longest; // of walks in the worst list, and solids in the longest
     uint32_t                 left_out;        // solids that are missing in some list
 };
 
@@ -48,7 +48,7 @@ hair_result hair_cells_list(const hair_host* host, struct hair_cells* cells,
                             const struct hair_cells_desc* desc, int* changed);
 void        hair_cells_free(const hair_host* host, struct hair_cells* cells);
 
-// How often loops go round at most to get out of a solid, by half of what all is.
+// How often loops go round at most to get out of a solid that is walked through, beside once to look at it.
 uint32_t hair_member_rounds(uint32_t member);
 
 #endif

@@ -7,7 +7,7 @@
 #define MOST_GIVE 0.1f  // m
 #define LOOSE 1.05f     // hair may stretch a little
 #define FARTHEST 1e4f   // m: as glsl/sim/rod.glsl has it
-#define MOST_ROUNDS 630 // of a list on a software rasteriser: see rounds_of_contact in rounds.c
+#define MOST_ROUNDS 630 // of walks in a list on a software rasteriser: see rounds_of_list in rounds.c
 
 static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, float share_start)
 {

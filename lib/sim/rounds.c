@@ -3,7 +3,8 @@
 // llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
 // nothing. So it is counted at the worst: methods are tried with all their steps, and fail; each vertex is in reach of all
 // solids. Of eight guides, each a thread's, all go round for as long as one of them does. A loop that nobody enters goes
-// round once.
+// round once. Only rounds from solid to solid of a list would be too many so, though there are few as a rule: a thread
+// counts those itself, and stops at HAIR_CONTACT_ROUNDS.
 #include "lib/sim/sim.h"
 
 #define TRIED 2u // methods, before a last one follows the leader. It may be some guides' second.
@@ -14,10 +15,14 @@
 #define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
 #define TIED_ENDS 30   // and what begins and ends these, for each tie
 #define CACHED 16 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
-#define HALVINGS 10    // of a work group's vertices, and what ends them: cyclic reduction
-#define AT_ONCE 8u     // guides, where each is a thread's
-#define IDLE 500       // of loops that go over methods and steps, and of those that nobody enters,
-#define IDLE_GROUP 250 // more of a work group, and what it sums up
+#define MOST_LOOKS 20u  // at solids of a list: for each method tried, and two of what is led. Each goes
+#define TIMES 6u        // through it, ROUNDS of glsl/sim/contact_any.glsl, and
+#define TIMES_WALKED 2u // to those that are walked through
+#define LEAST_LOOKS 4u  // of a thread that has no rounds left, each once through
+#define HALVINGS 10     // of a work group's vertices, and what ends them: cyclic reduction
+#define AT_ONCE 8u      // guides, where each is a thread's
+#define IDLE 500        // of loops that go over methods and steps, and of those that nobody enters,
+#define IDLE_GROUP 250  // more of a work group, and what it sums up
 
 // Of one substep, loops over a strand.
 struct loops {
@@ -69,13 +74,20 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
     }
 }
 
+// Of a vertex that looks up solids in a list, which is gone through twice for each method and the last when it is made.
+static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
+{
+    const struct hair_cells* cells = &sim->contacts.cells;
+    uint32_t                 made  = 2 * (TRIED + 1) * cells->longest;
+    if (by_thread) return made + LEAST_LOOKS * (cells->longest + cells->rounds + 4);
+    return made + MOST_LOOKS * (TIMES * (cells->longest + 2 + CACHED) + TIMES_WALKED * cells->rounds);
+}
+
 // Of a vertex, in all tries of a substep.
 static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
-    const struct hair_cells* cells  = &sim->contacts.cells;
-    uint32_t                 solids = hair_sim_contacts(sim);
-    uint32_t                 others = solids - lesser(sim->solids.capsules, solids);
-    if (sim->contacts.any) return 66 * (cells->rounds + 20 + (by_thread ? 0 : CACHED)) + 6 * cells->longest;
+    uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
+    if (sim->contacts.any) return rounds_of_list(sim, by_thread);
     return solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
 }
 
@@ -83,13 +95,15 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
 {
     uint32_t around    = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
     uint32_t each      = rounds_of_contact(sim, by_thread);
-    uint32_t look      = sim->contacts.any ? 0 : 6 * (hair_sim_contacts(sim) + 1); // By guide and root.
+    uint32_t at_root   = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
+    uint32_t look      = (TRIED + 1) * at_root; // Of few solids also by guide.
+    uint32_t spare     = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
     struct loops loops = loops_of_methods(sim);
     add_leader(sim, by_thread, &loops);
     loops.over += 4; // It is loaded, taken for true or put back, and stored.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)
-        return around * (loops.over + 2 * loops.rows + loops.along + each) + loops.ends + look + IDLE;
+        return around * (loops.over + 2 * loops.rows + loops.along + each) + loops.ends + look + spare + IDLE;
     return 2 * loops.over + HALVINGS * loops.rows + around * loops.along + loops.ends + each + look + IDLE +
            IDLE_GROUP;
 }

@@ -174,8 +174,14 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
     for (uint32_t c = 0; c < cells.cells[0]; ++c)
         for (uint32_t i = cells.entry[c]; i + 1 < cells.entry[c + 1]; ++i)
             assert_true(cells.entry[i] < cells.entry[i + 1]);
+    for (uint32_t i = 0; i < 500; ++i) { // Of what is walked through fewer are kept.
+        given[i].shape = HAIR_SHAPE_BOX;
+        for (int k = 0; k < 3; ++k) given[i].size[k] = 0.001f;
+    }
+    set(500);
+    hair_solids_settle(&solids);
     struct hair_cells_desc few = usual;
-    few.most_rounds            = 40;
+    few.most_rounds            = 250;
     fill(&few);
     assert_int_equal(cells.longest, 20);
 }
