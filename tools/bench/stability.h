@@ -5,12 +5,13 @@
 #include "tools/bench/living.h"
 
 #define BENCH_MOST_STRETCH 0.02 // Under any stress, of the solvers of rods.
+#define BENCH_MOST_SOLIDS 128
 
 struct bench_watch {
     struct bench_living*           living;
     hair_physics                   calm; // of the time after the stress; the scene's own to begin with
     struct hair_reference_rod_pose head;
-    hair_solid                     solids[4];
+    hair_solid                     solids[BENCH_MOST_SOLIDS];
     uint32_t                       solid_count;
     bool                           had_solids;
     double                         spared; // s from now: depth in solids does not count yet

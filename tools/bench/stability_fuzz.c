@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define SEED 20100601u
+#define FEWEST 17 // solids of a crowd: from so many on they are looked up in a grid
 
 // SplitMix64 (Steele, Lea, Flood 2014).
 static uint64_t draw(uint64_t* state)
@@ -136,6 +137,28 @@ static hair_solid any_solid(uint64_t* state)
     return solid;
 }
 
+// Of any shape but forms, small, a crowd of them where the hair is.
+static hair_solid any_small_solid(uint64_t* state)
+{
+    hair_solid solid = any_solid(state);
+    solid.shape      = (hair_shape)one_of(state, HAIR_SHAPE_PLANE);
+    solid.friction   = any(state, 1, 0, 100);
+    solid.rounding   = one_of(state, 3) ? 0 : (float)even(state, 0, 0.01);
+    for (int k = 0; k < 3; ++k) solid.size[k] = (float)exp(even(state, log(0.002), log(0.03)));
+    return solid;
+}
+
+// After the first few, which scenes have without it. They creep, and jump now and then.
+static void any_crowd(uint64_t* state, struct bench_watch* watch, uint32_t few, uint32_t count)
+{
+    for (uint32_t s = few; s < few + count; ++s) {
+        hair_solid* solid = &watch->solids[s];
+        if (s >= watch->solid_count || one_of(state, 16) == 0) *solid = any_small_solid(state);
+        for (int k = 0; k < 3; ++k) solid->position[k] += (float)even(state, -0.005, 0.005);
+    }
+    watch->solid_count = few + count;
+}
+
 // Mostly what frames take; a second seldom, which is many substeps.
 static double any_dt(uint64_t* state)
 {
@@ -163,10 +186,13 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
         head->position[k] = fmin(fmax(head->position[k] + even(state, -far, far), -10), 10);
 }
 
+// One scene of eight has a crowd of solids, by draws of its own: the others are what they are without any.
 static bool any_steps(uint64_t* state, struct bench_watch* watch)
 {
     hair_instance* hair  = watch->living->hair;
-    uint32_t       count = 24 + one_of(state, 12);
+    uint32_t       count = 24 + one_of(state, 12), few = 0;
+    uint64_t       own   = ~*state;
+    uint32_t       crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_SOLIDS - FEWEST - 4);
     float          matrix[16];
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
@@ -175,9 +201,10 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
             any_physics(state, &watch->calm, &wind);
             if (hair_set_physics(hair, &watch->calm) || hair_set_wind(hair, &wind)) return false;
         }
-        if (one_of(state, 8) == 0) watch->solid_count = one_of(state, 5);
-        for (uint32_t s = 0; s < watch->solid_count; ++s)
+        if (one_of(state, 8) == 0) few = one_of(state, 5);
+        for (uint32_t s = 0; s < few; ++s)
             if (one_of(state, 2)) watch->solids[s] = any_solid(state);
+        any_crowd(&own, watch, few, crowd);
         if (one_of(state, 64) == 0 && hair_reset(hair)) return false;
         bench_matrix(&watch->head, matrix);
         if (one_of(state, 32) == 0 && hair_teleport(hair, matrix)) return false;
