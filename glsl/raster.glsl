@@ -6,8 +6,6 @@
 layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
 
-#define HAIR_NOBODY 0xffffffffu
-
 // In the window, times w: the middle at both ends, and from there to a side.
 struct raster_ribbon {
     vec4 middle[2], side[2];

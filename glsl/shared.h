@@ -210,6 +210,7 @@ typedef uint32_t hair_uint;
 #define HAIR_RASTER_SEGMENTS 16      // of a work group
 #define HAIR_RASTER_TILE 32          // pixels along each axis that are composed together, if there is hair in any
 #define HAIR_RASTER_PIECE 32         // pixels of a row that a thread goes over
+#define HAIR_NOBODY 0xffffffffu      // what there is of a sample where nothing is seen
 #define HAIR_COUNT_THREADS 256       // of the work group that counts the strands that are drawn
 #define HAIR_STEP_SUBSTEPS 64        // of one dispatch
 #define HAIR_STEP_SOLIDS 64        // of one dispatch that has them in its parameters,

@@ -18,5 +18,5 @@ void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     if (i < raster.tiles) tile[i] = 0u;
-    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(0xffffffffu);
+    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(HAIR_NOBODY);
 }

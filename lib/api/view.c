@@ -180,9 +180,8 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     int unseen = is_out_of_view(hair, view);
     ++asked->views[kind];
     asked->unseen[kind] += (uint32_t)unseen;
-    hair_path path = hair_draw_path(&hair->draw, view);
-    asked->listed |= !unseen && path != HAIR_PATH_TESSELLATION;
-    asked->expanded |= !unseen && hair_draw_expands(path, view);
+    asked->listed |= !unseen && view->path != HAIR_PATH_TESSELLATION;
+    asked->expanded |= !unseen && hair_draw_expands(view);
     asked->hides |= !unseen && hair_draw_hides(view);
     return !unseen && hair->draw.look.density > 0;
 }
@@ -197,6 +196,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = hair_check_lent(hair, &own);
     if (!result) result = check_framebuffer(hair);
+    if (!result) own.path = hair_draw_path(&hair->draw, &own);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
     hair_draw_tidy(&hair->draw, hair->ledger.number);
@@ -244,6 +244,7 @@ hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* r
     hair_result     result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
+    if (view) own.path = hair_draw_path(&hair->draw, &own);
     hair_gl_enter(gl);
     hair_gl_begin_ahead(gl);
     result = hair_sim_need_programs(&hair->sim);

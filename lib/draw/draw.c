@@ -124,7 +124,6 @@ void hair_draw_patches(struct hair_draw* draw)
 // What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded or staged with before, 0: nothing.
 struct drawn {
     hair_gl_pass            pass, shade_pass;
-    hair_path               path;
     GLuint                  program, shade;
     int                     hides; // patches may be hidden, as `hide` has it
     struct hair_hide_params hide;
@@ -191,21 +190,20 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
 }
 
 // Ribbons of vertices that are there take no geometry shader, but each twice.
-static int is_paired(const struct hair_draw* draw, const hair_view* view)
+static int is_paired(const hair_view* view)
 {
-    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) &&
-           hair_draw_path(draw, view) == HAIR_PATH_EXPANDED;
+    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;
 }
 
 // The pass that draws; and the one that shades or stages vertices before it, 0: there is none.
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
-    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[hair_draw_path(draw, view)];
-    if (is_paired(draw, view)) row = HAIR_GL_PAIRED;
+    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->path];
+    if (is_paired(view)) row = HAIR_GL_PAIRED;
     *shade = 0;
-    if (hair_draw_is_shaded(draw, view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
-    if (hair_draw_stages(hair_draw_path(draw, view), view)) *shade = hair_gl_with(HAIR_GL_STAGE, features);
+    if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
+    if (hair_draw_stages(view)) *shade = hair_gl_with(HAIR_GL_STAGE, features);
     if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
     return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
 }
@@ -214,7 +212,6 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
                                 struct drawn* out)
 {
     hair_result result = HAIR_OK;
-    out->path          = hair_draw_path(draw, view);
     out->pass          = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
     if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
     if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
@@ -226,7 +223,6 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
                                     struct hair_gl_shader* shader, int may_meet)
 {
     struct hair_gl* gl      = draw->gl;
-    hair_path       path    = hair_draw_path(draw, view);
     int             meets   = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
     int             lit     = hair_draw_lit(draw, view) > 0;
     hair_gl_pass    hides   = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
@@ -234,10 +230,11 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     hair_gl_pass    strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
     hair_result     result  = HAIR_OK;
     GLuint          program;
-    if (path != HAIR_PATH_TESSELLATION) result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
+    if (view->path != HAIR_PATH_TESSELLATION)
+        result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
-    if (!result && path == HAIR_PATH_COMPUTED)
+    if (!result && view->path == HAIR_PATH_COMPUTED)
         result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
@@ -247,7 +244,7 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
         if (!result)
             result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
         if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
-        if (!result && (lit || hair_draw_expands(path, view)))
+        if (!result && (lit || hair_draw_expands(view)))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
         if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
     }
@@ -267,12 +264,12 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
                            const struct hair_draw_params* params, struct drawn* with)
 {
     struct hair_gl*   gl       = draw->gl;
-    int               listed   = with->path != HAIR_PATH_TESSELLATION;
-    int               computed = with->path == HAIR_PATH_COMPUTED;
+    int               listed   = view->path != HAIR_PATH_TESSELLATION;
+    int               computed = view->path == HAIR_PATH_COMPUTED;
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
-    if (hair_draw_expands(with->path, view)) hair_draw_bind_expanded(draw);
-    if (hair_draw_stages(with->path, view))
+    if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
+    if (hair_draw_stages(view))
         hair_draw_stage(draw, with->shade_pass, with->shade);
     else if (with->shade_pass)
         hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
@@ -289,7 +286,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     else if (computed)
         hair_draw_compose(draw, &with->raster);
     else if (listed)
-        hair_draw_listed(draw, is_paired(draw, view));
+        hair_draw_listed(draw, is_paired(view));
     else
         hair_draw_patches(draw);
     if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
@@ -316,14 +313,13 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-    if (!result && out->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
-    if (!result && out->path != HAIR_PATH_TESSELLATION && out->path != HAIR_PATH_COMPUTED)
-        result = hair_draw_make_indices(draw, is_paired(draw, view));
+    if (!result && view->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
+    if (!result && view->path != HAIR_PATH_TESSELLATION && view->path != HAIR_PATH_COMPUTED)
+        result = hair_draw_make_indices(draw, is_paired(view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
-    if (!result && hair_draw_expands(out->path, view)) result = hair_draw_need_expanded(draw, smooth, NULL);
-    if (!result && out->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
-    if (!result && out->shade_pass && !hair_draw_stages(out->path, view))
-        result = hair_draw_need_shaded(draw);
+    if (!result && hair_draw_expands(view)) result = hair_draw_need_expanded(draw, smooth, NULL);
+    if (!result && view->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
+    if (!result && out->shade_pass && !hair_draw_stages(view)) result = hair_draw_need_shaded(draw);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
@@ -335,7 +331,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
     int          guides = view->pass == HAIR_PASS_GUIDES;
-    struct drawn with   = {.path = HAIR_PATH_TESSELLATION};
+    struct drawn with   = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =
         guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
@@ -344,7 +340,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
-    if (!guides && with.path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
+    if (!guides && view->path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
     params.textured   = (uint32_t)is_textured(draw, view);
     params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);

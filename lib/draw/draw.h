@@ -138,12 +138,13 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params, int hides);
 void hair_draw_listed(struct hair_draw* draw, int paired);
 
-// path.c: look the driver up; the path that `view` is drawn by; whether it wants shares of pixels.
+// path.c: look the driver up; the path that `view` is drawn by, found once, since GL may be asked for its viewport: all else
+// reads it from view->path.
 void      hair_draw_find_fastest(struct hair_draw* draw);
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
-// Whether a path takes vertices of all followers for `view`, that are written once; or has its own.
-int hair_draw_expands(hair_path path, const hair_view* view);
-int hair_draw_stages(hair_path path, const hair_view* view);
+// Whether the path takes vertices of all followers, that are written once; or has its own. Whether a view wants shares of pixels,
+int hair_draw_expands(const hair_view* view);
+int hair_draw_stages(const hair_view* view);
 int hair_draw_is_shared(const hair_view* view);
 int hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
 // lights.c: whether it has maps of bodies that block lights.
@@ -188,8 +189,7 @@ void        hair_draw_free_expanded(struct hair_draw* draw);
 void        hair_draw_bind_expanded(struct hair_draw* draw);
 
 // shaded.c: whether a view's vertices are shaded before they are drawn; room for that; and do it, with everything bound that draws.
-int         hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
-                                const struct hair_gl_shader* shader);
+int         hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
 hair_result hair_draw_need_shaded(struct hair_draw* draw);
 void        hair_draw_free_shaded(struct hair_draw* draw);
 void        hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);

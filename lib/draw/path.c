@@ -73,14 +73,14 @@ static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view*
     return view->pass == HAIR_PASS_COLOR ? HAIR_PATH_EXPANDED : HAIR_PATH_TESSELLATION;
 }
 
-int hair_draw_expands(hair_path path, const hair_view* view)
+int hair_draw_expands(const hair_view* view)
 {
-    return path == HAIR_PATH_EXPANDED || (path == HAIR_PATH_COMPUTED && !view->lod);
+    return view->path == HAIR_PATH_EXPANDED || (view->path == HAIR_PATH_COMPUTED && !view->lod);
 }
 
-int hair_draw_stages(hair_path path, const hair_view* view)
+int hair_draw_stages(const hair_view* view)
 {
-    return path == HAIR_PATH_COMPUTED && view->lod;
+    return view->path == HAIR_PATH_COMPUTED && view->lod;
 }
 
 // Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are

@@ -1,11 +1,10 @@
 // shaded.c - vertices that are expanded, shaded by compute for one view before it draws them.
 #include "lib/draw/draw.h"
 
-int hair_draw_is_shaded(const struct hair_draw* draw, const hair_view* view,
-                        const struct hair_gl_shader* shader)
+int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
 {
     return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
-           hair_draw_expands(hair_draw_path(draw, view), view);
+           hair_draw_expands(view);
 }
 
 hair_result hair_draw_need_shaded(struct hair_draw* draw)
