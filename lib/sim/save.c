@@ -138,10 +138,7 @@ static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t v
     hair_walk_uint(c, "number of substeps since the crowd was looked at", &crowd->beat, MOST_BEAT);
     if (crowd->beat == 0 || c->result) return;
     hair_walk_buffer(c, "crowd's accelerations", crowd->push, size);
-    for (size_t i = 0; i < size && !crowd->push && !c->result; i += 4) {
-        float number = 0;
-        hair_walk_float(c, "crowd's accelerations", &number, HAIR_MOST_STATE);
-    }
+    if (!crowd->push) hair_walk_over(c, "crowd's accelerations", size);
 }
 
 // Where a skinned scalp is, which hair_sim_load has made ready for, and where it has roots.
@@ -204,10 +201,7 @@ static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
     int    own  = fluid->gl && cells == fluid->desc.cells && side == fluid->desc.side;
     size_t size = 12 * (size_t)(cells + 1) * (cells + 1) * (cells + 1);
     if (own && !c->result) hair_walk_buffer(c, "air", fluid->velocity[fluid->now].buffer, size);
-    for (size_t i = 0; i < size && !own && !c->result; i += 4) {
-        float number = 0;
-        hair_walk_float(c, "air", &number, HAIR_MOST_STATE);
-    }
+    if (!own) hair_walk_over(c, "air", size);
     if (c->read) fluid->fresh = !own;
     if (!own) blow->beat = 0;
 }

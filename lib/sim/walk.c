@@ -98,6 +98,14 @@ void hair_walk_vec4(struct hair_walk* c, const char* name, hair_vec4* v, double 
     for (int k = 0; k < 4; ++k) hair_walk_float(c, name, number[k], most);
 }
 
+void hair_walk_over(struct hair_walk* c, const char* name, size_t size)
+{
+    for (size_t i = 0; i < size && !c->result; i += 4) {
+        float number = 0;
+        hair_walk_float(c, name, &number, HAIR_MOST_STATE);
+    }
+}
+
 void hair_walk_buffer(struct hair_walk* c, const char* name, GLuint buffer, size_t size)
 {
     size_t end = c->at + size;

@@ -36,4 +36,7 @@ void hair_walk_same(struct hair_walk* c, const char* name, double value);
 // Floats, whatever they are to a solver. A buffer that the instance has no use for is 0.
 void hair_walk_buffer(struct hair_walk* c, const char* name, GLuint buffer, size_t size);
 
+// As many bytes of floats that the instance has no place for.
+void hair_walk_over(struct hair_walk* c, const char* name, size_t size);
+
 #endif

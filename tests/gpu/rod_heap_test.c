@@ -7,6 +7,7 @@
 #include "lib/api/api.h"
 
 #define HEAP 60
+#define FEWER 20
 #define HEAP_GUIDES 8
 #define HEAP_VERTICES (HEAP_GUIDES * 32)
 #define HEAP_FRAMES 96
@@ -34,8 +35,8 @@ static void place_heap(hair_solid* heap, int frame)
 }
 
 // Hair falls over it, or begins inside, and where it is after each frame is written down. Returns how deep it ever was.
-static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_shape shape, int inside,
-                           int guides, int frames, float* track)
+static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_shape shape, int balls,
+                           int inside, int guides, int frames, float* track)
 {
     static hair_solid        heap[HEAP];
     hair_physics             physics = hair_test_loose(0.3f);
@@ -52,10 +53,10 @@ static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_sh
     for (int frame = 0; frame < frames; ++frame) {
         place_heap(heap, frame);
         for (int i = 0; i < HEAP; ++i) heap[i].shape = shape;
-        hair_test_set_solids(&living, heap, HEAP);
+        hair_test_set_solids(&living, heap, (uint32_t)balls);
         hair_test_wait(&living, 1);
         hair_test_read_guides(&living);
-        for (int i = 0; i < HEAP && frame <= HEAP_RISES; ++i)
+        for (int i = 0; i < balls && frame <= HEAP_RISES; ++i)
             deepest = fmax(deepest, hair_test_depth(&living, &heap[i]));
         memcpy(track + 3 * HEAP_VERTICES * frame, living.positions, 12 * HEAP_VERTICES);
     }
@@ -71,10 +72,11 @@ static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_sh
 static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
-    for (int n = 0; n < 3; ++n) {
-        hair_mapping mapping = n ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
-        fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[0]);
-        fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[1]);
+    for (int n = 0; n < 4; ++n) {
+        hair_mapping mapping = n % 2 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
+        int          balls   = n == 2 ? FEWER : HEAP; // Of which a thread may look at all.
+        fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[0]);
+        fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[1]);
         if (((struct hair_test*)*state)->context->gl.software) // Which makes one arithmetic of both.
             assert_memory_equal(track[0], track[1], sizeof track[0]);
     }
@@ -86,8 +88,8 @@ static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_gr
     static float track[3 * HEAP_VERTICES * HEAP_FRAMES];
     double       deepest[2];
     for (int n = 0; n < 2; ++n)
-        deepest[n] = fall_on_heap(*state, n ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD, HAIR_SHAPE_SPHERE, 1,
-                                  HEAP_GUIDES, HEAP_FRAMES, track);
+        deepest[n] = fall_on_heap(*state, n ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD, HAIR_SHAPE_SPHERE,
+                                  HEAP, 1, HEAP_GUIDES, HEAP_FRAMES, track);
     assert_true(deepest[0] < 2 * deepest[1]);
 }
 
@@ -96,8 +98,8 @@ static void many_guides_go_as_few_do(void** state)
 {
     enum { MANY = 2056, FRAMES = 8 };
     static float track[2][3 * HEAP_VERTICES * FRAMES];
-    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, 1, HEAP_GUIDES, FRAMES, track[0]);
-    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, 1, MANY, FRAMES, track[1]);
+    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, HEAP, 1, HEAP_GUIDES, FRAMES, track[0]);
+    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, HEAP, 1, MANY, FRAMES, track[1]);
     if (((struct hair_test*)*state)->context->gl.software)
         assert_memory_equal(track[0], track[1], sizeof track[0]);
 }
