@@ -7,6 +7,7 @@
 // first steps correct them so, the others, of what is left, by M^-1, which is exact sooner. Of strands that are curved
 // at rest they are those of a conjugate gradient (Fletcher and Reeves 1964), and go on while that has farther to go.
 #include "sim/contact.glsl"
+#include "sim/past.glsl"
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
 #endif
@@ -147,8 +148,11 @@ void correct_lengths(int method, uint n)
     MEET;
     EACH(guide_count) {
         vec3 force = by_segments(i);
-        if (stiffly) { PUT(moved, own(slack) > 0.0 ? force : vec3(0.0)); }
-        else {
+        if (stiffly) {
+            vec3 by_solids = n == 0u ? pressed(i, method) : vec3(0.0);
+            own(wanted) -= by_solids;
+            PUT(moved, own(slack) > 0.0 ? force + by_solids / own(slack) : vec3(0.0));
+        } else {
             own(wanted) += own(slack) * force;
             FIND_TENSION(1.0);
         }

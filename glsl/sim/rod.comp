@@ -16,7 +16,6 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
 #include "sim/predict.glsl"
 #include "sim/lengths.glsl"
-#include "sim/past.glsl"
 #include "sim/ride.glsl"
 
 // Where SHAKE fails a strand is kinked, and swings from vertex to vertex as no explicit method can follow: it would fail
