@@ -10,10 +10,9 @@ SHARED(vec4, section); // frame of segment i: y along it
 
 void bend_straight()
 {
-    vec3 root_edge = rotate(scalp, vec3(0.0, 1.0, 0.0));
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge);
-        if (i == 0u) before = root_edge;
+        if (i == 0u) before = clamp_way;
         PUT(lever, i + 1u < guide_count ? own(strain).w * (GET(edge) - before) : vec3(0.0));
     }
     MEET;

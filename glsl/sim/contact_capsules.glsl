@@ -29,26 +29,35 @@ vec3 from_axis(vec3 position, capsule solid)
 // How far it moves in the substep, at most.
 float moves_of(uint k) { return SOLID_SPIN(k).w * (share_now - share_then); }
 
-// At the start and at the end of the substep: solid_then, solid_now. Threads that have a guide together work it out once, each
-// for another solid; share_solid() and then SOLIDS_MEET come before all else.
+// At the start and at the end of the substep: solid_then, solid_now. Threads that have a guide together work out each moment
+// once, each for another solid: what share_solid() shares is seen after SOLIDS_MEET, and as solid_then() in the next substep.
 #if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
 #define SOLIDS_MEET
-void    share_solid(uint k, capsule then, capsule now) {}
+void    begin_solids() {}
+void    next_solids() {}
+void    share_solid(uint k, capsule now) {}
 capsule solid_then(uint k) { return solid_at(k, share_then); }
 capsule solid_now(uint k) { return solid_at(k, share_now); }
 #else
 #define SOLIDS_MEET synchronise()
-shared vec4 shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS];
+shared vec4 shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS]; // the two moments, in turn
+uint moment; // where that of the substep's end is
 
-void share_solid(uint k, capsule then, capsule now)
+void share_solid(uint k, capsule now)
 {
-    shared_start[2u * k]      = vec4(then.start, then.radius);
-    shared_axis[2u * k]       = vec4(then.axis, then.square);
-    shared_start[2u * k + 1u] = vec4(now.start, now.radius);
-    shared_axis[2u * k + 1u]  = vec4(now.axis, now.square);
+    shared_start[moment + k] = vec4(now.start, now.radius);
+    shared_axis[moment + k]  = vec4(now.axis, now.square);
 }
 
+// What the first substep begins with.
+void begin_solids()
+{
+    moment = 0u;
+    for (uint k = lane; k < params.solids; k += lanes) share_solid(k, solid_at(k, share_now));
+}
+void next_solids() { moment = uint(HAIR_FEW_SOLIDS) - moment; }
+
 capsule shared_solid(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
-capsule solid_then(uint k) { return shared_solid(2u * k); }
-capsule solid_now(uint k) { return shared_solid(2u * k + 1u); }
+capsule solid_then(uint k) { return shared_solid(uint(HAIR_FEW_SOLIDS) - moment + k); }
+capsule solid_now(uint k) { return shared_solid(moment + k); }
 #endif

@@ -23,17 +23,21 @@ void find_solids(vec3 head_moved)
     uint  near    = 0u;
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
     if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
-    SOLIDS_MEET; // Who still reads those of the substep before?
+    sunk = 0.0;
     for (uint k = lane; k < params.solids; k += lanes) {
         capsule now = solid_at(k, share_now);
-        share_solid(k, solid_at(k, share_then), now);
-        if (length(from_axis(root_now, now)) < now.radius + longest + moves_of(k)) near |= 1u << k;
+        float   off = length(from_axis(root_now, now)) - now.radius;
+        share_solid(k, now);
+        if (off < longest + moves_of(k)) near |= 1u << k;
+        if ((1u << k & bodies()) == 0u) sunk = max(sunk, -off);
     }
     SOLIDS_MEET;
     near = bits_of_lanes(near);
-    sunk = 0.0;
-    if (!root_is_free)
-        EACH_BIT(near) sunk = max(sunk, root_depth_in(k, (bit & bodies()) != 0u));
+    if (any_of(bvec2(sunk > 0.0, false)).x) sunk = most_of(sunk);
+#ifdef HAIR_BODIES
+    EACH_BIT(near & bodies()) sunk = max(sunk, root_depth_in(k, true));
+#endif
+    if (root_is_free) sunk = 0.0;
     EACH(guide_count) {
         own(reachable) = own(met) = 0u;
         if (own(slack) > 0.0) {
@@ -41,8 +45,9 @@ void find_solids(vec3 head_moved)
             float reach    = 0.02 + length(own(wanted) - head_moved);
             EACH_BIT(near) {
                 capsule solid = solid_now(k);
-                if (length(from_axis(position, solid)) < solid.radius + reach + moves_of(k))
-                    own(reachable) |= bit;
+                vec3    off   = from_axis(position, solid);
+                float   far   = solid.radius + reach + moves_of(k);
+                if (dot(off, off) < far * far) own(reachable) |= bit;
             }
         }
     }

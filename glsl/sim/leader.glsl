@@ -52,7 +52,7 @@ void draw_span(vec4 span, inout vec3 last)
 void draw_strand()
 {
     float number = rod[guide_first].factor.w;
-    vec3  last   = rotate(scalp, vec3(0.0, 1.0, 0.0));
+    vec3  last   = clamp_way;
     uint  from   = 0u;
     for (bool more = number > 0.0; more; number += 1.0) {
         vec4 span = tie_span(number);
@@ -71,7 +71,7 @@ void draw_strand()
 void draw_strand()
 {
     uint tip  = guide_count - 1u, rounds = heavy ? HEAVY_ROUNDS : 0u;
-    vec3 goal = GET_AT(moved, tip), last = rotate(scalp, vec3(0.0, 1.0, 0.0));
+    vec3 goal = GET_AT(moved, tip), last = clamp_way;
     for (uint n = 0u;; ++n) {
         draw_on(0u, tip, 1.0, last);
         if (n == rounds) break;

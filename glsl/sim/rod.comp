@@ -169,12 +169,14 @@ void main()
     guide_count  = guide[guide_number].count;
     guide_length = guide[guide_number].arc_length;
     root_at_rest = rest[guide_first].position.xyz;
+    clamp_at_rest = rotate(guide[guide_number].root_frame, vec3(0.0, 1.0, 0.0));
     place_root(params.rotation_start, params.share_start);
     root_then = root_now;
 #ifdef HAIR_TIED
     head_now  = params.rotation_start;
 #endif
     load();
+    if (SOLIDS) begin_solids();
 
     for (uint s = 0u; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
@@ -192,6 +194,7 @@ void main()
         root_moved = root_now - root_then + head_moved;
 
         grant_rounds();
+        if (SOLIDS) next_solids();
         bool waits = own_method == SHAKE && known > 1.0;
         int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
         for (;; ++method) {

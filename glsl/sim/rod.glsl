@@ -17,6 +17,7 @@ OWN(float, rest_length); // of segment i; 0 for the tip
 OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a tie
 OWN(vec3, wanted);       // displacement if no solid were in the way
 OWN(vec3, displacement); // over the last substep
+OWN(vec3, between);      // from vertex i to the next, at the start of the substep
 OWN(float, excess);      // of length, of segment i
 
 // The guide, the same for all its vertices.
@@ -27,7 +28,8 @@ vec3 root_then;  // from the head's origin, at the start of the substep,
 vec3 root_now;   // and at its end
 vec3 root_moved; // over it
 vec4 turn_now;   // of the head
-vec4 scalp;      // frame that clamps the first segment
+vec3 clamp_at_rest, clamp_way; // that clamps the first segment: in groom space, and now
+vec4 scalp;      // the same, as a frame, of what is curved
 bool root_is_free;
 bool loose, broken; // what measure() finds
 
@@ -51,8 +53,9 @@ void find_edges()
     MEET;
     give_length();
     EACH(guide_count - 1u) {
-        vec3  to = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
-        float l  = length(to);
+        own(between) = AFTER_VEC3(place) - GET(place);
+        vec3  to     = own(between) + (AFTER_VEC3(moved) - GET(moved));
+        float l      = length(to);
         PUT(edge, to / l);
         own(excess) = l - own(rest_length);
     }
