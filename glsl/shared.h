@@ -42,7 +42,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HISTORY 4 // hair_history[]  per guide vertex
 #define HAIR_BIND_MATERIAL                                                                                   \
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
-#define HAIR_BIND_HEALTH 6    // uint[HAIR_HEALTH_COUNT], of every solver
+#define HAIR_BIND_HEALTH 6    // uint[], of every solver: HAIR_HEALTH_COUNT counts; then, of those that go in two, HAIR_HEALTH_LISTS
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 // The pass that writes the field has neither guides nor these:
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group
@@ -129,6 +129,8 @@ typedef uint32_t hair_uint;
 #define HAIR_HEALTH_RESET 2
 #define HAIR_HEALTH_TAUT 3
 #define HAIR_HEALTH_COUNT 4
+#define HAIR_FIRST_GUIDES 28 // of a work group of subgroups, in programs that many guides go through first
+#define HAIR_HEALTH_LISTS (HAIR_HEALTH_COUNT + 2) // after how many guides there are on each of two lists, the one of this dispatch
 
 // Uniform buffers.
 #define HAIR_BIND_STEP 0         // hair_step_params
@@ -393,6 +395,8 @@ struct hair_step_params {
     hair_uint vertices; // of all guides
     hair_uint bodies; // a bit for each solid that is no capsule, of HAIR_FEW_SOLIDS
     hair_uint rounds; // of implicit.glsl's reduction, before its last
+    hair_uint list;   // 0 or 1: which of health[]'s is this dispatch's
+    hair_uint unused0, unused1, unused2;
     // Of the grid in which any number of solids are looked up, from the head's origin.
     hair_vec4 cells_lower; // xyz: its corner, m; w: 1 / side of a cell, 1/m
     hair_uint cells_x, cells_y, cells_z;
@@ -401,7 +405,7 @@ struct hair_step_params {
     HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
     HAIR_STRUCT(hair_body) body[HAIR_STEP_SOLIDS];
 };
-HAIR_SIZE(hair_step_params, 224 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
+HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
 
 // What the solvers of rods know of the wind.
 struct hair_wind_params {

@@ -39,8 +39,9 @@ void    share_solid(uint k, capsule now) {}
 capsule solid_then(uint k) { return solid_at(k, share_then); }
 capsule solid_now(uint k) { return solid_at(k, share_now); }
 #else
-#define SOLIDS_MEET synchronise()
-shared vec4 shared_start[2 * HAIR_FEW_SOLIDS], shared_axis[2 * HAIR_FEW_SOLIDS]; // the two moments, in turn
+#define SOLIDS_MEET MEET_TO_VOTE // as find_solids does before it looks at them
+#define MOMENTS uint(2 * HAIR_FEW_SOLIDS)
+shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GUIDES]; // of each guide the two, in turn
 uint moment; // where that of the substep's end is
 
 void share_solid(uint k, capsule now)
@@ -52,12 +53,13 @@ void share_solid(uint k, capsule now)
 // What the first substep begins with.
 void begin_solids()
 {
-    moment = 0u;
+    moment = MOMENTS * guide_of_group;
     for (uint k = lane; k < params.solids; k += lanes) share_solid(k, solid_at(k, share_now));
 }
-void next_solids() { moment = uint(HAIR_FEW_SOLIDS) - moment; }
+uint moment_before() { return 2u * MOMENTS * guide_of_group + uint(HAIR_FEW_SOLIDS) - moment; }
+void next_solids() { moment = moment_before(); }
 
 capsule shared_solid(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
-capsule solid_then(uint k) { return shared_solid(uint(HAIR_FEW_SOLIDS) - moment + k); }
+capsule solid_then(uint k) { return shared_solid(moment_before() + k); }
 capsule solid_now(uint k) { return shared_solid(moment + k); }
 #endif

@@ -38,10 +38,12 @@ void solve_implicit(bool euler) { substitute(euler); }
 // guides mostly.
 void solve_implicit(bool euler)
 {
+#ifndef HAIR_FIRST
     if (euler || uint(reduction.length()) < params.vertices) {
         substitute(euler);
         return;
     }
+#endif
     uint i = lane;
     bool there = i < guide_count;
     uint row_of = there ? guide_first + i : (params.rounds + 1u) * params.vertices, next = there ? params.vertices : 0u;
@@ -51,7 +53,10 @@ void solve_implicit(bool euler)
         vec4 m    = reduction[row_of];
         uint up = pair - reach, down = pair + reach;
         lend(r);
-        r += m.x * lent_by(up) + m.y * lent_by(up + 1u) + m.z * lent_by(down) + m.w * lent_by(down + 1u);
+        r = m.x * lent_by(up) + r; // One after the other, so that each is one instruction.
+        r = m.y * lent_by(up + 1u) + r;
+        r = m.z * lent_by(down) + r;
+        r = m.w * lent_by(down + 1u) + r;
     }
     vec4 m = reduction[row_of];
     lend(r);

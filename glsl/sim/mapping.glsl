@@ -10,6 +10,7 @@
 //   SHARED   what its neighbours see too: seen(name), BEFORE(name). Of vectors SHARED_VEC3: GET(name), PUT(name, v),
 //            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
 //            within a condition that differs between vertices, nor in an EACH that writes it
+//   MEET_TO_VOTE before a vote, after which shared memory is read that others have written
 //   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
 //            any of the guide's threads has, sum_of and most_of do that too; bits_of_lanes, all_bits of bits that a thread
 //            has only where i % lanes is its own number
@@ -37,15 +38,26 @@
 
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 
-#define GROUP_THREADS 32
+// Of so many guides a work group has several, since it takes as long to launch whatever it has. What they vote on they agree on:
+// barriers of subgroups NVIDIA makes barriers of the whole GPU, which take 0.1 ms of a step of 102,400 guides.
+#ifdef HAIR_FIRST
+#define GROUP_GUIDES uint(HAIR_FIRST_GUIDES)
+#define guide_of_group gl_SubgroupID
+#define MEET_TO_VOTE subgroupMemoryBarrierShared()
+#else
+#define GROUP_GUIDES 1u
+#define guide_of_group 0u
+#define MEET_TO_VOTE synchronise()
+#endif
+#define GROUP_THREADS (32u * GROUP_GUIDES)
 #define EACH(n) for (uint i = lane, goes = 1u; goes > 0u; goes = 0u)
 #define ONCE
 #define SHARED(T, name) T name
 #define SHARED_VEC3(name) vec3 name
 #define OWN(T, name) T name
 #define own(name) name
-#define PARKED(T, name) shared T name[32]
-#define parked(name) name[lane]
+#define PARKED(T, name) shared T name[GROUP_THREADS]
+#define parked(name) name[32u * guide_of_group + lane]
 #define seen(name) name
 #define GET(name) name
 #define PUT(name, v) name = v
@@ -60,7 +72,7 @@
 #define MEET
 #define lane gl_SubgroupInvocationID
 #define lanes 32u
-uint  hair_guide_number() { return hair_group(); }
+uint  hair_guide_number() { return hair_group() * GROUP_GUIDES + guide_of_group; }
 bvec2 any_of(bvec2 v) { return bvec2(subgroupAny(v.x), subgroupAny(v.y)); }
 uvec2 all_bits(uvec2 bits) { return subgroupOr(bits); }
 uint  bits_of_lanes(uint bits) { return subgroupBallot(bits != 0u).x; }
@@ -71,6 +83,10 @@ void  lend(vec3 v) { lent = v; }
 vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 
 #else
+
+#define GROUP_GUIDES 1u
+#define guide_of_group 0u
+#define MEET_TO_VOTE synchronise()
 
 // Vertices, and one more, which AFTER_VEC3 may read. And Mesa takes 16 s to unroll a loop over an array of 32.
 #define MOST (HAIR_GUIDE_THREADS + 1)

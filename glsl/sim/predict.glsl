@@ -123,7 +123,7 @@ void pull_on()
     EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
     MEET;
     EACH(guide_count - 1u) {
-        vec3  to   = own(between) + (AFTER_VEC3(moved) - GET(moved));
+        vec3  to   = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
         float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
         own(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * own(tension), -most, most); // Of an impact nothing.
         PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
@@ -132,12 +132,19 @@ void pull_on()
 }
 #endif
 
+// Whether the way that a scalp clamps is kept as it is at rest: where there are registers for it, or too few anyway.
+#if defined(HAIR_SUBGROUP) && (defined(HAIR_FIRST) || HAIR_SOLVER != BACK)
+#define KEEPS_CLAMP true
+#else
+#define KEEPS_CLAMP false
+#endif
+
 void predict(int method)
 {
     bool at_end  = !IS_SHAKE(method) && !LEAPS(method); // is where forces are of
     vec4 turn    = at_end ? turn_now : turn_then;
-    clamp_way    = rotate(turn, clamp_at_rest);
-    if (CURVED) scalp = quat_multiply(turn, guide[guide_number].root_frame);
+    scalp        = quat_multiply(turn, guide[guide_number].root_frame);
+    clamp_way    = KEEPS_CLAMP ? rotate(turn, clamp_at_rest) : rotate(scalp, vec3(0.0, 1.0, 0.0));
     EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
     find_edges();
     MEET;

@@ -17,7 +17,6 @@ OWN(float, rest_length); // of segment i; 0 for the tip
 OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a tie
 OWN(vec3, wanted);       // displacement if no solid were in the way
 OWN(vec3, displacement); // over the last substep
-OWN(vec3, between);      // from vertex i to the next, at the start of the substep
 OWN(float, excess);      // of length, of segment i
 
 // The guide, the same for all its vertices.
@@ -28,8 +27,8 @@ vec3 root_then;  // from the head's origin, at the start of the substep,
 vec3 root_now;   // and at its end
 vec3 root_moved; // over it
 vec4 turn_now;   // of the head
-vec3 clamp_at_rest, clamp_way; // that clamps the first segment: in groom space, and now
-vec4 scalp;      // the same, as a frame, of what is curved
+vec4 scalp;      // frame that clamps the first segment
+vec3 clamp_way, clamp_at_rest; // its way, and in groom space
 bool root_is_free;
 bool loose, broken; // what measure() finds
 
@@ -47,15 +46,26 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 #define FARTHEST 1e4  // m from the head's origin, or in a substep: no hair is there
 #define TOO_LONG 0.01 // relative error of length with which a method has failed
 
+// From vertex i to the next, at the start of the substep. Work groups of several guides have so few registers each that some are in
+// memory; other programs have none to spare for what is quickly found again.
+#ifdef HAIR_FIRST
+OWN(vec3, kept_between);
+#define KEEP_BETWEEN own(kept_between) = AFTER_VEC3(place) - GET(place)
+#define BETWEEN own(kept_between)
+#else
+#define KEEP_BETWEEN
+#define BETWEEN (AFTER_VEC3(place) - GET(place))
+#endif
+
 // Unit edges where `moved` leads.
 void find_edges()
 {
     MEET;
     give_length();
     EACH(guide_count - 1u) {
-        own(between) = AFTER_VEC3(place) - GET(place);
-        vec3  to     = own(between) + (AFTER_VEC3(moved) - GET(moved));
-        float l      = length(to);
+        KEEP_BETWEEN;
+        vec3  to = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
+        float l  = length(to);
         PUT(edge, to / l);
         own(excess) = l - own(rest_length);
     }

@@ -60,6 +60,8 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     gl->software         = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
     gl->subgroup         = find_subgroup(gl);
+    if (gl->subgroup && has_extension(gl, "GL_NV_shader_thread_group"))
+        gl->GetIntegerv(GL_SM_COUNT_NV, &gl->units);
     gl->long_atomics =
         has_extension(gl, "GL_ARB_gpu_shader_int64") && has_extension(gl, "GL_NV_shader_atomic_int64");
     gl->parallel = has_extension(gl, "GL_KHR_parallel_shader_compile") ||

@@ -96,6 +96,7 @@ struct hair_gl {
     int                      timings;
     int                      software;     // the driver is a software rasteriser
     int                      subgroup;     // work groups of 32 threads are one
+    GLint                    units;        // of a GPU, each with subgroups of its own; 0: not known
     int                      long_atomics; // of 64 bits, in storage buffers
     uint32_t                 made;         // how often all programs have been compiled
     int                      ahead;        // programs that are needed are begun, not waited for

@@ -17,6 +17,8 @@ FEATURE(TIED, "HAIR_TIED")               // vertices are tied
 FEATURE(SKINNED, "HAIR_SKINNED")         // roots ride on a skinned scalp
 FEATURE(CROWD, "HAIR_CROWD")             // hair feels other hair
 FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE") // else a work group
+FEATURE(FIRST, "HAIR_FIRST")             // only what the solver's own method can do
+FEATURE(LISTED, "HAIR_LISTED")           // only guides of which FIRST has left that
 FEATURE(CURVED, "HAIR_CURVED")           // curved or flat strands
 FEATURE(SOLIDS, "HAIR_SOLIDS")           // few
 FEATURE(ANY, "HAIR_ANY")                 // any number of them
@@ -75,7 +77,7 @@ PASS(STIR, "sim/stir", 0, "sim/stir.comp")
 PASS(CROWD_CLEAR, "sim/crowd_clear", 0, "HAIR_CROWD=1 sim/crowd_clear.comp")
 PASS(CROWD_SPLAT, "sim/crowd_splat", 0, "HAIR_CROWD=1 sim/crowd_splat.comp")
 PASS(CROWD_GATHER, "sim/crowd_gather", 0, "HAIR_CROWD=1 sim/crowd_gather.comp")
-PASS(DIRECT, "sim/direct", SOLVER_FEATURES, "HAIR_SOLVER=1 sim/rod.comp")
+PASS(DIRECT, "sim/direct", SOLVER_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=1 sim/rod.comp")
 PASS(ACCURATE, "sim/accurate", SOLVER_FEATURES, "HAIR_SOLVER=0 sim/rod.comp")
 PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVER_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
 PASS(FOLLOW, "sim/follow", SOLVER_FEATURES, "HAIR_SOLVER=3 sim/rod.comp")

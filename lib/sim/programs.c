@@ -1,8 +1,10 @@
 // programs.c - which programs a simulation runs, and how much of it at once.
 #include "lib/sim/sim.h"
 
-#define MOST_FEW 2048     // guides: so many a GPU has under way at once, whatever registers they take
-#define MOST_ROUNDS 65000 // that a software rasteriser may go in one thread: see rounds.c
+#define MOST_FEW 2048      // guides: so many a GPU has under way at once, whatever registers they take
+#define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
+#define GROUPS_OF_LIST 16  // of a unit of a GPU, which has as many under way
+#define MOST_ROUNDS 65000  // that a software rasteriser may go in one thread: see rounds.c
 
 // Where a thread would have too much to do, it is a work group's.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
@@ -49,16 +51,62 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
 }
 
+// What they need for it must be there from the start. Two rounds of guides fill a GPU well enough.
+int hair_sim_may_go_in_two(const struct hair_sim* sim)
+{
+    return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->most_vertices <= 32 &&
+           sim->gl->units > 0 && sim->guides > 2 * HAIR_FIRST_GUIDES * (uint32_t)sim->gl->units;
+}
+
 static int has_bodies(const struct hair_sim* sim)
 {
     return hair_sim_contacts(sim) > sim->solids.capsules;
 }
 
-hair_gl_pass hair_sim_solver_pass(const struct hair_sim* sim)
+static hair_gl_pass pass_now(const struct hair_sim* sim)
 {
     int any    = sim->contacts.any;
     int bodies = any ? sim->contacts.cells.bodies > 0 : has_bodies(sim);
     return solver_pass_for(sim, any, bodies, hair_sim_is_by_thread(sim));
+}
+
+// Of straight hair among few capsules: 102,400 guides take 1.23 ms on an H200 in five substeps, by one program 1.41. Without any
+// 10,240 guides took 1.09 times as long by two; with all else programs need registers that so many guides leave them not.
+static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
+{
+    return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(SOLIDS), 1);
+}
+
+// `pass`, or the two that it is done by.
+static hair_result need_solver(const struct hair_sim* sim, hair_gl_pass pass)
+{
+    if (!goes_in_two(sim, pass)) return hair_gl_need(sim->gl, pass);
+    hair_result result = hair_gl_need(sim->gl, pass | HAIR_GL_WITH(FIRST));
+    return result ? result : hair_gl_need(sim->gl, pass | HAIR_GL_WITH(LISTED));
+}
+
+hair_result hair_sim_need_solver(struct hair_sim* sim)
+{
+    return need_solver(sim, pass_now(sim));
+}
+
+uint32_t hair_sim_next_list(struct hair_sim* sim)
+{
+    if (goes_in_two(sim, pass_now(sim))) sim->list = !sim->list;
+    return sim->list;
+}
+
+void hair_sim_run_solver(struct hair_sim* sim)
+{
+    hair_gl_pass pass = pass_now(sim);
+    if (goes_in_two(sim, pass)) {
+        uint32_t units = (uint32_t)sim->gl->units, listed = GROUPS_OF_LIST * units;
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), units);
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(LISTED), sim->guides < listed ? sim->guides : listed);
+        return;
+    }
+    uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
+    hair_gl_run(sim->gl, pass, hair_sim_is_by_thread(sim) ? by_thread : sim->guides);
 }
 
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
@@ -79,7 +127,7 @@ hair_result hair_sim_need_programs(struct hair_sim* sim)
     struct hair_gl* gl  = sim->gl;
     int             any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
     hair_gl_pass    smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
-    hair_result     result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), by_thread));
+    hair_result     result = need_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
     if (!result && any && sim->by_thread && gl->software) // Lists say which, from step to step.
         result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
     if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));

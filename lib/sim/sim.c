@@ -7,7 +7,6 @@
 #define REDBLACK_SUBSTEP (1.0 / 120)
 #define EARLY 1e-6         // of a substep
 #define MOST_OF_THREAD 128 // vertices: what keeps more for itself NVIDIA's driver does not link
-#define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
@@ -28,11 +27,13 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->most_vertices   = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     if (sim->most_vertices > MOST_OF_THREAD && !gl->software) sim->by_thread = 0;
+    sim->in_two = hair_sim_may_go_in_two(sim);
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
     sim->air.ball      = groom->skull;
     sim->skin.seats    = hair_seats_hold(groom->seats);
     size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
+    size_t      health = sim->in_two ? HAIR_HEALTH_LISTS + (size_t)sim->guides : HAIR_HEALTH_COUNT;
     hair_result result = HAIR_OK;
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
@@ -41,8 +42,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
-    if (!result)
-        result = hair_gl_storage(gl, "hair health", HAIR_HEALTH_COUNT * sizeof(uint32_t), NULL, &sim->health);
+    if (!result) result = hair_gl_storage(gl, "hair health", health * sizeof(uint32_t), NULL, &sim->health);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
@@ -52,7 +52,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->last_substep = sim->substep;
     if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 0));
     if (!result && sim->feedback.wanted) result = hair_feedback_make(sim, groom->guides);
-    return result ? result : hair_gl_need(gl, hair_sim_solver_pass(sim));
+    return result ? result : hair_sim_need_solver(sim);
 }
 
 void hair_sim_destroy(struct hair_sim* sim)
@@ -196,7 +196,7 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     if (!result) result = hair_blow_need(sim);
     if (!result && !hair_blow_is_on(sim)) sim->air.box = (hair_vec4){0, 0, 0, 0};
     if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
-    return result ? result : hair_gl_need(sim->gl, hair_sim_solver_pass(sim));
+    return result ? result : hair_sim_need_solver(sim);
 }
 
 // `count` substeps of the parameters.
@@ -216,7 +216,6 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
-    hair_gl_pass            pass   = hair_sim_solver_pass(sim);
     int                     crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
     sim->next_substep = sim->substep;
     write_physics(sim, &params);
@@ -241,9 +240,8 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         sim->last_substep     = sim->substep;
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
         write_now(sim, &params);
+        params.list = hair_sim_next_list(sim);
         upload(sim, &params);
-        uint32_t groups = hair_sim_is_by_thread(sim) ? (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP
-                                                     : sim->guides;
         if (crowd) hair_crowd_bind(sim);
         if (sim->ties.count) hair_ties_bind(sim);
         if (blown) hair_fluid_bind(&sim->blow.fluid);
@@ -252,7 +250,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (sim->feedback.wanted && !hair_skin_is_on(sim))
             hair_feedback_run(sim, &params);
         else
-            hair_gl_run(sim->gl, pass, groups);
+            hair_sim_run_solver(sim);
         if (crowd) hair_crowd_count(sim, count);
         if (blown) hair_blow_count(sim, count);
         done += count;

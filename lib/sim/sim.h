@@ -38,6 +38,8 @@ struct hair_sim {
     uint32_t             rounds;                            // of the reduction, before its last
     struct hair_rods*    rods;                              // under redblack NULL
     int                  by_thread;                         // a thread per guide, not a work group
+    int                  in_two;                            // programs: see main() of glsl/sim/rod.comp
+    uint32_t             list;                              // 0 or 1: between them, of the last dispatch
     int                  struck; // there have been solids: the accurate solver's own substep is for impacts
     double               last_substep; // s: of the last substep done, which displacements are over
     double               next_substep; // s: of the one under way; 0: not known, as of what was loaded
@@ -99,7 +101,10 @@ float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // 
 void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
 
 // programs.c: passes compiled with what there is; all that a step with what is set now runs; and how many substeps a dispatch may have.
-hair_gl_pass hair_sim_solver_pass(const struct hair_sim* sim);
+int          hair_sim_may_go_in_two(const struct hair_sim* sim); // programs: see main() of glsl/sim/rod.comp
+hair_result  hair_sim_need_solver(struct hair_sim* sim);
+uint32_t     hair_sim_next_list(struct hair_sim* sim); // of the dispatch that comes, which empties the other
+void         hair_sim_run_solver(struct hair_sim* sim);
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
 hair_result  hair_sim_need_programs(struct hair_sim* sim);

@@ -36,11 +36,12 @@ static const struct setting settings[] = {
     {HAIR_SOLVER_REDBLACK, 1, 100, false}, {HAIR_SOLVER_FOLLOW, 1, 0, true},
     {HAIR_SOLVER_FOLLOW, 2, 0, false},     {HAIR_SOLVER_FOLLOW, 4, 0, false},
     {HAIR_SOLVER_DIRECT, 2, 0, false},     {HAIR_SOLVER_DIRECT, 3, 0, false},
-    {HAIR_SOLVER_DIRECT, 4, 0, true},      {HAIR_SOLVER_DIRECT, 6, 0, false},
-    {HAIR_SOLVER_DIRECT, 8, 0, false},     {HAIR_SOLVER_DIRECT, 16, 0, false},
-    {HAIR_SOLVER_ACCURATE, 0, 0, false},   {HAIR_SOLVER_ACCURATE, 16, 0, true},
-    {HAIR_SOLVER_ACCURATE, 24, 0, false},  {HAIR_SOLVER_ACCURATE, 32, 0, false},
-    {HAIR_SOLVER_ACCURATE, 48, 0, false},  {HAIR_SOLVER_ACCURATE, 64, 0, false},
+    {HAIR_SOLVER_DIRECT, 4, 0, true},      {HAIR_SOLVER_DIRECT, 5, 0, false},
+    {HAIR_SOLVER_DIRECT, 6, 0, false},     {HAIR_SOLVER_DIRECT, 8, 0, false},
+    {HAIR_SOLVER_DIRECT, 16, 0, false},    {HAIR_SOLVER_ACCURATE, 0, 0, false},
+    {HAIR_SOLVER_ACCURATE, 16, 0, true},   {HAIR_SOLVER_ACCURATE, 24, 0, false},
+    {HAIR_SOLVER_ACCURATE, 32, 0, false},  {HAIR_SOLVER_ACCURATE, 48, 0, false},
+    {HAIR_SOLVER_ACCURATE, 64, 0, false},
 };
 #define SETTINGS (sizeof settings / sizeof *settings)
 

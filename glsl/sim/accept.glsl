@@ -1,0 +1,73 @@
+// accept.glsl - the end of a substep: what was found is taken for true, or a guide is put back.
+
+// Where SHAKE fails a strand is kinked, and swings from vertex to vertex as no explicit method can follow: it would fail
+// again and again, or flail without failing. Implicit Euler calms it, for 16 substeps: of `known`, so much for each.
+#define WAIT (1.0 / 16.0)
+
+// Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
+// the method of its solver fails again, for ever.
+#define LEADER_KEEPS (HAIR_SOLVER == LEADER ? 1.0 : 0.5)
+
+void count_in(uint what)
+{
+    if (lane == 0u) atomicAdd(health[what], 1u);
+}
+
+// What no compiler takes for a sum whose parts it may take away again. `precise` says so too, but of all that leads there:
+// then nothing in a substep is multiplied and added at once.
+vec3 rounded(vec3 v)
+{
+    uint nothing = params.substeps >> 31;
+    return uintBitsToFloat(floatBitsToUint(v) ^ nothing);
+}
+
+// Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
+// finite then, or beyond any hair, goes back to its rest pose, and along with the head; or false, where another program does that.
+bool accept(int method, bool waits, vec3 head_moved)
+{
+    bool lost = false, struck = false;
+    EACH(guide_count) {
+        vec3 d = GET(moved), kept = d;
+        if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
+            float fastest  = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+            vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
+            float speed    = length(relative);
+            float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
+            kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
+        }
+        // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
+        vec3 from_head = rounded(root_now + (GET(place) + (d - root_moved)));
+        PUT(place, from_head - root_now);
+#ifdef KEEPS_RATES
+        struck = struck || is_struck(i, d);
+        keep_rates(i, method, d, kept);
+        bool slacks  = IS_LEADER(method) || i + 1u >= guide_count || bits_of(own(tension)) >= 0x7f800000u;
+        own(tension) = slacks ? 0.0 : own(tension);
+#endif
+        own(displacement) = kept;
+        if (i < guide_count)
+            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
+    }
+    bvec2 found = any_of(bvec2(lost, struck));
+    if (own_method == SHAKE) known = IS_SHAKE(method) ? 1.0 : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
+    else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : 2.0 : 1.0;
+#ifdef HAIR_FIRST
+    return !found.x;
+#else
+    if (!found.x) return true;
+
+    vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
+    EACH(guide_count) {
+        PUT(place, rotate(turn_now, rest_from_root(i)));
+        own(displacement) = still;
+        if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
+#ifdef KEEPS_RATES
+        own(rate) = parked(rate_before) = still;
+        own(tension) = 0.0;
+#endif
+    }
+    known       = 1.0;
+    count_in(HAIR_HEALTH_RESET);
+    return true;
+#endif
+}

@@ -1,0 +1,63 @@
+// stored.glsl - what there is of a guide between dispatches.
+vec3 root_at_rest;
+
+vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
+
+void load()
+{
+    float rescale = params.rescale;
+    bool  pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
+    known         = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+    root_is_free  = rod[guide_first].segment.y > 0.0;
+    float tip     = rod[guide_first + guide_count - 1u].segment.y;
+    heavy         = tip > 0.0 && tip * guide_length < 1.0;
+#ifdef HAIR_STIFF
+    float taken = rod[guide_first].segment.w;
+    own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
+#endif
+    EACH(guide_count) {
+        // All that is read is asked for before any of it is looked at: a GPU waits for all of it as long as for one.
+        uint       at       = guide_first + min(i, guide_count - 1u);
+        hair_state was      = state[at];
+        vec4       segment  = rod[at].segment;
+        own(strain)         = rod[at].strain;
+#ifdef KEEPS_RATES
+        hair_history past   = history[at];
+        own(rate)           = known < 2.0 ? was.displacement.xyz * rescale : past.rate.xyz;
+        parked(rate_before) = past.rate_before.xyz;
+        own(touched)        = past.rate_before.w;
+        own(tension)        = was.displacement.w;
+#endif
+        segment *= i < guide_count ? 1.0 : 0.0;
+        // A root that is held is where the scalp has it, wherever it was when it was not.
+        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
+        own(displacement) = was.displacement.xyz * rescale;
+        own(rest_length)  = segment.x;
+        own(slack)        = segment.y;
+        own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
+#ifdef HAIR_TIED
+        load_tie(i);
+#endif
+        if (CURVED) seen(section) = material[at];
+#ifdef HAIR_CROWD
+        own(push) = texelFetch(push_texture, int(at)).xyz;
+#endif
+    }
+}
+
+void store()
+{
+    EACH(guide_count) {
+        if (i < guide_count) {
+            uint at                = guide_first + i;
+            state[at].position     = vec4(root_now + GET(place), known);
+            state[at].displacement = vec4(own(displacement), 0.0);
+            if (CURVED) material[at] = seen(section);
+#ifdef KEEPS_RATES
+            history[at].rate         = vec4(own(rate), 0.0);
+            history[at].rate_before  = vec4(parked(rate_before), own(touched));
+            state[at].displacement.w = own(tension);
+#endif
+        }
+    }
+}

@@ -1,0 +1,72 @@
+// rod_two_test.c - many guides on a GPU go by two programs: one that knows the solver's own method only, and one that knows all
+// for those that it leaves.
+#include "tests/support/living.h"
+
+#include <string.h>
+
+#include "lib/api/api.h"
+
+#define GUIDES 1500
+#define UNITS 20 // that a GPU is said to have, so that it has few for so many
+#define VERTICES 5
+#define FRAMES 30
+
+// Strands of several lengths over a ball, under a head that goes on calmly, jumps aside at 60 m/s, is gone for a frame, and comes
+// back.
+static void run(struct hair_test* test, int units, float* track, hair_health* health)
+{
+    struct hair_gl*          gl      = &test->context->gl;
+    GLint                    was     = gl->units;
+    struct hair_test_strands strands = hair_test_strands_make(GUIDES, VERTICES);
+    struct hair_test_living  living;
+    hair_physics             physics = hair_test_loose(0.3f);
+    hair_wind                wind    = hair_wind_default();
+    wind.velocity[2]                 = 1;
+    for (int k = 0; k < GUIDES; ++k) {
+        float across = 0.2f * (float)k / GUIDES;
+        hair_test_add_straight(&strands, VERTICES, hair_v3(0.02f, 0.1f, across - 0.1f), hair_v3(1, 0.1f, 0),
+                               0.05f + across);
+    }
+    hair_desc  desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 1.0 / 240, &physics);
+    hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0.1f, 0, 0);
+    ball.size[0]    = 0.08f;
+    gl->units       = units;
+    hair_test_live(test, &strands, &desc, &living);
+    hair_test_strands_free(&strands);
+    hair_test_set_solids(&living, &ball, 1);
+    for (int frame = 0; frame < FRAMES; ++frame) {
+        float                          aside = frame < 12 ? 0 : frame == 20 ? 6e4f : 1;
+        struct hair_reference_rod_pose head =
+            hair_test_pose_of(hair_v3(aside, 0.001f * (float)frame, 0), hair_v3(0, 1, 0), 0.01 * frame);
+        hair_test_blow(&living, frame == 14 ? &wind : NULL); // Then all go through one.
+        hair_test_advance(&living, &head, 1.0 / 60);
+        hair_test_read_guides(&living);
+        memcpy(track + (size_t)frame * 3 * living.vertices, living.positions, 12 * living.vertices);
+    }
+    *health = hair_test_health(&living);
+    assert_int_equal(living.hair->sim.in_two, units > 0);
+    hair_test_die(&living);
+    gl->units = was;
+}
+
+static void in_two_programs_guides_go_as_in_one(void** state)
+{
+    static float track[2][3 * GUIDES * VERTICES * FRAMES];
+    hair_health  health[2];
+    for (int two = 0; two < 2; ++two) run(*state, two * UNITS, track[two], &health[two]);
+    print_message("    of %d guides %u substeps by Euler, %u led, %u reset\n", GUIDES, health[1].euler,
+                  health[1].follow, health[1].reset);
+    assert_true(health[1].euler > 0 && health[1].follow > 0 && health[1].reset >= GUIDES);
+    if (!((struct hair_test*)*state)->context->gl.software) return; // Two programs round in two ways.
+    assert_memory_equal(track[0], track[1], sizeof track[0]);
+    assert_memory_equal(&health[0], &health[1], sizeof health[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(in_two_programs_guides_go_as_in_one),
+    };
+    if (hair_test_skips()) return 0;
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
