@@ -2,7 +2,10 @@
 #include "tests/support/living.h"
 
 #include <math.h>
+#include <string.h>
 
+#define STRIKING 8
+#define STRIKING_FRAMES 24
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
@@ -288,6 +291,42 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
     }
 }
 
+// Eight strands fall on a bar, each at another place, and where they are after each frame of so many substeps is written down.
+static void fall_over_bar(struct hair_test* test, int substeps, float* track, struct hair_test_living* out)
+{
+    hair_physics             physics = hair_test_loose(0.3f);
+    struct hair_test_strands strands = hair_test_strands_make(STRIKING, 32);
+    hair_solid               bar     = capsule(-0.05, -0.22, 0.05, 0);
+    for (int k = 0; k < STRIKING; ++k)
+        hair_test_add_straight(&strands, 32, hair_v3(0.008f * (float)k - 0.1f, 0, 0.01f * (float)k),
+                               hair_v3(1, -0.1f, 0.1f), 0.3f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 1.0 / 60 / substeps, &physics);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+    hair_test_set_solids(out, &bar, 1);
+    for (int frame = 0; frame < STRIKING_FRAMES; ++frame) {
+        hair_test_wait(out, 1);
+        hair_test_read_guides(out);
+        memcpy(track + (size_t)frame * 3 * out->vertices, out->positions, 12 * out->vertices);
+    }
+}
+
+static void what_strikes_a_solid_at_few_substeps_goes_on_as_at_many(void** state)
+{
+    enum { FLOATS = 3 * 32 * STRIKING * STRIKING_FRAMES };
+    static float            track[2][FLOATS];
+    struct hair_test_living living[2];
+    double                  sum = 0;
+    fall_over_bar(*state, 4, track[0], &living[0]);
+    fall_over_bar(*state, 64, track[1], &living[1]);
+    for (int i = 0; i < FLOATS; ++i) sum += pow((double)track[0][i] - (double)track[1][i], 2);
+    double error = sqrt(3 * sum / FLOATS) / 0.3;
+    print_message("    off by %.2g of the length\n", error);
+    assert_true(error < 4.8e-3); // Where neighbours feel a strike by bending alone it is 5.2e-3.
+    hair_test_die(&living[0]);
+    hair_test_die(&living[1]);
+}
+
 // Of 25 mm, that stand at 20 degrees from a head whose margin their roots are in, or whose inside.
 static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
 {
@@ -329,6 +368,7 @@ int main(void)
         HAIR_TEST(hair_whose_roots_are_in_the_margin_rests_without_a_fallback),
         HAIR_TEST(hair_in_a_solid_that_appears_comes_out_slowly),
         HAIR_TEST(a_free_strand_comes_to_lie_on_what_it_falls_on),
+        HAIR_TEST(what_strikes_a_solid_at_few_substeps_goes_on_as_at_many),
         HAIR_TEST(among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
