@@ -292,11 +292,8 @@ static void average_pixels(const struct bench_studio* studio)
 // Of samples, then of pixels where there are more than the picture's.
 static void average(struct bench_studio* studio, const struct bench_rectangle* part)
 {
-    const unsigned* framebuffer = studio->targets.framebuffer;
-    const int *     a = part->lower, *b = part->upper;
     if (studio->timed) bench_timer_start(&studio->timer);
-    glBlitNamedFramebuffer(framebuffer[HAIR_TARGET_DRAWN], framebuffer[HAIR_TARGET_RESOLVED], a[0], a[1],
-                           b[0], b[1], a[0], a[1], b[0], b[1], GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    hair_targets_resolve(&studio->targets, part->lower, part->upper);
     if (studio->shot.supersample > 1) average_pixels(studio);
     if (studio->timed) bench_timer_stop(&studio->timer);
 }

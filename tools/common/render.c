@@ -300,12 +300,10 @@ static GLuint copy_depth(const struct hair_render* render, const struct frame* f
 // Average the samples, then the pixels of a supersampled one, and encode.
 static void develop(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
-    GLuint program = render->program[TONE], drawn = render->targets.framebuffer[HAIR_TARGET_DRAWN],
-           resolved = render->targets.framebuffer[HAIR_TARGET_RESOLVED];
+    GLuint  program = render->program[TONE];
     GLsizei width = (GLsizei)tile->width, height = (GLsizei)tile->height,
             scale = (GLsizei)render->desc.supersample;
-    glBlitNamedFramebuffer(drawn, resolved, 0, 0, width * scale, height * scale, 0, 0, width * scale,
-                           height * scale, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    hair_targets_resolve(&render->targets, (const int[]){0, 0}, (const int[]){width * scale, height * scale});
     glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_ENCODED]);
     glViewport(0, 0, width, height);
     glProgramUniform1i(program, HAIR_AT_SUPERSAMPLE, scale);

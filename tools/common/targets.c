@@ -34,7 +34,7 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     if (count == 1) count = 0;
 
     glCreateFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
-    targets->color_samples = make_samples(GL_RGBA16F, count, wide, high);
+    targets->color_samples = count ? make_samples(GL_RGBA16F, count, wide, high) : 0;
     targets->depth_samples = make_samples(GL_DEPTH_COMPONENT32F, count, wide, high);
     targets->resolved      = make_texture(GL_RGBA16F, wide, high);
     targets->encoded       = make_texture(GL_RGBA8, w, h);
@@ -44,7 +44,10 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     static const GLenum both[]      = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     const GLuint*       framebuffer = targets->framebuffer;
     GLuint              drawn = framebuffer[HAIR_TARGET_DRAWN], encoded = framebuffer[HAIR_TARGET_ENCODED];
-    glNamedFramebufferRenderbuffer(drawn, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, targets->color_samples);
+    if (targets->color_samples)
+        glNamedFramebufferRenderbuffer(drawn, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, targets->color_samples);
+    else
+        glNamedFramebufferTexture(drawn, GL_COLOR_ATTACHMENT0, targets->resolved, 0);
     glNamedFramebufferRenderbuffer(drawn, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, targets->depth_samples);
     glNamedFramebufferTexture(framebuffer[HAIR_TARGET_RESOLVED], GL_COLOR_ATTACHMENT0, targets->resolved, 0);
     glNamedFramebufferTexture(framebuffer[HAIR_TARGET_RESOLVED], GL_DEPTH_ATTACHMENT, targets->depth, 0);
@@ -55,6 +58,14 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
         if (glCheckNamedFramebufferStatus(framebuffer[i], GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             return false;
     return !glGetError();
+}
+
+void hair_targets_resolve(const struct hair_targets* targets, const int lower[2], const int upper[2])
+{
+    if (!targets->color_samples) return;
+    glBlitNamedFramebuffer(targets->framebuffer[HAIR_TARGET_DRAWN],
+                           targets->framebuffer[HAIR_TARGET_RESOLVED], lower[0], lower[1], upper[0], upper[1],
+                           lower[0], lower[1], upper[0], upper[1], GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void hair_targets_delete(struct hair_targets* targets)

@@ -15,7 +15,8 @@ enum hair_target {
 // OpenGL names.
 struct hair_targets {
     unsigned framebuffer[HAIR_TARGET_COUNT];
-    unsigned color_samples, depth_samples;
+    unsigned color_samples; // 0: one a pixel, drawn into what else is resolved into
+    unsigned depth_samples;
     unsigned resolved, encoded, linear;
     unsigned depth; // of one sample a pixel, of the second
 };
@@ -23,6 +24,8 @@ struct hair_targets {
 // False: OpenGL has no memory for them. Delete them also then.
 bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t height, uint32_t supersample,
                        uint32_t samples);
+// Average the samples of the pixels from `lower` up to, not including, `upper`.
+void hair_targets_resolve(const struct hair_targets* targets, const int lower[2], const int upper[2]);
 void hair_targets_delete(struct hair_targets* targets);
 
 #endif
