@@ -108,7 +108,8 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
     uvec2 owed = kept, tried;
     uint  pushed = 1u;
     bool  is_out;
-    for (uint n = 0u; n < ROUNDS && pushed > 0u && (n == 0u || has_rounds()); ++n) { // In a loop, so that a compiler need not make so much of it twice.
+    // In a loop, so that a compiler need not make so much of it twice.
+    for (uint n = 0u; n < ROUNDS && pushed > 0u && (n == 0u || has_rounds()); ++n) {
         vec3 end = start + made.d - head_moved;
         tried    = enough(i, start, end);
         if (n == 0u) solids = tried | kept;

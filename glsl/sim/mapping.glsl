@@ -10,7 +10,8 @@
 //   SHARED   what its neighbours see too: seen(name), BEFORE(name). Of vectors SHARED_VEC3: GET(name), PUT(name, v),
 //            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
 //            within a condition that differs between vertices, nor in an EACH that writes it
-//   MEET_TO_VOTE before a vote, after which shared memory is read that others have written
+//   MEET_TO_VOTE
+//            before a vote, after which shared memory is read that others have written
 //   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
 //            any of the guide's threads has, sum_of and most_of do that too; bits_of_lanes, all_bits of bits that a thread
 //            has only where i % lanes is its own number
