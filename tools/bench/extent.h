@@ -16,7 +16,12 @@ float bench_extent_scale(const struct bench_studio* studio, float away);
 float bench_extent_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
                          const struct hair_matrices* light, uint32_t size);
 
-// Texels to a side of the shadow map: where the picture has levels of detail, no more than that needs.
+// Whether the shadow map is to be as coarse as strands are wide, those that make up for others too, and at that size they
+// still fill its texels.
+bool bench_extent_fits(const struct bench_studio* studio, const struct hair_matrices* light, uint32_t size);
+
+// Texels to a side of the shadow map: no more than strands fill, where it fits them; where the picture has levels of detail, no
+// more than that needs.
 uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_matrices* camera,
                           const struct hair_matrices* light);
 

@@ -71,18 +71,15 @@ static const struct lod {
             {"10 %", 0.1f, false},
             {"dynamic", 0, true}};
 
-static const struct segments {
-    uint32_t count;
-    bool     quick, between; // the last: only where rows are close
-} segments[] = {{4, false, false},  {8, true, false},  {12, false, true},
-                {16, false, false}, {20, false, true}, {24, false, true},
-                {28, false, true},  {32, true, false}, {64, false, false}};
+// Of a strand: powers of two, and all between where rows are close.
+enum { FEWEST_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MOST_OF_CLOSE = 32, MOST_SEGMENTS = 64 };
 
-// Of one pixel.
+// Of one pixel. Four pixels for one take software rasterisers less time than four samples.
 static const struct samples {
     uint32_t msaa, supersample;
-    bool     quick;
-} samples[] = {{1, 1, true}, {4, 1, true}, {8, 1, false}, {4, 2, true}, {8, 4, false}, {4, 4, false}};
+    bool     quick, of_software;
+} samples[] = {{1, 1, true, false}, {4, 1, true, false},  {8, 1, false, false}, {1, 2, true, true},
+               {4, 2, true, false}, {8, 4, false, false}, {4, 4, false, false}};
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
@@ -111,6 +108,7 @@ static struct bench_shot shot_of(const struct scene* scene)
     struct bench_shot shot = bench_studio_shot(&scene->studio);
     shot.look.radius       = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
     shot.away              = scene->subject->away;
+    shot.map_fits          = scene->bench->software; // Compute, which is faster elsewhere, makes no lines.
     if (scene->subject->width > 0) {
         shot.look.radius = 0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
         shot.look.taper  = hair_curve_line(1, 1);
@@ -154,7 +152,7 @@ struct setting {
     const struct path*      path;
     const struct primitive* primitive;
     const struct lod*       lod;
-    const struct segments*  segments;
+    uint32_t                segments;
     const struct samples*   samples;
 };
 
@@ -168,7 +166,7 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
     bench_set_text(row, "method", setting->path->name);
     bench_set_text(row, "primitive", setting->primitive->name);
     bench_set_text(row, "lod", setting->lod->name);
-    bench_set_count(row, "segments", setting->segments->count);
+    bench_set_count(row, "segments", setting->segments);
     bench_set_count(row, "samples", setting->samples->msaa * side * side);
     bench_set_count(row, "msaa", setting->samples->msaa);
     bench_set_count(row, "supersample", side);
@@ -197,7 +195,7 @@ static bool look(struct scene* scene, const struct setting* setting)
     shot.view.path      = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
     shot.view.coverage  = setting->primitive->coverage;
-    shot.look.segments  = setting->segments->count;
+    shot.look.segments  = setting->segments;
     shot.has_lod        = setting->lod->share < 1;
     shot.lod.dynamic    = setting->lod->share > 0 ? 0 : 1;
     if (setting->lod->share > 0) shot.lod.strands = setting->lod->share;
@@ -214,29 +212,44 @@ static bool look(struct scene* scene, const struct setting* setting)
     return ok;
 }
 
-// How many strands and in how many segments, each with each: what takes about as long as something else is then among the
-// rows. By the path that software rasterisers take.
-static bool is_wanted_closely(const struct bench* bench, const struct setting* setting)
+static bool is_between(uint32_t segments)
 {
+    return (segments & (segments - 1)) != 0;
+}
+
+static bool is_quick(uint32_t segments)
+{
+    return segments == 8 || segments == 32;
+}
+
+// How many strands and in how many segments, each with each: what takes about as long as something else is then among the
+// rows. By the path that software rasterisers take. Of strands so wide that lines of a pixel are nearly as good, more closely.
+static bool is_wanted_closely(const struct bench* bench, const struct subject* subject,
+                              const struct setting* setting)
+{
+    bool every = subject->width >= 0.5f && setting->primitive == primitives && setting->lod == lods;
     return bench->software && !bench->options.quick && setting->path->path == HAIR_PATH_EXPANDED &&
-           setting->lod->share > 0 && setting->segments->count >= 8 && setting->segments->count <= 32 &&
-           setting->samples->supersample == 1;
+           setting->lod->share > 0 && setting->segments >= FEWEST_OF_CLOSE &&
+           setting->segments <= MOST_OF_CLOSE &&
+           (setting->samples->supersample == 1 || setting->samples->of_software) &&
+           (every || setting->segments % 4 == 0);
 }
 
 // Of widths it is how strands are drawn that counts: how many, in how many segments, by three paths, one thing changed at
 // a time where samples are many.
-static bool is_wanted_of_width(const struct bench* bench, const struct setting* setting)
+static bool is_wanted_of_width(const struct bench* bench, const struct subject* subject,
+                               const struct setting* setting)
 {
-    bool usual = setting->segments->count == 32, all = setting->lod == lods;
-    if (is_wanted_closely(bench, setting)) return true;
-    if (setting->segments->between) return false;
+    bool usual = setting->segments == 32, all = setting->lod == lods;
+    if (is_wanted_closely(bench, subject, setting)) return true;
+    if (is_between(setting->segments)) return false;
     if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
                  (setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED ||
                   setting->primitive->coverage == HAIR_COVERAGE_SHARES);
     if (bench->options.quick && !quick) return false;
     if (setting->samples->supersample > 1) return usual && all;
-    return all ? setting->segments->count >= 8 && setting->segments->count <= 32 : usual;
+    return all ? setting->segments >= FEWEST_OF_CLOSE && setting->segments <= MOST_OF_CLOSE : usual;
 }
 
 // What compute makes pixels of; else they are drawn. Software rasterisers have nothing of it, and no time to lose.
@@ -251,14 +264,15 @@ static bool is_computed(const struct bench* bench, const struct setting* setting
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
     bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
+    if (setting->samples->of_software && (!bench->software || setting->primitive != primitives)) return false;
     if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
         return false;
     if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(bench, setting)) return false;
-    if (subject->width > 0) return is_wanted_of_width(bench, setting);
-    if (setting->segments->between) return false;
+    if (subject->width > 0) return is_wanted_of_width(bench, subject, setting);
+    if (is_between(setting->segments)) return false;
     bool whole = setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED;
     return (!bench->options.quick && whole) ||
-           (setting->lod->quick && setting->segments->quick && setting->samples->quick);
+           (setting->lod->quick && is_quick(setting->segments) && setting->samples->quick);
 }
 
 static void measure(struct scene* scene, const struct setting* setting)
@@ -279,9 +293,8 @@ static void measure_subject(struct bench* bench, const struct subject* subject)
         for (size_t p = 0; p < COUNT(paths); ++p)
             for (size_t k = 0; k < COUNT(primitives); ++k)
                 for (size_t l = 0; l < COUNT(lods); ++l)
-                    for (size_t s = 0; s < COUNT(segments); ++s) {
-                        struct setting setting = {&paths[p], &primitives[k], &lods[l], &segments[s],
-                                                  &samples[n]};
+                    for (uint32_t s = FEWEST_SEGMENTS; s <= MOST_SEGMENTS; ++s) {
+                        struct setting setting = {&paths[p], &primitives[k], &lods[l], s, &samples[n]};
                         measure(&scene, &setting);
                     }
     bench_truth_free(&scene.truth);

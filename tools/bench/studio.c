@@ -241,7 +241,7 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     return !result;
 }
 
-// Of what is drawn, not of lines in its place: their shadow is another where ribbons are not a texel wide.
+// Of what is drawn, not of lines in its place, unless strands fill texels: else the shadow of lines is another.
 static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
                         const struct hair_matrices* light, uint32_t size)
 {
@@ -249,6 +249,7 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     hair_lod  lod  = studio->shot.lod;
     view.pass      = HAIR_PASS_DEPTH;
     if (studio->shot.map_apart) view.path = studio->shot.map_path;
+    if (bench_extent_fits(studio, light, size)) view.primitive = HAIR_LINES;
     lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
     if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;

@@ -22,6 +22,7 @@ struct bench_shot {
     bool      unmapped;  // its light has no shadow map
     bool      map_apart; // else it is drawn by the path of the view,
     hair_path map_path;  // not by this one
+    bool      map_fits;  // it is as coarse as strands are wide, and of lines, which are a texel wide
     bool      has_lod;   // else all is drawn
     hair_lod  lod;
     uint32_t  samples;          // of a pixel, as OpenGL has them
