@@ -85,12 +85,15 @@ typedef uint32_t hair_uint;
 // Of the passes that list the strands that are drawn without a tessellator:
 #define HAIR_BIND_START 3   // uint[]              per patch: where its strands begin in the list
 #define HAIR_BIND_STRAND 4  // hair_strand[]       per strand that is drawn
-#define HAIR_BIND_COMMAND 5 // hair_draw_command[HAIR_COMMANDS]: two by their ends, one sorted, two by pairs of vertices
-#define HAIR_COMMANDS 5
+#define HAIR_BIND_COMMAND 5 // hair_draw_command[HAIR_COMMANDS]: two by their ends, one sorted, two by pairs of vertices, one
+                            // that writes vertices
+#define HAIR_COMMANDS 6
 #define HAIR_SORTED_COMMAND 2
 #define HAIR_PAIRED_COMMAND 3
+#define HAIR_STAGE_COMMAND 5
 #define HAIR_PAIRED_INDICES 6 // of a segment
-// Of the pass that writes their vertices for one view, as at HAIR_BIND_EXPANDED and the two after it, in the order of the list:
+// Of the pass that writes their vertices for one view, as at HAIR_BIND_EXPANDED and the two after it, in the order of the list; as
+// they are drawn, at the first of those hair_vec4[] per side of a vertex, or of lines per vertex: in clip space.
 #define HAIR_BIND_LISTED 3  // hair_draw_command[HAIR_COMMANDS], never written
 // Of the passes that sort their segments, these too:
 #define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]
@@ -200,6 +203,7 @@ typedef uint32_t hair_uint;
 #define HAIR_IMAGE_SOLID 1
 #define HAIR_IMAGE_AIR 0 // of the pass that writes the texture at HAIR_UNIT_AIR
 
+#define HAIR_MOST_GROUPS 65535u      // in one dimension: what OpenGL promises
 #define HAIR_GROUP_SIZE 64           // threads of a work group, but for those of a guide: lib/gl/passes.inl
 #define HAIR_MAX_GUIDES 262144       // of a groom
 #define HAIR_MAX_GUIDE_VERTICES 256  // one thread per vertex of a guide
@@ -693,11 +697,13 @@ struct hair_strand {
 };
 HAIR_SIZE(hair_strand, 16)
 
-// Beginning with what OpenGL reads of an indirect draw with indices.
+// Beginning with what OpenGL reads of an indirect draw with indices; that which writes vertices, with three numbers of work
+// groups.
 struct hair_draw_command {
     hair_uint count, instances, first, base_vertex, base_instance;
-    hair_uint strands; // of the first of those that draw a list: in it
-    hair_uint unused0, unused1;
+    hair_uint strands; // of the first of those that draw a list, and of that which writes vertices: in it
+    hair_uint each;    // of the latter: vertices of a strand
+    hair_uint unused0;
 };
 HAIR_SIZE(hair_draw_command, 32)
 

@@ -11,19 +11,34 @@ layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_bu
 shared uint sums[HAIR_COUNT_THREADS];
 shared uint most; // segments of a strand
 
-// Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. There are indices for strands of all the
-// segments, of half as many, and so on (lib/draw/listed.c): the fewest that do.
-// `corners` of a segment, `ends` of each of its ends.
-void write_commands(uint at, uint strands, uint corners, uint ends)
+// There are indices for strands of all the segments, of half as many, and so on (lib/draw/listed.c): the fewest that do, and how
+// many of a corner lie before them.
+uint find_indices(out uint before)
 {
-    uint each = draw.segments, first = 0u;
+    uint each = draw.segments;
+    before    = 0u;
     while (each > 1u && most <= (each + 1u) / 2u) {
-        first += HAIR_INSTANCE_STRANDS * corners * each;
+        before += HAIR_INSTANCE_STRANDS * each;
         each = (each + 1u) / 2u;
     }
-    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, indices = corners * each;
+    return each;
+}
+
+// Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. `corners` of a segment, `ends` of each of its ends.
+void write_commands(uint at, uint strands, uint corners, uint ends)
+{
+    uint before, indices = corners * find_indices(before), first = corners * before;
+    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left;
     command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u, 0u, strands, 0u, 0u);
     command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
+}
+
+// A thread for each vertex that there are indices for, in as many dimensions as workgroup.glsl takes.
+void write_stage_command(uint strands)
+{
+    uint  before, each = find_indices(before) + 1u, groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
+    uvec2 size = uvec2(min(groups, HAIR_MOST_GROUPS), (groups + HAIR_MOST_GROUPS - 1u) / HAIR_MOST_GROUPS);
+    command[HAIR_STAGE_COMMAND] = hair_draw_command(size.x, size.y, 1u, 0u, 0u, strands, each, 0u);
 }
 
 void main()
@@ -54,4 +69,5 @@ void main()
     if (i != HAIR_COUNT_THREADS - 1u) return;
     write_commands(0u, sums[i], 2u, 1u);
     write_commands(HAIR_PAIRED_COMMAND, sums[i], HAIR_PAIRED_INDICES, 2u);
+    write_stage_command(sums[i]);
 }

@@ -1,30 +1,58 @@
 // stage.comp - vertices of the strands that are listed, for a view that has them as it wants: fewer, wider, of fewer segments. In the
-// order of the list, with room for all segments of each. One thread per vertex.
+// order of the list, with room for all segments of each. HAIR_SIDES: as they are drawn. One thread per vertex.
 #version 450 core
 #include "strand.glsl"
 #include "workgroup.glsl"
 #include "packed.glsl"
+#if defined(HAIR_SIDES) && !defined(HAIR_LINES)
+#include "ribbon.glsl"
+#endif
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
 layout(std430, binding = HAIR_BIND_LISTED) readonly restrict buffer command_buffer { hair_draw_command command[]; };
+#ifdef HAIR_SIDES
+layout(std430, binding = HAIR_BIND_EXPANDED) writeonly restrict buffer clip_buffer { vec4 clip[]; };
+#else
 layout(std430, binding = HAIR_BIND_EXPANDED) writeonly restrict buffer expanded_buffer { vec4 expanded[]; };
 layout(std430, binding = HAIR_BIND_EXPANDED_TANGENT) writeonly restrict buffer expanded_tangent_buffer { uvec2 expanded_tangent[]; };
+#endif
 #ifndef HAIR_DEPTH
 layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };
 #endif
 
+#ifdef HAIR_SIDES
+vec4 to_clip(vec3 position) { return draw.view_to_clip * (draw.view * vec4(position, 1.0)); }
+
+void write_place(uint at, strand_vertex v)
+{
+#ifdef HAIR_LINES
+    clip[at] = to_clip(v.position.xyz);
+#else
+    vec3 side         = side_of(v.position, v.tangent);
+    clip[2u * at]     = to_clip(v.position.xyz - side);
+    clip[2u * at + 1] = to_clip(v.position.xyz + side);
+#endif
+}
+#else
+void write_place(uint at, strand_vertex v)
+{
+    expanded[at]         = v.position;
+    expanded_tangent[at] = pack_tangent(v.tangent);
+}
+#endif
+
 void main()
 {
-    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x, each = draw.segments + 1u;
-    if (i / each >= command[0].strands) return;
-    uvec4 record = texelFetch(strand_texture, int(i / each));
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x, each = command[HAIR_STAGE_COMMAND].each;
+    uint place = i / each, k = i % each, at = place * (draw.segments + 1u) + k;
+    if (place >= command[HAIR_STAGE_COMMAND].strands) return;
+    uvec4 record = texelFetch(strand_texture, int(place));
     vec3  own    = uintBitsToFloat(record.yzw); // of hair_strand
-    if (float(i % each) >= own.z + 1.0) return;
-    strand_vertex v     = strand_at(record.x, place_of(i % each, own.z), own.x, own.y);
-    expanded[i]         = v.position;
-    expanded_tangent[i] = pack_tangent(v.tangent);
+    // Beyond the last segment of its own a strand has none: all vertices are at its tip.
+    strand_vertex v = strand_at(record.x, place_of(k, own.z), own.x, own.y);
+    write_place(at, v);
 #ifndef HAIR_DEPTH
-    shaded[i] = pack_color(v.color);
+    shaded[at] = pack_color(v.color);
 #endif
 }

@@ -237,7 +237,7 @@ HAIR_API hair_result hair_form_describe(const hair_form* form, hair_form_info* o
 typedef enum hair_gl_state {
     HAIR_GL_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
     HAIR_GL_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
-    ///< indirect draw buffer, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
+    ///< indirect draw and dispatch buffers, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
     ///< buffer textures of units 17 and 18, 2D textures, samplers of units 12-16 and 19-23, 3D textures, samplers of units 8-11, image units 0-1.
 } hair_gl_state;
 
@@ -764,10 +764,12 @@ typedef enum hair_path {
     HAIR_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
     HAIR_PATH_EXPANDED,  ///< Vertices written once, for all views until hair moves: 24 bytes each; and
                          ///< shaded for each view of colour before it draws them: 8 more. With a
-                         ///< hair_lod as HAIR_PATH_INSTANCED.
+                         ///< hair_lod those of what is drawn are written for each view: 40 bytes, of
+                         ///< lines 24; only of HAIR_PASS_COLOR and HAIR_PASS_DEPTH and without a
+                         ///< shader, else as HAIR_PATH_INSTANCED.
     /// As HAIR_PATH_EXPANDED, but pixels too are made by compute, and come to the framebuffer as rectangles: for GPUs of which
     /// few units draw. Of HAIR_PASS_COLOR and HAIR_PASS_DEPTH as ribbons, by samples, without a shader that shades pixels;
-    /// all else is drawn as by HAIR_PATH_EXPANDED. With a hair_lod vertices are written for each view, as many bytes. What is
+    /// all else is drawn as by HAIR_PATH_EXPANDED. With a hair_lod vertices are written for each view, 32 bytes. What is
     /// blended is blended once, the nearest. Depth functions other than less and greater are taken for less. Up to 16 samples;
     /// memory: 8 bytes, of depth alone 4, for each sample of the pixels that hair can be in, and half as many again.
     HAIR_PATH_COMPUTED,

@@ -63,7 +63,7 @@ void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const 
     const hair_lod* lod = view ? view->lod : NULL;
     draw->pixels        = 0;
     draw->led           = 1;
-    if (!lod || !lod->dynamic || view->path == HAIR_PATH_EXPANDED) return;
+    if (!lod || !lod->dynamic || hair_draw_expands(view)) return;
     draw->pixels = fmaxf(lod->importance * pixels_of(draw, head, view), 1e-6f);
     draw->led    = fminf(fmaxf(LED * draw->pixels - 1, 0), 1);
 }

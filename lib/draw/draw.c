@@ -189,21 +189,19 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
     return result;
 }
 
-// Ribbons of vertices that are there take no geometry shader, but each twice.
-static int is_paired(const hair_view* view)
-{
-    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;
-}
-
 // The pass that draws; and the one that shades or stages vertices before it, 0: there is none.
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
     hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->path];
-    if (is_paired(view)) row = HAIR_GL_PAIRED;
+    if (hair_draw_is_paired(view)) row = HAIR_GL_PAIRED;
     *shade = 0;
     if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
-    if (hair_draw_stages(view)) *shade = hair_gl_with(HAIR_GL_STAGE, features);
+    if (hair_draw_stages(view)) {
+        int drawn = view->path == HAIR_PATH_EXPANDED;
+        *shade    = hair_gl_with(drawn ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
+        return hair_gl_with(drawn ? HAIR_GL_STAGED : row, features);
+    }
     if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
     return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
 }
@@ -286,7 +284,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     else if (computed)
         hair_draw_compose(draw, &with->raster);
     else if (listed)
-        hair_draw_listed(draw, is_paired(view));
+        hair_draw_listed(draw, hair_draw_is_paired(view));
     else
         hair_draw_patches(draw);
     if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
@@ -299,7 +297,6 @@ static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* h
     hair_gl_pass with   = out->pass & RASTER_FEATURES;
     hair_result  result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
     out->nowhere        = !hair_draw_find_raster(draw, head, view, &out->raster);
-    if (!result && view->lod) result = hair_draw_need_staged(draw, with & HAIR_GL_WITH(DEPTH));
     return result || out->nowhere ? result : hair_draw_need_raster(draw, with, &out->raster);
 }
 
@@ -315,11 +312,14 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
         result = hair_draw_need_fibres(draw);
     if (!result && view->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
     if (!result && view->path != HAIR_PATH_TESSELLATION && view->path != HAIR_PATH_COMPUTED)
-        result = hair_draw_make_indices(draw, is_paired(view));
+        result = hair_draw_make_indices(draw, hair_draw_is_paired(view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
     if (!result && hair_draw_expands(view)) result = hair_draw_need_expanded(draw, smooth, NULL);
     if (!result && view->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
-    if (!result && out->shade_pass && !hair_draw_stages(view)) result = hair_draw_need_shaded(draw);
+    if (!result && hair_draw_stages(view))
+        result = hair_draw_need_staged(draw, view);
+    else if (!result && out->shade_pass)
+        result = hair_draw_need_shaded(draw);
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);

@@ -147,6 +147,8 @@ int hair_draw_expands(const hair_view* view);
 int hair_draw_stages(const hair_view* view);
 int hair_draw_is_shared(const hair_view* view);
 int hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
+// Ribbons of vertices that are there take no geometry shader, but each twice.
+int hair_draw_is_paired(const hair_view* view);
 // lights.c: whether it has maps of bodies that block lights.
 int hair_draw_is_blocked(const hair_view* view);
 
@@ -209,9 +211,9 @@ void        hair_draw_free_sorted(struct hair_draw* draw);
 void        hair_draw_sort(struct hair_draw* draw);
 void        hair_draw_sorted(struct hair_draw* draw);
 
-// staged.c: room for vertices of listed strands, of depth alone or of colour too; write them, and have them read in place of those
-// that are expanded.
-hair_result hair_draw_need_staged(struct hair_draw* draw, hair_gl_pass depth);
+// staged.c: room for vertices of listed strands as a view wants them; write them, and have them read in place of those that are
+// expanded.
+hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view);
 void        hair_draw_free_staged(struct hair_draw* draw);
 void        hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 

@@ -73,22 +73,39 @@ static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view*
     return view->pass == HAIR_PASS_COLOR ? HAIR_PATH_EXPANDED : HAIR_PATH_TESSELLATION;
 }
 
-int hair_draw_expands(const hair_view* view)
+// Velocities are those of vertices that are kept, and sorted are segments between such.
+static int keeps_vertices(const hair_view* view)
 {
-    return view->path == HAIR_PATH_EXPANDED || (view->path == HAIR_PATH_COMPUTED && !view->lod);
+    return view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view);
 }
 
+// Levels of detail leave out most vertices, and want others.
 int hair_draw_stages(const hair_view* view)
 {
-    return view->path == HAIR_PATH_COMPUTED && view->lod;
+    return view->lod && !keeps_vertices(view) &&
+           (view->path == HAIR_PATH_EXPANDED || view->path == HAIR_PATH_COMPUTED);
 }
 
-// Levels of detail leave out most vertices, and want others. Velocities are those of vertices that are kept, and sorted are
-// segments between such.
+int hair_draw_expands(const hair_view* view)
+{
+    return (view->path == HAIR_PATH_EXPANDED || view->path == HAIR_PATH_COMPUTED) && !hair_draw_stages(view);
+}
+
+int hair_draw_is_paired(const hair_view* view)
+{
+    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;
+}
+
+// What is staged has a place, a width and a colour.
+static int is_stageable(const hair_view* view)
+{
+    return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
+}
+
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view)
 {
-    if (view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view)) return HAIR_PATH_EXPANDED;
+    if (keeps_vertices(view)) return HAIR_PATH_EXPANDED;
     hair_path path = view->path == HAIR_PATH_AUTO ? find_fastest_for(draw, view) : view->path;
     if (path == HAIR_PATH_COMPUTED && !is_computable(view)) path = HAIR_PATH_EXPANDED;
-    return path == HAIR_PATH_EXPANDED && view->lod ? HAIR_PATH_INSTANCED : path;
+    return path == HAIR_PATH_EXPANDED && view->lod && !is_stageable(view) ? HAIR_PATH_INSTANCED : path;
 }

@@ -1,4 +1,4 @@
-// staged.c - vertices of listed strands written for one view, and shaded, before compute makes pixels of them.
+// staged.c - vertices of listed strands written for one view, and shaded, before pixels are made of them.
 #include "lib/draw/draw.h"
 
 static const struct {
@@ -9,50 +9,69 @@ static const struct {
                               [HAIR_STAGED_TANGENT]  = {"hair staged tangents", GL_RGBA16, 8},
                               [HAIR_STAGED_SHADED]   = {"hair staged colours", GL_RGBA16F, 8}};
 
-hair_result hair_draw_need_staged(struct hair_draw* draw, hair_gl_pass depth)
+// What is drawn has two sides and no tangent; pixels that compute makes are of tangents. There is room for whichever is more.
+static size_t size_of(const hair_view* view, int part, size_t vertices)
+{
+    int drawn = view->path == HAIR_PATH_EXPANDED;
+    if (part == HAIR_STAGED_TANGENT && drawn) return 0;
+    if (part == HAIR_STAGED_SHADED && view->pass == HAIR_PASS_DEPTH) return 0;
+    return vertices * parts[part].size * (part == HAIR_STAGED_POSITION && hair_draw_is_paired(view) ? 2 : 1);
+}
+
+static void free_part(struct hair_draw* draw, int part)
+{
+    hair_gl_free_buffer_texture(draw->gl, &draw->staged.texture[part]);
+    hair_gl_free_buffer(draw->gl, &draw->staged.buffer[part]);
+    draw->staged.size[part] = 0;
+}
+
+static hair_result need_part(struct hair_draw* draw, int part, size_t size)
+{
+    struct hair_staged* staged = &draw->staged;
+    if (staged->size[part] >= size) return HAIR_OK;
+    free_part(draw, part);
+    hair_result result = hair_gl_storage(draw->gl, parts[part].label, size, NULL, &staged->buffer[part]);
+    if (!result)
+        result = hair_gl_buffer_texture(draw->gl, parts[part].label, parts[part].format, staged->buffer[part],
+                                        &staged->texture[part]);
+    staged->size[part] = size;
+    return result;
+}
+
+hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view)
 {
     draw->used[HAIR_DRAW_STAGED] = draw->frame;
-    struct hair_gl*     gl       = draw->gl;
     struct hair_staged* staged   = &draw->staged;
-    int                 count    = depth ? HAIR_STAGED_SHADED : HAIR_STAGED_PARTS;
     size_t              vertices = hair_draw_count_vertices(draw);
     hair_result         result   = HAIR_OK;
     if (staged->vertices != vertices) hair_draw_free_staged(draw);
-    for (int i = 0; i < count && !result; ++i) {
-        if (staged->texture[i]) continue;
-        result = hair_gl_storage(gl, parts[i].label, vertices * parts[i].size, NULL, &staged->buffer[i]);
-        if (!result)
-            result = hair_gl_buffer_texture(gl, parts[i].label, parts[i].format, staged->buffer[i],
-                                            &staged->texture[i]);
-    }
     staged->vertices = vertices;
+    for (int i = 0; i < HAIR_STAGED_PARTS && !result; ++i)
+        result = need_part(draw, i, size_of(view, i, vertices));
     if (result) hair_draw_free_staged(draw);
     return result;
 }
 
 void hair_draw_free_staged(struct hair_draw* draw)
 {
-    struct hair_staged* staged = &draw->staged;
-    for (int i = 0; i < HAIR_STAGED_PARTS; ++i) {
-        hair_gl_free_buffer_texture(draw->gl, &staged->texture[i]);
-        hair_gl_free_buffer(draw->gl, &staged->buffer[i]);
-    }
-    staged->vertices = 0;
+    for (int i = 0; i < HAIR_STAGED_PARTS; ++i) free_part(draw, i);
+    draw->staged.vertices = 0;
 }
 
 void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program)
 {
     struct hair_gl*     gl     = draw->gl;
     struct hair_staged* staged = &draw->staged;
-    uint32_t            groups = (uint32_t)((staged->vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LISTED, 1, &draw->listed.command);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, HAIR_STAGED_PARTS, staged->buffer);
-    hair_gl_run_with(gl, pass, program, groups);
+    hair_gl_run_indirect(gl, pass, program, draw->listed.command,
+                         HAIR_STAGE_COMMAND * sizeof(struct hair_draw_command));
     // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, HAIR_STAGED_PARTS, NULL);
     gl->BindTextureUnit(HAIR_UNIT_EXPANDED, staged->texture[HAIR_STAGED_POSITION]);
-    gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, staged->texture[HAIR_STAGED_TANGENT]);
+    if (staged->texture[HAIR_STAGED_TANGENT])
+        gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, staged->texture[HAIR_STAGED_TANGENT]);
     if (staged->texture[HAIR_STAGED_SHADED])
         gl->BindTextureUnit(HAIR_UNIT_SHADED, staged->texture[HAIR_STAGED_SHADED]);
 }

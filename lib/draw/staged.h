@@ -1,4 +1,4 @@
-// staged.h - vertices of the strands that are listed, as one view of levels of detail wants them. Only while one does, by compute.
+// staged.h - vertices of the strands that are listed, as one view of levels of detail wants them. Only while one does.
 #ifndef HAIR_DRAW_STAGED_H
 #define HAIR_DRAW_STAGED_H
 
@@ -10,6 +10,7 @@ struct hair_staged {
     GLuint buffer
         [HAIR_STAGED_PARTS]; // as HAIR_BIND_EXPANDED and the two after it in shared.h; 0 until they are needed
     GLuint texture[HAIR_STAGED_PARTS]; // of them
+    size_t size[HAIR_STAGED_PARTS];    // bytes
     size_t vertices;                   // that there is room for
 };
 

@@ -42,7 +42,8 @@ struct hair_gl_timer {
 
 // What a draw or a dispatch changes, to be put back. See state.c.
 struct hair_gl_saved {
-    GLint      program, vertex_array, patch_vertices, active_texture, cull, restarts, indirect;
+    GLint      program, vertex_array, patch_vertices, active_texture, cull, restarts;
+    GLint      draw_indirect, dispatch_indirect;
     GLint      texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
     GLint      image[HAIR_IMAGE_SOLID + 1][6]; // name, level, layered, layer, access, format
     GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
@@ -250,9 +251,11 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass);
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 
 // Run a compute pass over `groups` work groups, numbered by hair_group() in GLSL, and make what it wrote visible.
-void  hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
-void  hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
-                       uint32_t groups); // by a program of the host's
+void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
+                      uint32_t groups); // by a program of the host's
+// The same over as many as three numbers in a buffer say, from that byte on.
+void  hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);
 
 #endif

@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MAX_GROUPS 65535 // In one dimension: what OpenGL promises.
-
 static const struct {
     const char*  label;
     hair_gl_pass features;
@@ -134,12 +132,17 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
     gl->PopDebugGroup();
 }
 
-static void dispatch(struct hair_gl* gl, uint32_t groups)
+static void wait_for_writes(struct hair_gl* gl)
 {
-    uint32_t count = (groups + MAX_GROUPS - 1) / MAX_GROUPS;
-    gl->DispatchCompute(count > 1 ? MAX_GROUPS : groups, count, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                       GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+}
+
+static void dispatch(struct hair_gl* gl, uint32_t groups)
+{
+    uint32_t count = (groups + HAIR_MOST_GROUPS - 1) / HAIR_MOST_GROUPS;
+    gl->DispatchCompute(count > 1 ? HAIR_MOST_GROUPS : groups, count, 1);
+    wait_for_writes(gl);
 }
 
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
@@ -156,6 +159,16 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
     dispatch(gl, groups);
+    hair_gl_end(gl, pass);
+}
+
+void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at)
+{
+    hair_gl_begin(gl, pass);
+    gl->UseProgram(program);
+    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+    gl->DispatchComputeIndirect((GLintptr)at);
+    wait_for_writes(gl);
     hair_gl_end(gl, pass);
 }
 

@@ -49,6 +49,8 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the ho
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
         WITH(SHARES) | WITH(WIDENED)
+#define STAGE_FEATURES \
+    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(BLOCKED) | WITH(WIDENED) | WITH(HITS)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", 0, "field/voxelise.comp")
@@ -106,7 +108,9 @@ PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS) | WITH(HIDDEN),
 PASS(INSTANCED, "draw/instanced", DRAW_FEATURES | WITH(HITS), "HAIR_LISTED=1 draw/strand.vert" DRAW_STAGES)
 PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
 PASS(PAIRED, "draw/expanded_paired", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
-PASS(STAGE, "draw/stage", WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(BLOCKED) | WITH(WIDENED) | WITH(HITS), "HAIR_LISTED=1 draw/stage.comp")
+PASS(STAGE, "draw/stage", STAGE_FEATURES, "HAIR_LISTED=1 draw/stage.comp")
+PASS(STAGE_SIDES, "draw/stage_sides", STAGE_FEATURES | WITH(LINES), "HAIR_LISTED=1 HAIR_SIDES=1 draw/stage.comp")
+PASS(STAGED, "draw/staged", WITH(DEPTH) | WITH(LINES), "draw/staged.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
 PASS(RASTER_CLEAR, "draw/raster_clear", WITH(DEPTH), "draw/raster_clear.comp")
 PASS(RASTER, "draw/raster", WITH(DEPTH) | WITH(WIDENED), "HAIR_EXPANDED=1 draw/raster.comp")
 PASS(COMPOSE, "draw/compose", WITH(DEPTH) | WITH(WIDENED), "HAIR_EXPANDED=1 draw/compose.vert draw/compose.frag")
@@ -126,6 +130,7 @@ PASS(AIR, "draw/air", 0, "draw/air.vert draw/guides.frag")
 PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
 
 #undef DRAW_STAGES
+#undef STAGE_FEATURES
 #undef DRAW_FEATURES
 #undef SOLVER_FEATURES
 #undef WITH

@@ -77,7 +77,8 @@ void hair_gl_enter(struct hair_gl* gl)
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
     gl->GetIntegerv(GL_PATCH_VERTICES, &saved->patch_vertices);
-    gl->GetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &saved->indirect);
+    gl->GetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &saved->draw_indirect);
+    gl->GetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &saved->dispatch_indirect);
     saved->cull     = gl->IsEnabled(GL_CULL_FACE);
     saved->restarts = gl->IsEnabled(GL_PRIMITIVE_RESTART);
     save_units(gl);
@@ -95,6 +96,7 @@ static void unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1, NULL);
     for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
@@ -112,7 +114,8 @@ void hair_gl_leave(struct hair_gl* gl)
     gl->UseProgram((GLuint)saved->program);
     gl->BindVertexArray((GLuint)saved->vertex_array);
     gl->PatchParameteri(GL_PATCH_VERTICES, saved->patch_vertices);
-    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, (GLuint)saved->indirect);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, (GLuint)saved->draw_indirect);
+    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, (GLuint)saved->dispatch_indirect);
     (saved->cull ? gl->Enable : gl->Disable)(GL_CULL_FACE);
     (saved->restarts ? gl->Enable : gl->Disable)(GL_PRIMITIVE_RESTART);
     restore_units(gl);

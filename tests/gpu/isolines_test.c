@@ -106,12 +106,11 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
                              size_t most_segments, int hits, const hair_lod* lod)
 {
     struct hair_gl*         gl    = &test->context->gl;
-    hair_path               other = lod && path == HAIR_PATH_EXPANDED ? HAIR_PATH_INSTANCED : path;
-    hair_gl_pass            pass  = paths[other].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
+    hair_gl_pass            pass  = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
     struct hair_gl_program* own   = hair_gl_know(gl, pass);
     GLuint                  whole = own->program, program = 0;
     char                    stages[128];
-    snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[other].stages[hits]);
+    snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[path].stages[hits]);
     hair_test_ok(test, hair_gl_link(gl, "capture", stages, "strand_position", &program));
     memset(&capture, 0, sizeof capture);
     capture.patches = gl->DrawArraysInstanced;
@@ -450,29 +449,26 @@ static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
         struct drawn tessellated = draw_lod(test, hair, HAIR_PATH_TESSELLATION, 200 * 32, 0, &lod);
         assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * shares[i]));
         sort_strands(&tessellated);
-        for (hair_path path = HAIR_PATH_INSTANCED; path < PATHS; ++path) {
-            struct drawn drawn = draw_lod(test, hair, path, 200 * 64, 0, &lod);
-            double       worst = 0;
-            size_t       at    = 0;
-            sort_strands(&drawn);
-            for (size_t k = 0; k < 2 * drawn.segments; k += 2) {
-                const struct vertex *a = &drawn.vertices[k], *b = &tessellated.vertices[at];
-                if (!memcmp(a, a + 1, sizeof *a)) continue;
-                assert_true(at < 2 * tessellated.segments);
-                at += 2;
-                for (int end = 0; end < 2; ++end) {
-                    worst = fmax(worst, fabs((double)a[end].x - (double)b[end].x));
-                    worst = fmax(worst, fabs((double)a[end].y - (double)b[end].y));
-                    worst = fmax(worst, fabs((double)a[end].z - (double)b[end].z));
-                    hair_test_near("radius", k, a[end].radius, b[end].radius, 1e-8);
-                }
+        struct drawn drawn = draw_lod(test, hair, HAIR_PATH_INSTANCED, 200 * 64, 0, &lod);
+        double       worst = 0;
+        size_t       at    = 0;
+        sort_strands(&drawn);
+        for (size_t k = 0; k < 2 * drawn.segments; k += 2) {
+            const struct vertex *a = &drawn.vertices[k], *b = &tessellated.vertices[at];
+            if (!memcmp(a, a + 1, sizeof *a)) continue;
+            assert_true(at < 2 * tessellated.segments);
+            at += 2;
+            for (int end = 0; end < 2; ++end) {
+                worst = fmax(worst, fabs((double)a[end].x - (double)b[end].x));
+                worst = fmax(worst, fabs((double)a[end].y - (double)b[end].y));
+                worst = fmax(worst, fabs((double)a[end].z - (double)b[end].z));
+                hair_test_near("radius", k, a[end].radius, b[end].radius, 1e-8);
             }
-            print_message("    path %d, %.2f of the segments: off by %.2g m\n", (int)path, (double)shares[i],
-                          worst);
-            assert_int_equal(at, 2 * tessellated.segments);
-            assert_true(worst <= TOLERANCE);
-            free(drawn.vertices);
         }
+        print_message("    %.2f of the segments: off by %.2g m\n", (double)shares[i], worst);
+        assert_int_equal(at, 2 * tessellated.segments);
+        assert_true(worst <= TOLERANCE);
+        free(drawn.vertices);
         free(tessellated.vertices);
     }
     hair_destroy(hair);

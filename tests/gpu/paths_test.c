@@ -67,12 +67,24 @@ struct picture {
     unsigned char mask[PIXELS]; // of what hair covers, and 8 pixels around
 };
 
+// Of depth the share that is left up to the far plane, ten times as steep.
+static void read_depths(const struct hair_test_frame* frame, float* pixels)
+{
+    static float depths[PIXELS];
+    hair_test_frame_read_depth(frame, depths);
+    for (int i = 0; i < 4 * PIXELS; ++i) pixels[i] = 10 * (1 - depths[i / 4]);
+}
+
 static void draw(struct fixture* f, const hair_view* view, struct picture* out)
 {
+    int                    shows = view->pass == HAIR_PASS_COLOR;
     struct hair_test_frame frame;
-    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 4);
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, shows ? 4 : 0);
     hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&frame, out->pixels);
+    if (shows)
+        hair_test_frame_read(&frame, out->pixels);
+    else
+        read_depths(&frame, out->pixels);
     hair_test_frame_free(&frame);
     for (int i = 0; i < PIXELS; ++i) {
         for (int k = 0; k < 3; ++k) {
@@ -96,6 +108,13 @@ static const char* drawn_by(struct fixture* f)
     return "";
 }
 
+// Compute makes no lines; and with levels of detail vertices are another view's.
+static const char* name_of(hair_path path, const hair_view* view)
+{
+    if (path == HAIR_PATH_COMPUTED && view->primitive == HAIR_LINES) path = HAIR_PATH_EXPANDED;
+    return path == HAIR_PATH_EXPANDED && view->lod ? "staged" : names[path];
+}
+
 static uint32_t count_hits(struct fixture* f)
 {
     uint32_t count = 0;
@@ -116,8 +135,7 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
             struct hair_image_error error;
             hair_view               view = front(path, primitive);
             draw(&f, &view, &picture[path]);
-            int lines = path == HAIR_PATH_COMPUTED && primitive == HAIR_LINES;
-            assert_non_null(strstr(drawn_by(&f), lines ? "expanded" : names[path]));
+            assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
             assert_true(
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
@@ -127,6 +145,34 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
         }
         assert_true(count_hits(&f) > 100);
     }
+    finish(&f);
+}
+
+// Vertices of levels of detail are written for each view: where those that are drawn without that are.
+static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
+{
+    static struct picture picture[PATHS];
+    struct fixture        f       = start(state, 1);
+    hair_lod              lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
+    lods[0].strands = 0.37f, lods[0].segments = 0.3f, lods[0].dynamic = 0;
+    lods[1].strands = 0.1f, lods[1].dynamic = 0;
+    lods[2].strand_pixels = 3, lods[2].segment_pixels = 20;
+    for (int i = 0; i < 12; ++i)
+        for (hair_path path = 0; (int)path < PATHS; ++path) {
+            struct hair_image_error error;
+            hair_view               view  = front(path, (hair_primitive)(i / 3 % 2));
+            int                     shown = i < 6;
+            view.pass                     = shown ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
+            view.lod                      = &lods[i % 3];
+            draw(&f, &view, &picture[path]);
+            if (shown) assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
+            assert_true(shown || picture[path].pixels[4 * (PIXELS / 2 + SIDE / 2)] > 0);
+            assert_true(
+                hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
+            print_message("    %s, %s, level %d%s: FLIP %.5f\n", names[path],
+                          view.primitive ? "lines" : "ribbons", i % 3, shown ? "" : ", depth", error.flip);
+            assert_true(error.flip <= (path == HAIR_PATH_COMPUTED ? 0.03 : 0.01));
+        }
     finish(&f);
 }
 
@@ -179,7 +225,7 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
         view.lod        = i / 2 ? &lod : NULL;
         hair_path taken = hair_draw_path(&f.hair->draw, &view);
         draw(&f, &view, &own);
-        assert_non_null(strstr(drawn_by(&f), names[taken]));
+        assert_non_null(strstr(drawn_by(&f), name_of(taken, &view)));
         view.path = taken;
         draw(&f, &view, &same);
         assert_memory_equal(own.pixels, same.pixels, sizeof own.pixels);
@@ -205,6 +251,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths),
+        HAIR_TEST(pictures_of_levels_of_detail_are_alike_by_all_paths),
         HAIR_TEST(colours_of_the_groom_are_drawn_by_all_paths),
         HAIR_TEST(auto_draws_what_the_path_of_the_table_does_and_says_so),
         HAIR_TEST(auto_does_not_expand_more_than_fits),

@@ -175,6 +175,7 @@ static const struct {
     {"depth, expanded", HAIR_PATH_EXPANDED, lend_depth},
     {"depth, computed", HAIR_PATH_COMPUTED, lend_depth},
     {"levels of detail, computed", HAIR_PATH_COMPUTED, leave_out},
+    {"levels of detail, expanded", HAIR_PATH_EXPANDED, leave_out},
     {"velocities", HAIR_PATH_TESSELLATION, show_motion},
     {"solids", HAIR_PATH_TESSELLATION, show_solids},
 };

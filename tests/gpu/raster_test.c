@@ -284,8 +284,11 @@ static void what_compute_does_not_make_is_drawn(void** state)
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_COMPUTED);
     view.lod       = &lod;
     view.primitive = HAIR_LINES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
+    view.pass = HAIR_PASS_ID; // More than levels of detail write of a vertex.
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
-    view.lod = NULL;
+    view.pass = HAIR_PASS_COLOR;
+    view.lod  = NULL;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
     view.primitive = HAIR_RIBBONS;
     view.coverage  = HAIR_COVERAGE_SHARES;

@@ -148,11 +148,13 @@ static hair_result draw_as(struct fixture* f, int i)
 {
     hair_view  view = hair_view_default();
     hair_light lights[4];
+    hair_lod   lod  = hair_lod_default();
     int        path = i / 5, lit = i % 5 == 4;
     view.path      = (hair_path)path;
     view.pass      = (hair_pass)(i % 5 % 4);
     view.primitive = path == HAIR_PATH_COMPUTED ? HAIR_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
     view.slice     = (hair_slice)(i % 2);
+    view.lod       = path >= HAIR_PATH_EXPANDED && i % 5 == 0 ? &lod : NULL;
     for (int k = 0; k < 4; ++k) {
         lights[k]                = hair_light_default();
         lights[k].shadow_texture = f->shadow;
@@ -274,7 +276,8 @@ static int may_change(const char* name)
                                          "GL_PATCH_VERTICES",
                                          "GL_CULL_FACE",
                                          "GL_PRIMITIVE_RESTART",
-                                         "GL_DRAW_INDIRECT_BUFFER_BINDING"};
+                                         "GL_DRAW_INDIRECT_BUFFER_BINDING",
+                                         "GL_DISPATCH_INDIRECT_BUFFER_BINDING"};
     for (size_t i = 0; i < sizeof listed / sizeof *listed; ++i)
         if (strcmp(name, listed[i]) == 0) return 1;
     const char* number = strrchr(name, ' ');

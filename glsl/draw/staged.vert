@@ -1,0 +1,23 @@
+// staged.vert - one vertex of what stage.comp has left of strands for this view: to one of their sides, or of lines their middle.
+#version 450 core
+#include "draw_params.glsl"
+
+#ifdef HAIR_LINES
+#define SIDES 1
+#else
+#define SIDES 2
+#endif
+layout(binding = HAIR_UNIT_EXPANDED) uniform samplerBuffer clip_texture;
+#ifndef HAIR_DEPTH
+layout(binding = HAIR_UNIT_SHADED) uniform samplerBuffer shaded_texture;
+layout(location = 2) out vec3 strand_color;
+#endif
+
+void main()
+{
+    int at      = gl_InstanceID * int(HAIR_INSTANCE_STRANDS * (draw.segments + 1u)) * SIDES + gl_VertexID;
+    gl_Position = texelFetch(clip_texture, at);
+#ifndef HAIR_DEPTH
+    strand_color = texelFetch(shaded_texture, at / SIDES).rgb;
+#endif
+}
