@@ -63,8 +63,8 @@ tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
-	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 2 -o build/demo.png
-	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --set segments=18 --set shadow=depth -o build/demo.mp4
+	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 4 -o build/demo.png
+	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=shares --set segments=18 --set shadow=depth -o build/demo.mp4
 
 gallery: setup ## build/gallery.png: what the library does, pictures with captions
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
