@@ -2,7 +2,6 @@
 // holds it up. Kinds of work only where the driver's timers see compute.
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
-#include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -12,7 +11,8 @@
 #define SIZE 720
 #define FRAMES 31
 #define MOST_WORKS 32
-#define MORE 4 // times as much of everything
+#define WARM 300 // ms
+#define MORE 4   // times as much of everything
 
 static const char* const columns[] = {"case",     "method",   "pass",     "guides", "followers", "runs",
                                       "ms",       "ms_more",  "ms_small", "bytes",  "launch_ms", "bytes_ms",
@@ -135,16 +135,6 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
     return true;
 }
 
-// While it compiles a GPU has nothing to do, and is slow for a while after.
-static bool warm_up(struct bench_studio* studio)
-{
-    enum { WARM = 300 }; // ms
-    bool done = true;
-    for (double start = hair_now(); done && hair_now() - start < WARM; glFinish())
-        done = bench_studio_draw(studio, NULL);
-    return done;
-}
-
 // Frames of a head that shakes, each stepped and drawn.
 static bool live(struct bench* bench, const struct point* point, uint32_t times, uint32_t size,
                  struct work works[MOST_WORKS], uint32_t* count)
@@ -162,7 +152,7 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
     shot.view.path         = HAIR_PATH_AUTO;
     bool done              = bench_studio_set(&studio, &shot);
     for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two compile what they need.
-        if (i == 2) done = warm_up(&studio);
+        if (i == 2) done = bench_studio_warm_up(&studio, WARM);
         done = done && bench_studio_step(&studio, NULL) && bench_studio_draw(&studio, NULL);
         glFinish();
         if (done && i > 1) done = look(&studio, works, count);

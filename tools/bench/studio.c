@@ -348,23 +348,21 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
     return !bench_was_interrupted();
 }
 
-// As a GPU is for steps, in living.c: pictures are compared between two timings, while it has nothing to do.
-static bool warm_up(struct bench_studio* studio)
+bool bench_studio_warm_up(struct bench_studio* studio, double enough)
 {
-    enum { WARM = 100 };                       // ms
     bool ok = bench_studio_draw(studio, NULL); // It compiles what it needs.
     if (studio->bench->software) return ok;
-    for (double start = hair_now(); ok && hair_now() - start < WARM; glFinish())
+    for (double start = hair_now(); ok && hair_now() - start < enough; glFinish())
         ok = bench_studio_draw(studio, NULL);
     return ok;
 }
 
 bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out)
 {
-    enum { MOST_RUNS = 31 };
+    enum { MOST_RUNS = 31, WARM = 100 }; // draws, ms
     double   ms[MOST_RUNS], passed = 0;
     uint32_t runs = 0;
-    if (!warm_up(studio)) return false;
+    if (!bench_studio_warm_up(studio, WARM)) return false;
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
          passed       = hair_now() - start)
         if (!bench_studio_draw(studio, &ms[runs++])) return false;

@@ -80,6 +80,9 @@ bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot
 // All of a picture. `ms`, which may be NULL: of the hair, its shadow map, and what makes pixels of samples.
 bool bench_studio_draw(struct bench_studio* studio, double* ms);
 
+// A GPU that has had nothing to do, as while pictures are compared or programs compiled, is slow at first: draw for that long, ms.
+bool bench_studio_warm_up(struct bench_studio* studio, double enough);
+
 // The median of some draws.
 bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out);
 
