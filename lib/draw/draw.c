@@ -198,9 +198,9 @@ static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* v
     *shade = 0;
     if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
     if (hair_draw_stages(view)) {
-        int drawn = view->path == HAIR_PATH_EXPANDED;
-        *shade    = hair_gl_with(drawn ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
-        return hair_gl_with(drawn ? HAIR_GL_STAGED : row, features);
+        int sides = hair_draw_stages_sides(view);
+        *shade    = hair_gl_with(sides ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
+        return hair_gl_with(sides ? HAIR_GL_STAGED : row, features);
     }
     if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
     return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);

@@ -145,6 +145,7 @@ hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
 // Whether the path takes vertices of all followers, that are written once; or has its own. Whether a view wants shares of pixels,
 int hair_draw_expands(const hair_view* view);
 int hair_draw_stages(const hair_view* view);
+int hair_draw_stages_sides(const hair_view* view); // in clip space, to be drawn as they are
 int hair_draw_is_shared(const hair_view* view);
 int hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
 // Ribbons of vertices that are there take no geometry shader, but each twice.

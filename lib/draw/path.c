@@ -91,6 +91,11 @@ int hair_draw_expands(const hair_view* view)
     return (view->path == HAIR_PATH_EXPANDED || view->path == HAIR_PATH_COMPUTED) && !hair_draw_stages(view);
 }
 
+int hair_draw_stages_sides(const hair_view* view)
+{
+    return view->path == HAIR_PATH_EXPANDED && hair_draw_stages(view);
+}
+
 int hair_draw_is_paired(const hair_view* view)
 {
     return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;

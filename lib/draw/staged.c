@@ -12,8 +12,7 @@ static const struct {
 // What is drawn has two sides and no tangent; pixels that compute makes are of tangents. There is room for whichever is more.
 static size_t size_of(const hair_view* view, int part, size_t vertices)
 {
-    int drawn = view->path == HAIR_PATH_EXPANDED;
-    if (part == HAIR_STAGED_TANGENT && drawn) return 0;
+    if (part == HAIR_STAGED_TANGENT && hair_draw_stages_sides(view)) return 0;
     if (part == HAIR_STAGED_SHADED && view->pass == HAIR_PASS_DEPTH) return 0;
     return vertices * parts[part].size * (part == HAIR_STAGED_POSITION && hair_draw_is_paired(view) ? 2 : 1);
 }
