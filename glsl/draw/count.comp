@@ -25,18 +25,18 @@ uint find_indices(out uint before)
 }
 
 // Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. `corners` of a segment, `ends` of each of its ends.
-void write_commands(uint at, uint strands, uint corners, uint ends)
+void write_commands(uint at, uint strands, uint each, uint before, uint corners, uint ends)
 {
-    uint before, indices = corners * find_indices(before), first = corners * before;
+    uint indices = corners * each, first = corners * before;
     uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left;
     command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u, 0u, strands, 0u, 0u);
     command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
 }
 
 // A thread for each vertex that there are indices for, in as many dimensions as workgroup.glsl takes.
-void write_stage_command(uint strands)
+void write_stage_command(uint strands, uint each)
 {
-    uint  before, each = find_indices(before) + 1u, groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
+    uint  groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
     uvec2 size = uvec2(min(groups, HAIR_MOST_GROUPS), (groups + HAIR_MOST_GROUPS - 1u) / HAIR_MOST_GROUPS);
     command[HAIR_STAGE_COMMAND] = hair_draw_command(size.x, size.y, 1u, 0u, 0u, strands, each, 0u);
 }
@@ -67,7 +67,8 @@ void main()
     synchronise();
     for (uint number = first; number < end; ++number) start[number] += sums[i] - sum;
     if (i != HAIR_COUNT_THREADS - 1u) return;
-    write_commands(0u, sums[i], 2u, 1u);
-    write_commands(HAIR_PAIRED_COMMAND, sums[i], HAIR_PAIRED_INDICES, 2u);
-    write_stage_command(sums[i]);
+    uint before, segments = find_indices(before);
+    write_commands(0u, sums[i], segments, before, 2u, 1u);
+    write_commands(HAIR_PAIRED_COMMAND, sums[i], segments, before, HAIR_PAIRED_INDICES, 2u);
+    write_stage_command(sums[i], segments + 1u);
 }
