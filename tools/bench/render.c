@@ -6,6 +6,7 @@
 #include "tools/bench/extent.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/truth.h"
+#include "tools/bench/versus.h"
 #include "tools/common/file.h"
 
 #include <math.h>
@@ -92,7 +93,7 @@ struct scene {
     uint32_t              most_samples; // of OpenGL
     struct bench_truth    truth;
     double                halves_differ;
-    size_t                first_row;
+    struct bench_versus   versus;
 };
 
 static uint32_t strands_of(const struct bench* bench, const struct subject* subject, uint32_t size)
@@ -156,7 +157,7 @@ struct setting {
     const struct samples*   samples;
 };
 
-static void add_row(struct scene* scene, const struct setting* setting, const struct bench_times* times,
+static bool add_row(struct scene* scene, const struct setting* setting, const struct bench_times* times,
                     const struct hair_image_error* error, double coverage)
 {
     json_t*  row  = bench_rows_add(&scene->bench->rows);
@@ -180,9 +181,11 @@ static void add_row(struct scene* scene, const struct setting* setting, const st
     bench_set_count(row, "pixels", error->pixels);
     bench_set_number(row, "coverage_error", coverage);
     bench_set_number(row, "halves_differ", scene->halves_differ);
-    if (error->flip < LEAST_RATIO * scene->halves_differ) return;
+    if (error->flip < LEAST_RATIO * scene->halves_differ) return true;
     bench_set_number(row, "flip", error->flip);
     bench_set_number(row, "psnr", error->psnr);
+    struct bench_contender contender = {scene->studio.shot, times->ms_min, error->flip, row};
+    return bench_versus_add(&scene->versus, &contender);
 }
 
 static bool look(struct scene* scene, const struct setting* setting)
@@ -207,7 +210,7 @@ static bool look(struct scene* scene, const struct setting* setting)
               bench_studio_add(&scene->studio, picture.rgba);
     if (ok) bench_picture_finish(&picture, 1, (double)scene->studio.scene.exposure);
     ok = ok && bench_picture_compare(truth, truth, &picture, &error);
-    if (ok) add_row(scene, setting, &times, &error, picture.coverage / truth->coverage - 1);
+    ok = ok && add_row(scene, setting, &times, &error, picture.coverage / truth->coverage - 1);
     bench_picture_free(&picture);
     return ok;
 }
@@ -297,40 +300,11 @@ static void measure_subject(struct bench* bench, const struct subject* subject)
                         struct setting setting = {&paths[p], &primitives[k], &lods[l], s, &samples[n]};
                         measure(&scene, &setting);
                     }
+    if (scene.alive && subject->width > 0 && !bench_versus_settle(&scene.versus, &scene.studio))
+        bench_refuse(bench, subject->name, "lines");
+    bench_versus_free(&scene.versus);
     bench_truth_free(&scene.truth);
     if (scene.alive) bench_studio_free(&scene.studio);
-}
-
-static double number(const json_t* row, const char* key)
-{
-    return json_number_value(json_object_get(row, key));
-}
-
-static bool is_of_lines(const json_t* row)
-{
-    return !strcmp(json_string_value(json_object_get(row, "primitive")), "lines");
-}
-
-// Of lines of a width: their error over the least of what is as wide as it should be and takes no longer.
-static void compare_with_ribbons(json_t* rows)
-{
-    size_t  i, j;
-    json_t *lines, *ribbons;
-    json_array_foreach(rows, i, lines)
-    {
-        if (!json_is_number(json_object_get(lines, "width")) || !is_of_lines(lines) ||
-            !json_is_number(json_object_get(lines, "flip")))
-            continue;
-        double least = INFINITY;
-        json_array_foreach(rows, j, ribbons)
-        {
-            if (json_equal(json_object_get(lines, "case"), json_object_get(ribbons, "case")) &&
-                !is_of_lines(ribbons) && number(ribbons, "ms") <= number(lines, "ms") &&
-                json_is_number(json_object_get(ribbons, "flip")))
-                least = fmin(least, number(ribbons, "flip"));
-        }
-        if (least < INFINITY) bench_set_number(lines, "to_ribbons", number(lines, "flip") / least);
-    }
 }
 
 static void run_suite(struct bench* bench)
@@ -338,7 +312,6 @@ static void run_suite(struct bench* bench)
     for (size_t i = 0; i < COUNT(subjects); ++i)
         if (subjects[i].quick || !bench->options.quick) measure_subject(bench, &subjects[i]);
     if (bench->planning) return;
-    compare_with_ribbons(bench->rows.rows);
     bench_mark_front(bench->rows.rows, "ms", "flip");
 }
 
