@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TAPS 16       // of a shadow map, of which a pixel that is made of many needs fewer
 #define MAX_TILE 4096 // Pixels drawn at once, in each direction: what any OpenGL 4.5 can hold.
 
 enum program { BACKGROUND, SKIN, DEPTH, TONE, PROGRAM_COUNT };
@@ -276,6 +277,7 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     GLuint           program = render->program[SKIN];
     const hair_view* view    = &frame->scene->settings.view;
     glProgramUniform3fv(program, HAIR_AT_EYE, 1, frame->scene->eye);
+    glProgramUniform1i(program, HAIR_AT_TAPS, render->desc.supersample > 2 ? TAPS / 2 : TAPS);
     glProgramUniform3fv(program, HAIR_AT_AMBIENT, 1, view->ambient);
     hair_frame_lights_set(program, &frame->lights, render->map, render->shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);

@@ -17,6 +17,7 @@
 #define HAIR_AT_SUPERSAMPLE 14
 #define HAIR_AT_EXPOSURE 15
 #define HAIR_AT_HEIGHT 16
+#define HAIR_AT_TAPS 17 // of a shadow map: no constant, since unrolled they cost llvmpipe twice as much
 // Of 16 each: struct hair_lit of scene_lights.h
 #define HAIR_AT_LIGHT_TO 32
 #define HAIR_AT_LIGHT 48
