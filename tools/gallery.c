@@ -18,6 +18,7 @@
 #define CAPTION 2u
 #define CAPTION_LINES 3u
 #define PICTURE_PATH 4128
+#define SAMPLES "--supersample 4 " // unless a row says how many
 
 static const struct entry {
     const char* title;     // of a row; of a picture NULL
@@ -25,7 +26,7 @@ static const struct entry {
     const char* arguments; // of hair-capture
 } entries[] = {
 #define ROW(title) {title, NULL, NULL},
-#define PICTURE(caption, arguments) {NULL, caption, arguments},
+#define PICTURE(caption, arguments) {NULL, caption, SAMPLES arguments},
 #include "tools/gallery.inl"
 #undef ROW
 #undef PICTURE

@@ -72,10 +72,10 @@ PICTURE("Locks by number, darker from root to tip (--shader strands.glsl)",
         "--scene demo --shader tools/scenes/strands.glsl")
 
 ROW("Thin strands: one sample a pixel, four, and one that shows shares")
-PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1")
-PICTURE("Opaque, four samples (the default)", "tools/scenes/far.json")
-PICTURE("Shares of pixels, sorted and blended (coverage=shares), one sample", "tools/scenes/far.json --samples 1 --set coverage=shares")
-PICTURE("Opaque, 64 samples", "tools/scenes/far.json --samples 4 --supersample 4")
+PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1 --supersample 1")
+PICTURE("Opaque, four samples", "tools/scenes/far.json --supersample 1")
+PICTURE("Shares of pixels, sorted and blended (coverage=shares), one sample", "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=shares")
+PICTURE("Opaque, 64 samples, as all pictures of this sheet", "tools/scenes/far.json")
 
 ROW("Level of detail: fewer strands, as much wider, of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")

@@ -52,7 +52,7 @@ static const struct row rows[] = {
     {"path", SETTING, "NAME", "tessellation, instanced, expanded, computed or auto"},
     {"primitive", SETTING, "NAME", "ribbons or lines"},
     {"samples", SAMPLES, "N", "a pixel, as many as the driver has; 4"},
-    {"supersample", SUPERSAMPLE, "N", "pixels drawn for one, in each direction; 1 to 8"},
+    {"supersample", SUPERSAMPLE, "N", "pixels drawn for one, in each direction, 1 to 8; 2"},
     {"set", SET, "KEY=VALUE", "change one of the settings, below; may be repeated"},
     {"scale", SETTING, "X", "of the file's units to metres"},
     {"up", SETTING, "AXIS", "of the file that points up: x, y or z"},
@@ -337,7 +337,7 @@ static const char* find_clash(const struct said* said, const struct hair_capture
 int hair_capture_parse(const char* tool, int count, char** arguments, struct hair_capture_options* out)
 {
     struct said said = {0};
-    *out             = (struct hair_capture_options){.samples = 4, .supersample = 1, .device = -1};
+    *out             = (struct hair_capture_options){.samples = 4, .supersample = 2, .device = -1};
     int code         = read_line(tool, count, arguments, &said, out);
     if (code >= 0) return code;
     const char* clash = find_clash(&said, out);
