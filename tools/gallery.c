@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #define TOOL "hair-gallery"
-#define COLUMNS 4u // pictures beside each other
+#define COLUMNS 5u // pictures beside each other
 #define MARGIN 8u  // pixels around each
 #define TITLE 3u   // pixels for a dot of the letters
 #define CAPTION 2u
