@@ -48,7 +48,8 @@ static const struct golden goldens[] = {
 static void capture(const struct golden* golden, const char* more, const char* out)
 {
     char command[512];
-    snprintf(command, sizeof command, HAIR_BUILD_DIR "/hair-capture %s --size %dx%d --quiet %s -o %s",
+    snprintf(command, sizeof command,
+             HAIR_BUILD_DIR "/hair-capture %s --supersample 1 --size %dx%d --quiet %s -o %s",
              golden->arguments, WIDTH, HEIGHT, more, out);
     int status = system(command);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
