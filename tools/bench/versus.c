@@ -7,7 +7,9 @@
 // What a machine does beside moves times of rows, taken minutes apart, by a quarter; of two taken in turn it moves both.
 #define CLOSE 0.3      // of the time of lines
 #define MOST_ROUNDS 15 // odd: one of two has won more of them
-#define DECISIVE 5     // rounds by which one leads
+#define DECISIVE 5     // rounds by which one leads, of which those that are
+#define CLEAR 0.1      // or more apart
+#define CLEARLY 3      // count so often
 #define WARM 50        // ms
 #define SURE 1.05      // times the time of what was the slower one in turn
 
@@ -50,7 +52,8 @@ static bool takes_longer(struct bench_studio* studio, const struct bench_contend
     for (int i = 0; i < MOST_ROUNDS && abs(lead) < DECISIVE; ++i) {
         double first, second;
         if (!take(studio, one, &first) || !take(studio, other, &second)) return false;
-        lead += first > second ? 1 : -1;
+        int counts = fabs(first / second - 1) > CLEAR ? CLEARLY : 1;
+        lead += first > second ? counts : -counts;
     }
     *longer = lead > 0;
     return true;
