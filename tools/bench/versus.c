@@ -7,9 +7,9 @@
 // What a machine does beside moves times of rows, taken minutes apart, by a quarter; of two taken in turn it moves both.
 #define CLOSE 0.3      // of the time of lines
 #define MOST_ROUNDS 15 // odd: one of two has won more of them
-#define DECISIVE 5     // rounds by which one leads, of which those that are
-#define CLEAR 0.1      // or more apart
-#define CLEARLY 3      // count so often
+#define DECISIVE 5     // rounds by which one leads
+#define CLEAR 0.1      // A round in which they are farther apart
+#define CLEARLY 3      // counts as so many.
 #define WARM 50        // ms
 #define SURE 1.05      // times the time of what was the slower one in turn
 
