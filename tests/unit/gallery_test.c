@@ -53,7 +53,7 @@ static void a_sheet_has_the_pictures_of_its_rows(void** state)
 {
     (void)state;
     expect(0, "mkdir $D/tmp; TMPDIR=$D/tmp $T --only 'followers and solids' --size 41x31 -o $D/a.png", "");
-    expect(0, "head -c 24 $D/a.png | tail -c 8 | od -An -tu1", "   0   0   0 204   0   0   0 144");
+    expect(0, "head -c 24 $D/a.png | tail -c 8 | od -An -tu1", "   0   0   0 253   0   0   0 144");
     expect(0, "rmdir $D/tmp", "");
 }
 
