@@ -101,10 +101,10 @@ $(B)/%.a:
 	@rm -f $@ && $(AR) rcs $@ $^
 $(B)/libhair.so: $(LIB:.o=.shared.o)
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
-$(B)/libhair_egl.so: LINK = $(call packages,--libs,egl)
+$(B)/libhair_egl.so: private LINK = $(call packages,--libs,egl)
 $(B)/libhair_bullet.a: $(BUL)
 $(B)/libhair_bullet.so: $(BUL:.o=.shared.o) $(B)/lib/base/host.c.shared.o $(B)/libhair.so
-$(B)/libhair_bullet.so: LINK = -L$(B) -lhair $(BULLET_LIBS) -lstdc++
+$(B)/libhair_bullet.so: private LINK = -L$(B) -lhair $(BULLET_LIBS) -lstdc++
 $(B)/%.so:
 	$(call say,$@)
 	$(Q)$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
