@@ -43,6 +43,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_MATERIAL                                                                                   \
     5 // hair_vec4[]     per guide vertex: frame of its segment, unit quaternion, y along it
 #define HAIR_BIND_HEALTH 6    // uint[], of every solver: HAIR_HEALTH_COUNT counts; then, of those that go in two, HAIR_HEALTH_LISTS
+#define HAIR_BIND_BEND 7      // hair_vec4[], of the mixed scheme in its place: see hair_rods_bend_size()
 #define HAIR_BIND_REDUCTION 7 // hair_vec4[] per round and guide vertex, never written: see lib/sim/reduce.c
 // The pass that writes the field has neither guides nor these:
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group

@@ -12,7 +12,7 @@ function exists(mixture) # some scene needs it
 function print_stage(flags, stage)
 {
     print "-DHAIR_GUIDE_THREADS=256" flags " glsl/" stage
-    if (stage == "sim/rod.comp")
+    if (stage == "sim/rod.comp" || stage == "sim/mixed.comp")
         print "--target-spv=spv1.3 -DHAIR_SUBGROUP=1 -DHAIR_GUIDE_THREADS=32" flags " glsl/" stage
 }
 

@@ -21,6 +21,15 @@ vec3 rounded(vec3 v)
     return uintBitsToFloat(floatBitsToUint(v) ^ nothing);
 }
 
+// What is known of the past after a substep without an impact.
+float known_after(int method)
+{
+#ifdef HAIR_MIXED
+    if (method == BACK && !guarded) return min(known + CALM, MAX_CALM);
+#endif
+    return 2.0;
+}
+
 // Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head; or false, where another program does that.
 bool accept(int method, bool waits, vec3 head_moved)
@@ -29,7 +38,7 @@ bool accept(int method, bool waits, vec3 head_moved)
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
         if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
-            float fastest  = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+            float fastest  = length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
             vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
             float speed    = length(relative);
             float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
@@ -41,6 +50,8 @@ bool accept(int method, bool waits, vec3 head_moved)
 #ifdef KEEPS_RATES
         struck = struck || is_struck(i, d);
         keep_rates(i, method, d, kept);
+#endif
+#ifdef KEEPS_TENSION
         bool slacks  = IS_LEADER(method) || i + 1u >= guide_count || bits_of(own(tension)) >= 0x7f800000u;
         own(tension) = slacks ? 0.0 : own(tension);
 #endif
@@ -50,7 +61,7 @@ bool accept(int method, bool waits, vec3 head_moved)
     }
     bvec2 found = any_of(bvec2(lost, struck));
     if (own_method == SHAKE) known = IS_SHAKE(method) ? 1.0 : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
-    else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : 2.0 : 1.0;
+    else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
 #ifdef HAIR_FIRST
     return !found.x;
 #else
@@ -61,8 +72,13 @@ bool accept(int method, bool waits, vec3 head_moved)
         PUT(place, rotate(turn_now, rest_from_root(i)));
         own(displacement) = still;
         if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
+#ifdef HAIR_MIXED
+        own(force) = own(turned) = own(turned_before) = vec3(0.0);
+#endif
 #ifdef KEEPS_RATES
         own(rate) = parked(rate_before) = still;
+#endif
+#ifdef KEEPS_TENSION
         own(tension) = 0.0;
 #endif
     }

@@ -65,7 +65,7 @@ bool has_rounds() { return true; }
 // How deep a vertex may be; and how far it comes out in a substep if it was deeper.
 vec2 granted_to(uint i)
 {
-    float rise = min(EMERGE * params.gravity.w, 0.5 * guide_length / float(guide_count - 1u));
+    float rise = min(EMERGE * SUBSTEP, 0.5 * guide_length / float(guide_count - 1u));
     return vec2(max(sunk - RISE * length(GET(place)), 0.0), rise);
 }
 

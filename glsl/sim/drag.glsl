@@ -24,7 +24,7 @@ vec3 by_parts(vec2 share, vec3 v)
 // what its inertia would weigh.
 void feel_air(uint i, vec3 before, float share, vec3 hv)
 {
-    float h     = params.gravity.w;
+    float h     = SUBSTEP;
     vec3  after = GET(edge);
     vec3  sum   = (i > 0u ? before : after) + (i + 1u < guide_count ? after : before);
     float size  = length(sum), beside = i > 0u ? rod[guide_first + i - 1u].segment.x : 0.0;
@@ -40,7 +40,7 @@ void feel_air(uint i, vec3 before, float share, vec3 hv)
 // SHAKE: what a substep adds to d, by an acceleration and the air.
 vec3 dragged_on(vec3 d, vec3 push)
 {
-    float h     = params.gravity.w, c = params.damping * h;
+    float h     = SUBSTEP, c = params.damping * h;
     vec2  x     = vec2(c) + drags;
     // (1 - exp(-x)) / x, without what rounding would leave of the difference where x is small.
     vec2  small = 1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0)));
@@ -51,7 +51,7 @@ vec3 dragged_on(vec3 d, vec3 push)
 // BDF2 and Euler: what of all that acts on a strand its own velocity against the air leaves.
 vec3 dragged_back(uint i, float b, vec3 sum)
 {
-    float h       = params.gravity.w;
+    float h       = SUBSTEP;
     float massive = 1.0 + b * params.damping * h + b * b * h * h * own(aim).w;
     return by_parts(1.0 / (1.0 + b * drags / massive), sum);
 }

@@ -6,7 +6,7 @@
 // do: by M^-1 alone the shape at rest would depend on the substep, and a stiff strand with a kink would flail. The
 // first steps correct them so, the others, of what is left, by M^-1, which is exact sooner. Of strands that are curved
 // at rest they are those of a conjugate gradient (Fletcher and Reeves 1964), and go on while that has farther to go.
-#include "sim/contact.glsl"
+#include "sim/contact_try.glsl"
 #include "sim/past.glsl"
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
@@ -29,28 +29,6 @@ bool  owed;              // it went another way than the strand wants: there is 
 #define MOST_FAR 2.0
 #define NEARLY_RIGHT 0.1
 #define MOST_STEPS 8u
-#define KEEP_FROM 4u // steps: from here on contacts are only added, so that the steps come to an end
-
-void meet_solids(uint i, vec3 head_moved, bool keep)
-{
-    outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : BITS(0u), head_moved, own(met));
-    PUT(moved, made.d);
-    own(touch) = made.freedom;
-    own(slip)  = made.slip;
-}
-
-// Which displacement is allowed of what is wanted.
-void try_wanted(vec3 head_moved, bool keep)
-{
-    EACH(guide_count) {
-        PUT(moved, own(wanted));
-        if (SOLIDS) own(touch) = own(slip) = vec4(0.0);
-        if (SOLIDS && !LISTS_REACHING && own(reachable) != BITS(0u)) meet_solids(i, head_moved, keep);
-    }
-    if (SOLIDS && LISTS_REACHING) {
-        EACH_REACHING { meet_solids(i, head_moved, keep); }
-    }
-}
 
 // The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
 // product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988): with

@@ -21,7 +21,7 @@
 #include "workgroup.glsl"
 
 // What a program leaves out. Constants, for software rasterisers run both sides of a branch.
-#ifdef HAIR_CURVED
+#if defined(HAIR_CURVED) || defined(HAIR_MIXED)
 #define CURVED true
 #else
 #define CURVED false

@@ -16,7 +16,7 @@ bool is_struck(uint i, vec3 d)
 {
     vec3 lost = own(displacement) - d;
     return SOLIDS && i < guide_count && own(touch).w != FREE &&
-           length(lost - pass_on(own(touch), lost)) > STRUCK * params.gravity.w;
+           length(lost - pass_on(own(touch), lost)) > STRUCK * SUBSTEP;
 }
 
 // Rates after a substep by `method`, with the displacement d of which so much is kept.

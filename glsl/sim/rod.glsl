@@ -32,6 +32,14 @@ vec3 clamp_way, clamp_at_rest; // its way, and in groom space
 bool root_is_free;
 bool loose, broken; // what measure() finds
 
+// Seconds that the motion under way takes: a substep, or under the mixed scheme a part of one.
+#ifdef HAIR_MIXED
+float part_length;
+#define SUBSTEP part_length
+#else
+#define SUBSTEP params.gravity.w
+#endif
+
 #ifdef HAIR_TIED // See tie.glsl; without ties nothing but the root is held.
 vec3 held_move(uint i);
 void give_length();

@@ -26,7 +26,16 @@ void load()
         own(rate)           = known < 2.0 ? was.displacement.xyz * rescale : past.rate.xyz;
         parked(rate_before) = past.rate_before.xyz;
         own(touched)        = past.rate_before.w;
+#endif
+#ifdef KEEPS_TENSION
         own(tension)        = was.displacement.w;
+#endif
+#ifdef HAIR_MIXED
+        own(rest_real)      = segment.w;
+        own(force)          = bend[3u * at].xyz;
+        own(turned)         = bend[3u * at + 1u].xyz * rescale;
+        own(turned_before)  = bend[3u * at + 2u].xyz;
+        PUT(moved, vec3(0.0));
 #endif
         segment *= i < guide_count ? 1.0 : 0.0;
         // A root that is held is where the scalp has it, wherever it was when it was not.
@@ -43,6 +52,11 @@ void load()
         own(push) = texelFetch(push_texture, int(at)).xyz;
 #endif
     }
+#ifdef HAIR_MIXED
+    root_is_clamped = rod[guide_first].strain.w > 0.0;
+    MEET;
+    if (!are_aligned()) align_frames();
+#endif
 }
 
 void store()
@@ -56,7 +70,14 @@ void store()
 #ifdef KEEPS_RATES
             history[at].rate         = vec4(own(rate), 0.0);
             history[at].rate_before  = vec4(parked(rate_before), own(touched));
+#endif
+#ifdef KEEPS_TENSION
             state[at].displacement.w = own(tension);
+#endif
+#ifdef HAIR_MIXED
+            bend[3u * at]      = vec4(own(force), 0.0);
+            bend[3u * at + 1u] = vec4(own(turned), 0.0);
+            bend[3u * at + 2u] = vec4(own(turned_before), 0.0);
 #endif
         }
     }

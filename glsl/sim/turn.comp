@@ -16,6 +16,9 @@ void main()
     state[i].displacement.xyz = rotate(turn, state[i].displacement.xyz);
 #ifdef HAIR_ROD
     material[i] = normalize(quat_multiply(turn, material[i]));
+#ifdef HAIR_MIXED
+    for (uint k = 0u; k < 3u; ++k) bend[3u * i + k].xyz = rotate(turn, bend[3u * i + k].xyz);
+#endif
     if (i < history.length()) {
         history[i].rate.xyz        = rotate(turn, history[i].rate.xyz);
         history[i].rate_before.xyz = rotate(turn, history[i].rate_before.xyz);

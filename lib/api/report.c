@@ -129,7 +129,7 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                                             sim->crowd.push},
                     [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
                     [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
-                                            sim->history, sim->material, sim->reduction, sim->ties.buffer,
+                                            sim->history, sim->material, sim->reduction, sim->bend, sim->ties.buffer,
                                             sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
                     [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
                     [HAIR_GL_WORK_FIELD]  = {hair->field.params, hair->field.work, sim->contacts.solid,

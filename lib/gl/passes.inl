@@ -20,6 +20,7 @@ FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE") // else a work group
 FEATURE(FIRST, "HAIR_FIRST")             // only what the solver's own method can do
 FEATURE(LISTED, "HAIR_LISTED")           // only guides of which FIRST has left that
 FEATURE(CURVED, "HAIR_CURVED")           // curved or flat strands
+FEATURE(MIXED, "HAIR_MIXED")             // guides are solved by turns and forces of segments
 FEATURE(SOLIDS, "HAIR_SOLIDS")           // few
 FEATURE(ANY, "HAIR_ANY")                 // any number of them
 FEATURE(FEW, "HAIR_FEW_GUIDES")         // that wait for memory, and leave room for what they keep of it
@@ -43,9 +44,10 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the ho
 // nothing.
 #define SIZES HAIR_GL_SIZES
 #define WITH(name) HAIR_GL_WITH(name)
-#define SOLVER_FEATURES \
-    SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(CURVED) | WITH(SOLIDS) | WITH(ANY) | \
-        WITH(BODIES) | WITH(FEW)
+#define STRAND_FEATURES \
+    SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(SOLIDS) | WITH(ANY) | WITH(BODIES) | \
+        WITH(FEW)
+#define SOLVER_FEATURES STRAND_FEATURES | WITH(CURVED)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
         WITH(SHARES) | WITH(WIDENED)
@@ -70,8 +72,8 @@ PASS(FLUID_BOTTOM, "wind/bottom", 0, "HAIR_FLUID=1 wind/bottom.comp")
 PASS(FLUID_PROLONG, "wind/prolong", 0, "HAIR_FLUID=1 wind/prolong.comp")
 PASS(FLUID_PROJECT, "wind/project", 0, "HAIR_FLUID=1 wind/project.comp")
 PASS(FLUID_PUBLISH, "wind/publish", 0, "HAIR_FLUID=1 wind/publish.comp")
-PASS(RESET, "sim/reset", WITH(ROD) | WITH(SKINNED), "sim/reset.comp")
-PASS(TURN, "sim/turn", WITH(ROD), "sim/turn.comp")
+PASS(RESET, "sim/reset", WITH(ROD) | WITH(SKINNED) | WITH(MIXED), "sim/reset.comp")
+PASS(TURN, "sim/turn", WITH(ROD) | WITH(MIXED), "sim/turn.comp")
 PASS(SCALP, "sim/scalp", 0, "HAIR_SKINNED=1 sim/scalp.comp")
 PASS(RIDE, "sim/ride", 0, "HAIR_SKINNED=1 sim/ride.comp")
 PASS(SEAT, "interpolate/seat", 0, "HAIR_SKINNED=1 interpolate/seat.comp")
@@ -82,6 +84,7 @@ PASS(CROWD_GATHER, "sim/crowd_gather", 0, "HAIR_CROWD=1 sim/crowd_gather.comp")
 PASS(DIRECT, "sim/direct", SOLVER_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=1 sim/rod.comp")
 PASS(ACCURATE, "sim/accurate", SOLVER_FEATURES, "HAIR_SOLVER=0 sim/rod.comp")
 PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVER_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
+PASS(MIXED_SOLVER, "sim/mixed", STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
 PASS(FOLLOW, "sim/follow", SOLVER_FEATURES, "HAIR_SOLVER=3 sim/rod.comp")
 PASS(REDBLACK, "sim/redblack", SIZES | WITH(SKINNED), "sim/redblack.comp")
 // Redblack by transform feedback, in the order of HAIR_PHASE.

@@ -47,7 +47,9 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     if (sim->ties.count > 0) features |= HAIR_GL_WITH(TIED);
     if (hair_skin_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
     if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
-    hair_gl_pass pass = hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF : row[sim->solver];
+    hair_gl_pass pass = hair_sim_is_mixed(sim)   ? HAIR_GL_MIXED_SOLVER
+                        : hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF
+                                                 : row[sim->solver];
     return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
 }
 
@@ -113,13 +115,15 @@ hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
 {
     hair_gl_pass pass = HAIR_GL_RESET;
     if (sim->rods) pass |= HAIR_GL_WITH(ROD);
+    if (hair_sim_is_mixed(sim)) pass |= HAIR_GL_WITH(MIXED);
     if (skinned) pass |= HAIR_GL_WITH(SKINNED);
     return pass;
 }
 
 hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
 {
-    return sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
+    hair_gl_pass pass = sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
+    return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
 }
 
 hair_result hair_sim_need_programs(struct hair_sim* sim)

@@ -11,6 +11,7 @@
 #define TWO_PI 6.283185307179586
 #define FRAME (1.0 / 60)  // s
 #define FEWEST_A_FRAME 18 // substeps of the accurate solver: a whip to half a millimetre
+#define FEWEST_A_FRAME_MIXED 24 // BDF2 for the same accuracy
 #define MOST_A_FRAME 100  // that one guide can ask for all
 #define EXPLICIT_MARGIN 1.15
 #define EXPLICIT_MARGIN_BENT 1.5
@@ -18,6 +19,8 @@
 #define FEWEST_A_FRAME_DIRECT 4
 #define MOST_A_FRAME_DIRECT 16 // for a heavy tip; what it lacks then, inertia makes up for: taut.c
 #define MOST_STIFF 1e6         // h^2 K_ii / m_i.
+#define MIXED_STIFFER 2e4      // so many times as stiff the mixed scheme can solve,
+#define MIXED_STIFFER_FREE 1e5 // and of what nothing holds
 #define MOST_STIFF_FREE 1e4    // of what nothing holds: by its mass alone it moves as a whole
 
 struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
@@ -144,6 +147,26 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }
 
+// What the mixed scheme needs: it has no factors, and no stiffness is too much for it.
+static void write_mixed(const struct hair_rod_shape* s, double stiffen, const hair_physics* physics, double h,
+                        struct hair_rod* out)
+{
+    for (uint32_t i = 0; i < s->count; ++i) {
+        double pull = pull_squared(physics, (double)i / (s->count - 1));
+        double k    = hair_rod_stiffness(s, i, stiffen);
+        if (i + 1 < s->count) k = fmin(k, (s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE) * most_stiffness(s, i, h));
+        out[i]      = (struct hair_rod){.strain  = rest_strain(s, i, k),
+                                        .segment = {(float)s->length[i], is_fixed(s, i) ? 0 : (float)(1 / s->mass[i]),
+                                                    (float)pull, i + 1 < s->count ? (float)(2 * s->turn[i].w) : 0}};
+    }
+}
+
+static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
+{
+    for (uint32_t i = s->count - 1, next = s->tied[i]; i-- > 0; next = s->tied[i] ? s->tied[i] : next)
+        out[i].factor.w = (float)next;
+}
+
 static void write_guide(const struct hair_rod_shape* s, double stiffen, double tautness,
                         const hair_physics* physics, hair_solver solver, double h, struct hair_rod* out)
 {
@@ -169,12 +192,12 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
-    for (uint32_t i = s->count - 1, next = s->tied[i]; i-- > 0; next = s->tied[i] ? s->tied[i] : next)
-        out[i].factor.w = (float)next;
+    write_ties(s, out);
 }
 
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                     const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
+                     const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                     struct hair_rod* out,
                      struct hair_rods_report* report)
 {
     *report = (struct hair_rods_report){0, 1};
@@ -182,16 +205,17 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
         struct hair_rod_shape shape;
         hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
         double stiffen = hair_rod_stiffen(&shape), tautness = hair_rod_tautness(&shape);
-        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
+        if (!mixed) hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
         if (stiffen > 1) ++report->stiffened;
         if (stiffen > (double)report->stiffest) report->stiffest = (float)stiffen;
-        write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guides[i].first);
+        if (mixed) write_mixed(&shape, stiffen, physics, substep, out + guides[i].first);
+        else write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guides[i].first);
     }
 }
 
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
-                   hair_solver solver, double substep, struct hair_rod* out)
+                   hair_solver solver, int mixed, double substep, struct hair_rod* out)
 {
     for (uint32_t i = 0; i < count;) {
         const struct hair_guide* guide = guides + knot[i].guide;
@@ -201,6 +225,11 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.tied[knot[i].vertex] = i + 1;
         double tautness = hair_rod_tautness(&shape);
+        if (mixed) {
+            write_mixed(&shape, stiffen, physics, substep, out + guide->first);
+            write_ties(&shape, out + guide->first);
+            continue;
+        }
         hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
         write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guide->first);
     }
@@ -217,9 +246,10 @@ static double least_explicit(const struct hair_rod_shape* s)
 }
 
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                         const hair_physics* physics, hair_solver solver)
+                         const hair_physics* physics, hair_solver solver, int mixed)
 {
     int direct = solver == HAIR_SOLVER_DIRECT;
+    if (mixed) return FRAME / (direct ? FEWEST_A_FRAME_DIRECT : FEWEST_A_FRAME_MIXED);
     if (!direct && solver != HAIR_SOLVER_ACCURATE) return FRAME / 2;
     double most = direct ? FEWEST_A_FRAME_DIRECT : FEWEST_A_FRAME;
     for (uint32_t i = 0; i < count && (!direct || physics->tip_mass > 0); ++i) {
@@ -230,6 +260,44 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
         if (own <= MOST_A_FRAME) most = fmax(most, own);
     }
     return FRAME / most;
+}
+
+// Radians at a vertex below which a strand is straight: what rounding leaves of one in any direction.
+#define STRAIGHT_STRAIN 5e-5
+// Vertices of a straight guide: the scheme of straight rods loses one of more that a spinning head pulls taut.
+#define MOST_STRAIGHT 32
+
+static int is_curved(const struct hair_rod_shape* s)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 strain    = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
+        double     stiffness = hair_rod_stiffness(s, i, 1);
+        if (stiffness > 0) strain = hair_dadd(strain, hair_dscale(hair_rod_excess(s, i, stiffness), -1));
+        if (hair_dlength(strain) > STRAIGHT_STRAIN) return 1;
+    }
+    return 0;
+}
+
+// Whether a stiffness is beyond what the matrix of straight rods can be factored with in single precision.
+static int is_fine(const struct hair_rod_shape* s, double h)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        if (hair_rod_stiffness(s, i, 1) > most_stiffness(s, i, h)) return 1;
+    return 0;
+}
+
+int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                        const hair_physics* physics, double substep)
+{
+    double h = substep > 0 ? substep : FRAME / FEWEST_A_FRAME_DIRECT;
+    if (physics->flatness < 1) return 1;
+    for (uint32_t i = 0; i < count; ++i) {
+        struct hair_rod_shape shape;
+        if (guides[i].count > MOST_STRAIGHT) return 1;
+        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
+        if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return 1;
+    }
+    return 0;
 }
 
 int hair_rods_differ(const hair_physics* a, const hair_physics* b)

@@ -30,19 +30,24 @@ struct hair_rods_report {
 // equilibrium is stable, with a margin of 5 % of gravity, and no vertex has a rest strain further than 1 from the
 // groom's own. What then still is further, or where there is no stiffness, is cut to that and does not hold.
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                     const hair_physics* physics, hair_solver solver, double substep, struct hair_rod* out,
+                     const hair_physics* physics, hair_solver solver, int mixed, double substep, struct hair_rod* out,
                      struct hair_rods_report* report);
 
 // Write again those guides that ties hold, whose knots are in the order of guides and their vertices.
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
-                   hair_solver solver, double substep, struct hair_rod* out);
+                   hair_solver solver, int mixed, double substep, struct hair_rod* out);
+
+// Return whether the mixed scheme is to solve the guides under direct and accurate: some are curved at rest, have more
+// than 32 vertices, segments too short or a tip too heavy for the scheme of straight rods. A substep of 0 is the one that direct wants.
+int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                        const hair_physics* physics, double substep);
 
 // The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
 // shorter as bending needs to be stable without being implicit, down to 1/6000; guides that need still shorter ones
 // take BDF2.
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                         const hair_physics* physics, hair_solver solver);
+                         const hair_physics* physics, hair_solver solver, int mixed);
 
 // The own method's systems for work groups: one vec4 per vertex and round, round after round; zeros where a guide has
 // no such system. A guide of n vertices has hair_rods_rounds(n) rounds at most, and out and last, which is room to work in,

@@ -9,6 +9,7 @@ struct hair_rods {
     hair_physics            made_for;
     struct hair_rods_report report;
     int                     curved;
+    int                     mixed; // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
     int                     stiff;  // for SHAKE, some
     int                     struck; // made for: sim->struck,
     uint32_t                tied;   // and sim->ties.which;
@@ -20,6 +21,9 @@ struct hair_rods {
 
 #define LONGEST                                                                                              \
     (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
+
+#define ROWS_IN_GROUP 64 // vertices, and
+#define ROW_VECTORS 14   // vectors of a row, as glsl/sim/mixed_rows.glsl has them
 
 #define UNSEEN 0.25 // s: for so long hair is taken to be seen any moment
 
@@ -81,33 +85,54 @@ static uint32_t times_longer(const struct hair_sim* sim)
     return longer;
 }
 
+// Return whether the mixed scheme solves the guides.
+static int are_mixed(const struct hair_sim* sim)
+{
+    const struct hair_rods* rods = sim->rods;
+    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    return hair_rods_are_mixed(rods->guides, rods->rest, sim->guides, &sim->physics, sim->asked_substep);
+}
+
+// Return the bytes of forces and turns, and of the rows of a work group that has no room for them.
+static size_t bend_size(const struct hair_sim* sim)
+{
+    size_t each = sim->most_vertices > ROWS_IN_GROUP ? 3 + ROW_VECTORS : 3;
+    return each * sim->guide_vertices * sizeof(hair_vec4);
+}
+
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
 static hair_result make(struct hair_sim* sim, int struck)
 {
     const hair_host*  host    = &sim->gl->host;
     struct hair_rods* rods    = sim->rods;
     double            substep = sim->asked_substep;
+    int               mixed   = are_mixed(sim);
     struct hair_rod*  rod     = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
     if (substep == 0) {
-        substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver);
+        substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, mixed);
         // Impacts stir what bending in explicit steps can only just bear.
-        if (struck && sim->solver == HAIR_SOLVER_ACCURATE) substep /= CONTACT_MARGIN;
+        if (struck && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
     uint32_t longer = times_longer(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
-    hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, substep, rod,
+    hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, mixed, substep, rod,
                     &rods->report);
     hair_rods_tie(rods->guides, rods->rest, sim->ties.knot, sim->ties.count, &sim->physics, sim->solver,
-                  substep, rod);
-    GLuint      buffer = 0, reduction = 0;
+                  mixed, substep, rod);
+    GLuint      buffer = 0, reduction = 0, bend = sim->bend;
     uint32_t    rounds = 0;
     hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
     if (!result)
         result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
+    if (!result && mixed && !bend) result = hair_gl_storage(sim->gl, "hair bend", bend_size(sim), NULL, &bend);
     if (result) {
         hair_gl_free_buffer(sim->gl, &reduction);
+        hair_gl_free_buffer(sim->gl, &buffer);
     } else {
+        if (!mixed) hair_gl_free_buffer(sim->gl, &bend);
+        sim->bend      = bend;
+        rods->mixed    = mixed;
         hair_gl_free_buffer(sim->gl, &sim->rod);
         hair_gl_free_buffer(sim->gl, &sim->reduction);
         sim->rod       = buffer;
@@ -198,6 +223,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->history);
     hair_gl_free_buffer(sim->gl, &sim->material);
     hair_gl_free_buffer(sim->gl, &sim->reduction);
+    hair_gl_free_buffer(sim->gl, &sim->bend);
     hair_crowd_free(sim);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
@@ -206,7 +232,8 @@ void hair_sim_free_rods(struct hair_sim* sim)
 
 void hair_sim_bind_rods(struct hair_sim* sim)
 {
-    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health, sim->reduction};
+    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health,
+                        sim->bend ? sim->bend : sim->reduction};
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
 }
 
@@ -228,6 +255,11 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
 int hair_sim_is_curved(const struct hair_sim* sim)
 {
     return sim->rods && sim->rods->curved;
+}
+
+int hair_sim_is_mixed(const struct hair_sim* sim)
+{
+    return sim->rods && sim->rods->mixed;
 }
 
 int hair_sim_is_stiff(const struct hair_sim* sim)

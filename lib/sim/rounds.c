@@ -44,13 +44,32 @@ static uint32_t stiff_steps(const struct hair_sim* sim)
     return hair_sim_is_curved(sim) ? 4 : sim->solver == HAIR_SOLVER_ACCURATE ? 3 : 1;
 }
 
+// Return how many Newton steps the mixed scheme may take in a substep: MAX_ROUNDS_IN_ALL of glsl/sim/mixed_step.glsl.
+static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
+{
+    if (!by_thread) return 32;
+    return sim->most_vertices <= 32 ? 16 : sim->most_vertices <= 64 ? 12 : sim->most_vertices <= 128 ? 8 : 6;
+}
+
+// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep takes one Newton step. Where a
+// part begins loops go over the guide in mixed.glsl, mixed_parts.glsl and accept.glsl; in each step in mixed_step.glsl.
+static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
+{
+    uint32_t     most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
+    struct loops loops = {0};
+    loops.over         = most * (16 + 2 * tied + 8);
+    loops.along        = most * 4;
+    return loops;
+}
+
 // From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be found.
-static struct loops loops_of_methods(const struct hair_sim* sim)
+static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread)
 {
     uint32_t     tried = sim->solver == HAIR_SOLVER_FOLLOW ? 0 : TRIED, predicted = tried + 1;
     uint32_t     curved = hair_sim_is_curved(sim) ? 1 : 0, tied = sim->ties.count > 0;
     uint32_t     met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
+    if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
     loops.over         = predicted * (8 + tied + 3 * met + (curved ? 7 : 2));
     loops.rows         = predicted * curved;
     loops.along        = predicted * 2;
@@ -88,7 +107,9 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
     if (sim->contacts.any) return rounds_of_list(sim, by_thread);
-    return solids ? 44 * (solids + 10 + 12 * others) : 0; // Others are walked through: BODY_STEPS.
+    // Others are walked through: BODY_STEPS. The mixed scheme looks in every Newton step, and twice when it leads.
+    uint32_t looks = hair_sim_is_mixed(sim) ? 2 * newton_steps(sim, by_thread) + 4 : 44;
+    return solids ? looks * (solids + 10 + 12 * others) : 0;
 }
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
@@ -98,7 +119,7 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
     uint32_t at_root   = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
     uint32_t look      = (TRIED + 1) * at_root; // Of few solids also by guide.
     uint32_t spare     = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
-    struct loops loops = loops_of_methods(sim);
+    struct loops loops = loops_of_methods(sim, by_thread);
     add_leader(sim, by_thread, &loops);
     loops.over += 4; // It is loaded, taken for true or put back, and stored.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);

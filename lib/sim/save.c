@@ -15,7 +15,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 12 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 13 // Of the list in walk() and what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -141,6 +141,19 @@ static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t v
     if (!crowd->push) hair_walk_over(c, "crowd's accelerations", size);
 }
 
+// Forces and turns of segments. An instance without the mixed scheme reads over them. One that lacks them begins without:
+// hair_sim_load clears its buffer.
+static void walk_bend(struct hair_walk* c, struct hair_sim* sim)
+{
+    size_t size  = 3 * sim->guide_vertices * sizeof(hair_vec4);
+    int    there = sim->bend != 0;
+    hair_walk_flag(c, "whether there are forces of segments", &there);
+    c->lacks_bend = c->read && !there;
+    if (!there || c->result) return;
+    hair_walk_buffer(c, "forces and turns of segments", sim->bend, size);
+    if (!sim->bend) hair_walk_over(c, "forces and turns of segments", size);
+}
+
 // Where a skinned scalp is, which hair_sim_load has made ready for, and where it has roots.
 static void walk_skin(struct hair_walk* c, struct hair_sim* sim, int skinned)
 {
@@ -232,6 +245,7 @@ static void walk(struct hair_walk* c, struct hair_sim* sim, struct loaded* loade
     hair_walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
     hair_walk_buffer(c, "rates of guide vertices", sim->history,
                      sim->guide_vertices * sizeof(struct hair_history));
+    walk_bend(c, sim);
     walk_crowd(c, &sim->crowd, sim->guide_vertices);
     walk_skin(c, sim, skinned);
     walk_sleep(c, sim);
@@ -336,6 +350,8 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     result                    = read(&c, &own, &loaded, &solids);
     if (!result && !skinned && hair_skin_is_on(sim)) result = hair_skin_make_still(sim, &still);
     if (!result) result = upload(&c);
+    if (!result && sim->bend && c.lacks_bend)
+        sim->gl->ClearNamedBufferData(sim->bend, GL_R32F, GL_RED, GL_FLOAT, NULL);
     if (!result && still) hair_skin_forget(&own, still);
     hair_gl_free_buffer(sim->gl, &still);
     hair_free(host, c.own);

@@ -35,6 +35,7 @@ struct hair_sim {
     double               substep;                           // s
     GLuint               guide, rest, state, health, step;  // buffers, as in shared.h
     GLuint               rod, history, material, reduction; // the same; 0 under redblack
+    GLuint               bend; // Forces and turns of segments. 0 without the mixed scheme.
     uint32_t             rounds;                            // of the reduction, before its last
     struct hair_rods*    rods;                              // under redblack NULL
     int                  by_thread;                         // a thread per guide, not a work group
@@ -96,6 +97,7 @@ void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);
 void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
 int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, or their sections are flat
+int         hair_sim_is_mixed(const struct hair_sim* sim);  // Return whether the mixed scheme solves the guides.
 int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
 float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // and how many were stiffened
 void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits

@@ -16,6 +16,7 @@ struct hair_walk {
     unsigned char*       own;   // as many; what is read of buffers, in the machine's order
     size_t               at, end;
     hair_result          result; // the first failure's; nothing is read after it
+    int                  lacks_bend; // The state that is read has no forces of segments.
     uint32_t             buffers;
     struct {
         GLuint buffer;

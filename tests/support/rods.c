@@ -69,5 +69,5 @@ double hair_test_rod_bend(const hair_physics* p)
 
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep)
 {
-    hair_rods_write(&f->guide, f->rest, 1, &f->physics, solver, substep, f->rod, &f->report);
+    hair_rods_write(&f->guide, f->rest, 1, &f->physics, solver, 0, substep, f->rod, &f->report);
 }

@@ -189,7 +189,7 @@ static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
 
 static double wanted(const struct hair_test_rod* f, hair_solver solver)
 {
-    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver);
+    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver, 0);
 }
 
 // Leapfrog is stable where the substep times the highest frequency is below 2.

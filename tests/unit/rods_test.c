@@ -102,7 +102,7 @@ static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
 
 static double wanted(const struct hair_test_rod* f, hair_solver solver)
 {
-    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver);
+    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver, 0);
 }
 
 static float within(uint32_t* random, double least, double most)
@@ -181,14 +181,14 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
     memcpy(rest, short_one->rest, 5 * sizeof *rest);
     memcpy(rest + 5, long_one->rest, 32 * sizeof *rest);
     memcpy(rest + 37, short_one->rest, 5 * sizeof *rest);
-    hair_rods_write(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 1e-3, rod, &report);
+    hair_rods_write(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0, 1e-3, rod, &report);
     assert_memory_equal(rod, short_one->rod, 5 * sizeof *rod);
     assert_memory_equal(rod + 5, long_one->rod, 32 * sizeof *rod);
     assert_memory_equal(rod + 37, short_one->rod, 5 * sizeof *rod);
     assert_int_equal(report.stiffened, 1);
     assert_true(report.stiffest == long_one->report.stiffest && report.stiffest > 10);
     // The stiff, short ones go implicit rather than have all wait for them.
-    double h = hair_rods_substep(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE);
+    double h = hair_rods_substep(guides, rest, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0);
     assert_true(wanted(long_one, HAIR_SOLVER_ACCURATE) == h);
     free(short_one);
     free(long_one);

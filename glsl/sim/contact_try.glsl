@@ -1,0 +1,25 @@
+// contact_try.glsl - the displacements of a guide that solids allow.
+#include "sim/contact.glsl"
+
+#define KEEP_FROM 4u // Steps after which contacts are only added, so that the steps come to an end.
+
+void meet_solids(uint i, vec3 head_moved, bool keep)
+{
+    outcome made = allowed(i, own(wanted), own(reachable), keep ? own(met) : BITS(0u), head_moved, own(met));
+    PUT(moved, made.d);
+    own(touch) = made.freedom;
+    own(slip)  = made.slip;
+}
+
+// Which displacement is allowed of what is wanted.
+void try_wanted(vec3 head_moved, bool keep)
+{
+    EACH(guide_count) {
+        PUT(moved, own(wanted));
+        if (SOLIDS) own(touch) = own(slip) = vec4(0.0);
+        if (SOLIDS && !LISTS_REACHING && own(reachable) != BITS(0u)) meet_solids(i, head_moved, keep);
+    }
+    if (SOLIDS && LISTS_REACHING) {
+        EACH_REACHING { meet_solids(i, head_moved, keep); }
+    }
+}

@@ -1,0 +1,51 @@
+// methods.glsl - the methods of a substep, and what they keep of a guide's past.
+#define SHAKE 0  // leapfrog: Verlet's second order, damping exact; lengths corrected along the edges of the start
+#define BACK 1   // BDF2: second order, stable at any stiffness
+#define EULER 2  // implicit Euler: first order, more stable still
+#define LEADER 3 // the same, then follow the leader
+
+// Of a method, constants where the program never has it: software rasterisers run both sides of a branch.
+#define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
+#define IS_BACK(method) (HAS_BACK && (method) == BACK)
+#define IS_LEADER(method) (HAIR_SOLVER == LEADER || (method) == LEADER)
+#ifdef HAIR_MIXED
+#define LEAPS(method) false
+#else
+#define LEAPS(method) (IS_BACK(method) && known < 2.0) // See past.glsl.
+#endif
+
+#if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
+#define KEEPS_RATES
+#define HAS_BACK (HAIR_SOLVER != LEADER)
+OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
+PARKED(vec3, rate_before); // and of the one before
+OWN(float, touched);    // 1: something, at the end of the last substep
+#ifndef HAIR_MIXED
+OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
+
+#define GUESSED 0.5      // of the tension that was, at least: see guessed_part
+#define SLOW 0.3         // w h up to which all of it is,
+#define FAST 1.0         // and from which on no more
+#define STILL 0.05       // m/s from the root: what moves no faster is,
+#define MOVING 0.2       // and what is no longer
+#define MOST_GUESSED 0.5 // of the distance to a neighbour, which that may move a vertex
+#define FIND_TENSION(part) own(tension) -= (part) * own(solution) / of_force
+#define KEEPS_TENSION
+#endif
+#else
+#define HAS_BACK false
+#define FIND_TENSION(part)
+#endif
+#ifdef HAIR_CROWD
+layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
+OWN(vec3, push); // acceleration by the hair around, m/s^2
+#endif
+#ifdef HAIR_STIFF
+int own_method; // of the guide
+#else
+const int own_method = HAIR_SOLVER;
+#endif
+OWN(vec4, aim);         // rest position from the root, in groom space; w^2
+float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between: of SHAKE, it waits; else it leaps
+float     of_force;  // what a force does in the substep, displacement times mass: s^2
+vec4      turn_then; // turn_now, of the substep before

@@ -1,0 +1,40 @@
+// mixed.comp - guides that are curved at rest, fine, or heavy at the tip: all substeps of a step for every guide.
+//
+// A substep by BDF2 that fails is done again by implicit Euler, and that failing by follow-the-leader, which cannot. A guide
+// that is not finite even so goes back to its rest pose. Each of these is counted in health[].
+#version 450 core
+#ifdef HAIR_SUBGROUP
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#endif
+#include "sim/rod.glsl"
+layout(local_size_x = GROUP_THREADS) in;
+#include "sim/methods.glsl"
+#ifdef HAIR_WIND
+#include "sim/drag.glsl"
+#endif
+#include "sim/contact_try.glsl"
+#include "sim/past.glsl"
+#ifdef HAIR_TIED
+#include "sim/tie.glsl"
+#endif
+#include "sim/leader.glsl"
+#include "sim/mixed.glsl"
+#include "sim/mixed_system.glsl"
+#include "sim/mixed_solve.glsl"
+#include "sim/mixed_step.glsl"
+#include "sim/ride.glsl"
+#include "sim/stored.glsl"
+#include "sim/accept.glsl"
+#include "sim/substeps.glsl"
+
+#include "sim/mixed_parts.glsl"
+
+void main()
+{
+    guide_number = hair_guide_number();
+    if (guide_number < params.guides) solve();
+}

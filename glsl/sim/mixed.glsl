@@ -1,0 +1,172 @@
+// mixed.glsl - rods by the turns of their segments and the forces in them. Derivation:
+//
+// Vertices i = 0..n-1, segments j = 0..n-2 of frames q_j, whose y axes are the unit tangents t_j. f_j is the force in
+// segment j, theta_j a small turn of the segment about the world's axes. Everything is divided by the line density.
+//
+// Time. Implicit Euler (b = 1) and BDF2 (b = 2/3) both move vertex i over a substep h by
+//
+//   x_i' - x_i = p_i + W_i (f_i - f_(i-1)),   W_i = b^2 h^2 / (m_i (1 + b c h + b^2 h^2 w^2))
+//
+// with p_i known, damping c and pull w. Drag and contact make W_i a symmetric matrix.
+//
+// Energy of the hinge at vertex i between the frames a = q_(i-1) and b = q_i:
+//
+//   E = k/2 (u - u0) . R (u - u0) + k R_z/2 (2 w - 2 w0)^2,   (s, w) = conj(a) b with w >= 0,   u = 2 s
+//
+// The second term makes the energy grow with the turn from the rest shape up to half a turn. By the first alone, a hinge that is
+// bent by most of half a turn at rest is soft, and its energy jumps where the turn passes half a turn. With
+// g = k R (u - u0) and e = k R_z (2 w - 2 w0) the moment in the world is M_i = a (w g + s x g - e s) a*. The second derivative by the
+// turns of both segments has
+//
+//   H_aa = H_bb = C - (g.s + e w)/2 1,   H_ab = -H_bb + [M_i]x / 2
+//   C = k R_z 1 + sum_k k (R_k - R_z) j_k j_k^T,   j_k = a (w e_k + s x e_k) a*
+//
+// The term [M]x / 2 is what couples bending and twist of a strand that is curved. Without it the one Newton step of a
+// substep diverges: twist has no inertia.
+//
+// Balance. Segment j of length l_j turns no further, and connects its vertices, where both residuals vanish:
+//
+//   r_j = M_(j+1) - M_j + l_j t_j x f_j
+//   e_j = l_j t_j - (x_(j+1)' - x_j')
+//
+// Newton's method on both is a symmetric system, block tridiagonal with blocks of 6 x 6: see mixed_solve.glsl. Positions
+// follow from the turns by sums of l_j t_j, so that lengths are exact whatever is left of e_j.
+//
+// Sources: M. Bergou et al., Discrete Elastic Rods, 2008 (the energy); T. Kugelstadt and E. Schoemer, Position and
+// Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct Position-Based Solver for Stiff Rods, 2018
+// (turns and forces as unknowns). Here both are unknowns of one implicit substep of second order.
+#define MAX_TURN 0.5 // rad: a Newton step that turns a segment by more is not trusted.
+#define ASTRAY 1e-4   // One less the cosine of the angle between a segment and its frame, from where on it is turned.
+#define CALM (1.0 / 16.0) // What `known` gains in a substep that its prediction served.
+#define MAX_CALM 2.5      // From here on turns are extrapolated linearly.
+
+OWN(vec4, strain);     // xyz: rest strain u0; w: stiffness k
+OWN(float, rest_real); // 2 w0
+SHARED(vec4, section); // frame of segment i at the start of the substep
+SHARED(vec4, tried);   // the frame that is tried
+OWN(vec4, turn);       // from the one to the other
+OWN(vec3, turned);     // Rodrigues vector of that in the last substep
+OWN(vec3, turned_before); // the same in the substep before
+OWN(vec3, force);      // in segment i at the start; `handed` has the force that is tried
+OWN(vec3, reached);    // displacement of vertex i if segments exerted no forces
+OWN(float, mobility);  // of vertex i: W_i without drag and contact
+#ifdef HAIR_WIND
+OWN(vec3, flow);      // unit vector along the strand at vertex i, which drag distinguishes
+OWN(vec2, mobilities); // fractions of `mobility` across and along it
+#endif
+
+bool root_is_clamped; // The hinge at the root has a stiffness.
+
+vec4 turn_by(vec3 v) { return normalize(vec4(0.5 * v, 1.0)); }
+vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
+
+// Return what turning by q adds to v. A small turn loses no digits.
+vec3 change_by(vec4 q, vec3 v)
+{
+    vec3 c = cross(q.xyz, v);
+    return 2.0 * (q.w * c + cross(q.xyz, c));
+}
+
+// Return the displacement that a force causes at vertex i.
+vec3 yield_to(uint i, vec3 f)
+{
+#ifdef HAIR_WIND
+    float a = dot(f, own(flow));
+    f       = own(mobilities).x * (f - a * own(flow)) + own(mobilities).y * a * own(flow);
+#endif
+    return own(mobility) * f;
+}
+
+// Find p_i and W_i of vertex i. `before` is the tangent of the segment before.
+void move_freely(uint i, int method, vec3 before)
+{
+    float h = SUBSTEP, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
+    vec3  on = IS_BACK(method) ? own(displacement) / 3.0 : vec3(0.0), pull = vec3(0.0);
+    vec3  hv = known < 2.0 ? own(displacement) : IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
+    if (own(aim).w > 0.0) pull = own(aim).w * (rotate(turn_now, own(aim).xyz) + root_moved - on - GET(place));
+    vec3 acceleration = params.gravity.xyz + pull;
+#ifdef HAIR_CROWD
+    acceleration += own(push);
+#endif
+    float massive = 1.0 + b * params.damping * h + b * b * h * h * own(aim).w;
+    vec3  q       = b * hv + b * b * h * h * acceleration;
+#ifdef HAIR_WIND
+    feel_air(i, before, 1.0, hv);
+    q += b * b * drifts;
+    own(flow)       = along;
+    own(mobilities) = 1.0 / (1.0 + b * drags / massive);
+    q               = by_parts(own(mobilities), q);
+#endif
+    own(mobility) = own(slack) * b * b * h * h / massive;
+    own(reached)  = own(slack) > 0.0 ? on + q / massive : held_move(i);
+}
+
+// Predict the turns of the segments, and turn the forces in them along. `afresh` assumes none.
+void predict_turns(bool afresh)
+{
+    EACH(guide_count) {
+        vec3 by   = known >= MAX_CALM ? 2.0 * own(turned) - own(turned_before) : own(turned);
+        own(turn) = afresh ? vec4(0.0, 0.0, 0.0, 1.0) : turn_by(by);
+        vec3 f    = afresh ? vec3(0.0) : rotate(own(turn), own(force));
+        PUT(handed, i + 1u < guide_count ? f : vec3(0.0));
+        seen(tried) = normalize(quat_multiply(own(turn), seen(section)));
+    }
+    MEET;
+}
+
+// Find what vertices would do by the forces that are tried, if no solid were in the way.
+void find_wanted()
+{
+    EACH(guide_count) {
+        vec3 before = BEFORE_VEC3(handed);
+        own(wanted) = own(reached) + yield_to(i, GET(handed) - (i > 0u ? before : vec3(0.0)));
+    }
+}
+
+void predict(int method)
+{
+    scalp     = quat_multiply(turn_now, guide[guide_number].root_frame);
+    clamp_way = along_of(scalp);
+    MEET;
+    EACH(guide_count) { PUT(edge, along_of(seen(section))); }
+    MEET;
+#ifdef HAIR_TIED
+    EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
+    MEET;
+    give_length();
+#endif
+    EACH(guide_count) {
+        vec3 before = BEFORE_VEC3(edge);
+        move_freely(i, method, before);
+    }
+    predict_turns(IS_LEADER(method));
+    find_wanted();
+}
+
+// Return whether frames are unit and along their segments.
+bool are_aligned()
+{
+    bool astray = false;
+    EACH(guide_count - 1u) {
+        vec3  to = AFTER_VEC3(place) - GET(place);
+        vec4  q  = seen(section);
+        float off = dot(q, q) - dot(along_of(q), to) / max(length(to), 1e-30);
+        astray = astray || (i + 1u < guide_count && bits_of(off) > floatBitsToUint(ASTRAY));
+    }
+    return !any_of(bvec2(astray, false)).x;
+}
+
+// Turn frames onto their segments by the least rotation, where they are not: after another method, or none before.
+void align_frames()
+{
+    EACH(guide_count) {
+        vec3 to = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
+        vec4 q  = seen(section);
+        if (!(bits_of(dot(q, q) - 1.0) < floatBitsToUint(0.1)))
+            q = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
+        float l = length(to);
+        if (i + 1u < guide_count && l > 0.0 && bits_of(l) < 0x7f800000u) q = quat_multiply(quat_between(along_of(q), to / l), q);
+        seen(section) = normalize(q);
+    }
+    MEET;
+}

@@ -1,0 +1,113 @@
+// mixed_system.glsl - the rows of Newton's system of a guide: one for each segment, with what hinges it to the next.
+//
+#include "sim/mixed_rows.glsl"
+
+#define TWIST_HELD 1e-5 // See twist_hold().
+#define HELD 1e-3 // Fraction of the mobility that a contact leaves across it, for a block between two to have an inverse.
+#if defined(HAIR_SOLIDS) || defined(HAIR_WIND) || defined(HAIR_TIED)
+#define MOBILITY_IS_MATRIX
+#endif
+
+// What the contact of a vertex lets pass of a displacement, taken to be symmetric.
+mat3 freedom_of(vec4 freedom, vec4 slip)
+{
+    mat3 n = outerProduct(freedom.xyz, freedom.xyz), one = mat3(1.0);
+    if (freedom.w == FREE) return one;
+    mat3 m = one - n;
+    if (freedom.w == GLIDES) m = n;
+    if (freedom.w == STICKS) m = mat3(0.0);
+    float square = dot(slip.xyz, slip.xyz);
+    if (freedom.w == SLIDES && square > 0.0) m = (1.0 - slip.w) * m + (slip.w / square) * outerProduct(slip.xyz, slip.xyz);
+    return m;
+}
+
+void put_hinge(uint i, bool exact, vec4 a)
+{
+    vec4  r = quat_multiply(quat_conjugate(a), seen(tried));
+    if (r.w < 0.0) r = -r;
+    float k      = i + 1u < guide_count ? own(strain).w : 0.0;
+    vec3  s      = r.xyz, g = k * params.ratio.xyz * (2.0 * s - own(strain).xyz);
+    float even   = k * params.ratio.z; // Of a round section that is its stiffness about both axes.
+    float opens  = even * (2.0 * r.w - own(rest_real));
+    symmetric c  = multiple_of_one(even - (exact ? 0.5 * (dot(g, s) + opens * r.w) : 0.0));
+    c = plus(c, times(k * params.ratio.y - even, outer(rotate(a, vec3(-s.z, r.w, s.x)))));
+    if (params.ratio.x != params.ratio.z)
+        c = plus(c, times(k * params.ratio.x - even, outer(rotate(a, vec3(r.w, s.z, -s.y)))));
+    PUT_ROW(hinge_diagonal, i, c.diagonal);
+    PUT_ROW(hinge_beside, i, c.beside);
+    PUT_ROW(hinge_moment, i, rotate(a, r.w * g + cross(s, g) - opens * s));
+}
+
+void put_mobility(uint i)
+{
+#ifdef MOBILITY_IS_MATRIX
+    mat3 w = mat3(own(mobility));
+#ifdef HAIR_WIND
+    w *= own(mobilities).x;
+    w += own(mobility) * (own(mobilities).y - own(mobilities).x) * outerProduct(own(flow), own(flow));
+#endif
+    if (SOLIDS && own(touch).w != FREE) {
+        mat3 m = freedom_of(own(touch), own(slip));
+#ifdef HAIR_WIND
+        w = m * w * m;
+#else
+        w = own(mobility) * m;
+#endif
+        w += mat3(HELD * own(mobility));
+    }
+    // Two neighbours that are held would leave the force between them nothing to act on.
+    if (TIED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
+    symmetric half_w = half_of(w);
+    PUT_ROW(mobility_diagonal, i, half_w.diagonal);
+    PUT_ROW(mobility_beside, i, half_w.beside);
+#else
+    PUT_ROW(mobility_diagonal, i, vec3(own(mobility)));
+#endif
+}
+
+// Return the stiffness that keeps an increment of twist finite where nothing else does: of a strand without a clamp, which
+// turns about its own axis freely, and of one without stiffness.
+float twist_hold(uint i, float l)
+{
+    float hinge = root_is_clamped ? 0.0 : rod[guide_first + min(i + 1u, guide_count - 1u)].strain.w;
+    return TWIST_HELD * (max(hinge, own(strain).w * float(!root_is_clamped)) + l * l * l / (SUBSTEP * SUBSTEP));
+}
+
+// Write all rows, by the exact second derivatives or only by what of them is always convex. Return whether a segment
+// lacks or has too much of its length by more than the relative `tolerance`.
+bool put_rows(bool exact, float tolerance)
+{
+    bool loose = false;
+    EACH(guide_count) {
+        vec4 a = BEFORE(tried);
+        if (i == 0u) a = scalp;
+        put_hinge(i, exact, a);
+        put_mobility(i);
+    }
+    ROWS_MEET;
+    EACH(guide_count - 1u) {
+        vec3  f = GET(handed), to = AFTER_VEC3(moved) - GET(moved), between = BETWEEN;
+        vec3  then = along_of(seen(section)), t = along_of(seen(tried));
+        float l = own(rest_length), pull = l * dot(t, f);
+        symmetric c = symmetric(ROW(hinge_diagonal, i) + ROW(hinge_diagonal, i + 1u), ROW(hinge_beside, i) + ROW(hinge_beside, i + 1u));
+        vec3 moment = ROW(hinge_moment, i + 1u) - ROW(hinge_moment, i);
+        // Tension resists turning, compression does the opposite. Else of t f^T + f t^T, times half the length.
+        if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, symmetric(2.0 * t * f, t.yzx * f.zxy + t.zxy * f.yzx)));
+        else c = plus(c, minus(multiple_of_one(max(pull, 0.0)), times(max(pull, 0.0), outer(t))));
+        c      = plus(c, times(twist_hold(i, l), outer(t)));
+        vec3 e = l * change_by(own(turn), then) - to;
+#ifdef HAIR_TIED
+        e += l * then - between;
+#endif
+        if (i + 1u < guide_count) {
+            loose = loose || bits_of(dot(e, e)) > floatBitsToUint(tolerance * tolerance * l * l);
+            PUT_ROW(turn_diagonal, i, c.diagonal);
+            PUT_ROW(turn_beside, i, c.beside);
+            PUT_ROW(force_diagonal, i, l * t);
+            PUT_ROW(right_turn, i, moment + l * cross(t, f));
+            PUT_ROW(right_force, i, e);
+        }
+    }
+    ROWS_MEET;
+    return loose;
+}

@@ -1,0 +1,72 @@
+// substeps.glsl - the substeps of a step, one after the other, for one guide.
+// Where the scalp has the root after a share of the step, and how it is turned.
+void place_root(vec4 head, float share)
+{
+    turn_now  = head;
+    root_now  = rotate(head, root_at_rest);
+    share_now = share;
+#ifdef HAIR_SKINNED
+    ride r   = ride_at(guide_number, share);
+    root_now = rotate(head, root_at_rest + r.shift);
+    turn_now = quat_multiply(head, r.turn);
+#endif
+}
+
+#ifdef HAIR_MIXED // Where the head is when a substep starts and ends, and what of the step is done then.
+vec4  head_start_of, head_end_of;
+float share_start_of, share_end_of;
+#endif
+
+void attempt_all(vec3 head_moved); // Do a substep, by the method of the program.
+
+// All substeps. False: the solver's own method cannot, and nothing has been done.
+bool solve()
+{
+    guide_first  = guide[guide_number].first;
+    guide_count  = guide[guide_number].count;
+    guide_length = guide[guide_number].arc_length;
+    root_at_rest = rest[guide_first].position.xyz;
+    clamp_at_rest = rotate(guide[guide_number].root_frame, vec3(0.0, 1.0, 0.0));
+    place_root(params.rotation_start, params.share_start);
+    root_then = root_now;
+#ifdef HAIR_TIED
+    head_now  = params.rotation_start;
+#endif
+    load();
+    if (SOLIDS) begin_solids();
+#ifdef HAIR_FIRST
+    if (known < LEAPS_NEXT) return false;
+#endif
+
+    for (uint s = 0u; s < params.substeps; ++s) {
+        vec3 head_moved = params.substep[s].displacement.xyz;
+#ifdef HAIR_WIND
+        substep_number  = s;
+#endif
+        turn_then       = turn_now;
+        root_then       = root_now;
+        share_then      = share_now;
+#ifdef HAIR_TIED
+        head_then       = head_now;
+        head_now        = params.substep[s].rotation;
+#endif
+        place_root(params.substep[s].rotation, params.substep[s].displacement.w);
+        root_moved = root_now - root_then + head_moved;
+#ifdef HAIR_MIXED
+        head_start_of  = s == 0u ? params.rotation_start : params.substep[s - 1u].rotation;
+        head_end_of    = params.substep[s].rotation;
+        share_start_of = share_then;
+        share_end_of   = share_now;
+#endif
+
+        grant_rounds();
+        if (SOLIDS) next_solids();
+#ifdef HAIR_FIRST
+        if (!attempt(HAIR_SOLVER, head_moved) || !accept(HAIR_SOLVER, false, head_moved)) return false;
+#else
+        attempt_all(head_moved);
+#endif
+    }
+    store();
+    return true;
+}
