@@ -323,8 +323,8 @@ typedef struct hair_physics {
     float     flatness;       ///< Short by long axis of its section. [0.03, 1]. Default 1.
     float     stiffness_root; ///< Of bending and twist, as a multiple, at the root. [0, 1e4]. Default 1.
     float     stiffness_tip;  ///< The same at the tip; linear between. [0, 1e4]. Default 1.
-    float     hold;     ///< Share of gravity that the rest shape bears: 1 keeps the groom. [0, 1]. Default 1.
-    hair_root root;     ///< Default HAIR_ROOT_CLAMPED.
+    float     hold; ///< Fraction of gravity that the rest shape bears. 1 keeps the groom. [0, 1]. Default 1.
+    hair_root root; ///< Default HAIR_ROOT_CLAMPED.
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
     float     drag; ///< Of wind, as a multiple of that of a single hair: see hair_wind. [0, 10]. Default 0.1.
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
@@ -949,10 +949,12 @@ typedef struct hair_health {
     uint32_t  euler;     ///< Times that a guide's substep was redone by implicit Euler.
     uint32_t  follow;    ///< Times that it was redone by follow-the-leader after that.
     uint32_t  reset;     ///< Times that a guide was put back in its rest pose: it was not finite.
-    uint32_t  stiffened; ///< Guides that could not hold their groom against gravity, as `hold` asks.
-    float     stiffest;  ///< Greatest multiple of their stiffness that they were given.
+    uint32_t  stiffened; ///< Guides made stiffer to hold their groom against gravity, as `hold` asks.
+    float     stiffest;  ///< Greatest multiple of the stiffness at any vertex of these guides. At most 3.
     float     substep;   ///< Length of a substep. s.
     uint32_t  taut;      ///< Times that a guide was stretched in a substep: what holds it was too far apart.
+    uint32_t  sagging;   ///< Guides that three times their stiffness does not hold: they sag from the groom.
+    float     farthest_sag; ///< Greatest distance from the groom at which a vertex of these guides rests. m.
 } hair_health;
 HAIR_DESC(hair_health)
 

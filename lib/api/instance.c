@@ -21,15 +21,18 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
     return HAIR_OK;
 }
 
-// `hold` may ask for more than hair can bear.
-static void tell_stiffened(hair_instance* hair)
+// Log what it takes to hold the groom: `hold` may ask for more than hair can bear.
+static void tell_held(hair_instance* hair)
 {
-    uint32_t guides   = 0;
-    float    stiffest = hair_sim_stiffest(&hair->sim, &guides);
-    if (guides)
+    struct hair_rods_report held = hair_sim_held(&hair->sim);
+    if (held.stiffened)
         hair_log(&hair->context->host, HAIR_LOG_INFO,
-                 "%s: %u of %u guides cannot hold their groom against gravity: stiffened up to %.3g times",
-                 hair->label, guides, hair->sim.guides, (double)stiffest);
+                 "%s: %u of %u guides are stiffened, up to %.3g times, to hold their groom against gravity",
+                 hair->label, held.stiffened, hair->sim.guides, (double)held.stiffest);
+    if (held.sagging)
+        hair_log(&hair->context->host, HAIR_LOG_INFO,
+                 "%s: %u of %u guides cannot hold their groom against gravity: they sag by up to %.3g m",
+                 hair->label, held.sagging, hair->sim.guides, (double)held.farthest_sag);
 }
 
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
@@ -69,7 +72,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.blow.field = &hair->field;
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
-    if (!result) tell_stiffened(hair);
+    if (!result) tell_held(hair);
     if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
     if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
     if (!result) hair_sim_reset(&hair->sim);

@@ -1,136 +1,223 @@
-// hold.c - whether guides can hold their groom, and how much stiffer it takes.
+// hold.c - how guides hold their groom against gravity.
 //
-// The groom's shape is in equilibrium by its rest strain. It is stable when the energy's second variation is positive:
-// with a and b the small turns of the segments before and after a vertex, each as its own frame sees it, (w, v) the
-// turn between the frames and G its stress, the second order of that vertex's energy is
+// A clamped strand is statically determinate. In any pose, the stress that balances all forces
+// follows from the pose alone, and so does the rest strain that gives this stress. The groom can
+// therefore always be made an equilibrium. Two things can still be wrong with it: it may be
+// unstable, and the rest strain may be far from the groom's own strain. Both get better with more
+// stiffness, at any vertex.
 //
-//   k/2 du . R du - (G . v) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2,   du = (w + [v]x) b - (w - [v]x) a
+// Stiffness is a property of the material. As little as possible is added, and never more than
+// three times what there is. Vertex i becomes min(3, 1 + c e_i) times as stiff, with the least c
+// that suffices:
 //
-// and of gravity's for a segment of length l along y with F on all beyond it, turned by w, l (F.y w^2 - (w.F)(w.y)) / 2.
-// Of all segments' turns that is a matrix of 3 x 3 blocks on three diagonals; it is positive when all its pivots are.
-// Twist is among the turns: this is all that buckles of a rod, in and out of plane.
+//   e_i = sum_(k > i) m_k (s_k - s_i)
 //
-// Left out is the pull to the rest pose, which ties every segment to every other. With the default pull the median
-// multiple of the built-in haircuts would be smaller by a seventh to a third.
-#include "lib/sim/rod_shape.h"
+// is the moment that all beyond vertex i would exert if it stood out straight, s being the arc
+// length. This weight adds about half as much stiffness, on average over the vertices of the
+// built-in haircuts, as one multiple for all vertices.
+//
+// Where three times is not enough, the guide holds another pose, which sags. The candidates are the
+// poses y(t) in which a guide three times as stiff rests under t times the gravity, with the groom
+// as its rest shape. y(0) is the groom, and y(1) is stable because it is at rest. In the pose y(t)
+// the rest strain again balances the whole gravity; this is exact however roughly y(t) was
+// computed, so one step of Newton's method for each t is enough. The least t is taken whose pose is
+// stable, and to which the guide falls when it is released from its groom. Measured over the
+// built-in haircuts, other ways from the groom to a hanging pose sag farther: gravity on a part of
+// the strand only, or a pull to the groom that weakens.
+#include "lib/sim/statics.h"
 
-#define MARGIN 1.05   // of gravity
-#define FINENESS 1.01 // of the multiple
+#include <string.h>
 
-struct block {
-    double m[3][3];
+#define MARGIN 1.05   // multiple of gravity under which a pose must be stable
+#define SLOWEST 2.0   // least frequency about a pose, rad/s: critically damped by the default damping of 4/s
+#define FINENESS 1.02 // precision of 1 + c
+#define STEP 0.125    // of t
+#define BISECTIONS 3  // of a step of t
+#define STEPS 1       // Newton's method, for each t below 1
+#define LAST_STEPS 60 // Newton's method, where it must converge
+#define SAME 1e-4     // distance between equal poses, as a fraction of the length
+
+struct search {
+    struct hair_rod_shape* shape;
+    struct hair_rod_pose   pose;
+    double                 bend[HAIR_MAX_GUIDE_VERTICES];  // stiffness of the material
+    double                 lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
+    hair_dvec3             own[HAIR_MAX_GUIDE_VERTICES];   // strain of the groom
+    hair_dvec3             rest[HAIR_MAX_GUIDE_VERTICES];  // strain that makes the pose an equilibrium
 };
 
-struct hinge {
-    struct block before, between, after; // of turns a a, a b, b b
-};
-
-static struct hinge hinge_of(const struct hair_rod_shape* s, uint32_t i, double stiffness)
+static void find_levers(const struct hair_rod_shape* s, double* lever)
 {
-    const double*    ratio = s->ratio;
-    const hair_dquat t     = s->turn[i];
-    const hair_dvec3 load  = hair_dscale(s->stress[i], MARGIN);
-    const double     v[3] = {t.x, t.y, t.z}, g[3] = {load.x, load.y, load.z}, w = t.w;
-    const double     by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
-    const double     turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
-    const double     strained     = g[0] * v[0] + g[1] * v[1] + g[2] * v[2];
-    struct hinge     h;
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) {
-            double aa = 0, ab = 0, bb = 0, same = r == c ? strained / 2 : 0;
-            for (int n = 0; n < 3; ++n) {
-                aa += by_b[r][n] * ratio[n] * by_b[c][n];
-                ab += by_b[r][n] * ratio[n] * by_b[n][c];
-                bb += by_b[n][r] * ratio[n] * by_b[n][c];
-            }
-            h.before.m[r][c]  = stiffness * aa - same;
-            h.between.m[r][c] = -stiffness * ab + (w * turned[r][c] + v[r] * g[c] + g[r] * v[c]) / 2 - same;
-            h.after.m[r][c]   = stiffness * bb - same;
-        }
-    return h;
-}
-
-// To the lower half, which is what factor() reads.
-static void add_weight(const struct hair_rod_shape* s, uint32_t i, struct block* turn)
-{
-    hair_dvec3 f = hair_dscale(s->force[i], MARGIN * s->length[i]);
-    turn->m[0][0] += f.y;
-    turn->m[2][2] += f.y;
-    turn->m[1][0] -= f.x / 2;
-    turn->m[2][1] -= f.z / 2;
-}
-
-// a = L L^T, L in the lower half. 0 when a is not positive.
-static int factor(struct block* a)
-{
-    for (int c = 0; c < 3; ++c) {
-        double d = a->m[c][c];
-        for (int n = 0; n < c; ++n) d -= a->m[c][n] * a->m[c][n];
-        if (!(d > 0)) return 0;
-        a->m[c][c] = sqrt(d);
-        for (int r = c + 1; r < 3; ++r) {
-            double sum = a->m[r][c];
-            for (int n = 0; n < c; ++n) sum -= a->m[r][n] * a->m[c][n];
-            a->m[r][c] = sum / a->m[c][c];
-        }
+    double beyond       = 0;
+    lever[s->count - 1] = 0;
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        beyond += s->mass[i + 1];
+        lever[i] = lever[i + 1] + beyond * s->length[i];
     }
-    return 1;
+    for (uint32_t i = s->count; i-- > 0;) lever[i] /= lever[0];
 }
 
-// after -= between^T before^-1 between, of the factored `before`.
-static void eliminate(const struct block* before, struct block* between, struct block* after)
+static void stiffen(struct search* a, double c)
 {
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) {
-            for (int n = 0; n < r; ++n) between->m[r][c] -= before->m[r][n] * between->m[n][c];
-            between->m[r][c] /= before->m[r][r];
-        }
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            for (int n = 0; n < 3; ++n) after->m[r][c] -= between->m[n][r] * between->m[n][c];
-}
-
-static void add(struct block* a, const struct block* b)
-{
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) a->m[r][c] += b->m[r][c];
-}
-
-static int holds(const struct hair_rod_shape* s, double stiffen)
-{
-    double stiffness[HAIR_MAX_GUIDE_VERTICES];
-    for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        stiffness[i] = hair_rod_stiffness(s, i, stiffen);
-        if (!(hair_dlength(hair_rod_excess(s, i, stiffness[i])) <= HAIR_ROD_MOST_STRAIN)) return 0;
-    }
-    struct block turn = hinge_of(s, 0, stiffness[0]).after; // The scalp does not turn.
-    for (uint32_t i = 0;; ++i) {
-        add_weight(s, i, &turn);
-        if (i + 2 == s->count) return factor(&turn);
-        struct hinge next = hinge_of(s, i + 1, stiffness[i + 1]);
-        add(&turn, &next.before);
-        if (!factor(&turn)) return 0;
-        eliminate(&turn, &next.between, &next.after);
-        turn = next.after;
-    }
-}
-
-double hair_rod_stiffen(const struct hair_rod_shape* s)
-{
-    hair_dvec3 f = s->force[0];
-    if (!s->clamped || hair_ddot(f, f) == 0) return 1;
-    // Where a vertex resists nothing, no multiple helps.
+    struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (!(hair_rod_stiffness(s, i, 1) > 0)) return 1;
-    if (holds(s, 1)) return 1;
-    double fails = 1, does = HAIR_ROD_MOST_STIFFEN;
-    if (!holds(s, does)) return does;
-    while (does > FINENESS * fails) {
+        s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MOST_STIFFEN, 1 + c * a->lever[i]);
+}
+
+// Return whether the pose can be held. Set `rest` to the strain that does.
+static int holds(struct search* a, double margin)
+{
+    const struct hair_rod_shape* s = a->shape;
+    hair_rod_load(s, 1, &a->pose);
+    hair_rod_balance(s, &a->pose);
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
+        hair_dquat t = a->pose.turn[i];
+        a->rest[i]   = (hair_dvec3){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
+                                    2 * t.z - g.z / s->ratio[2]};
+        if (!(hair_dlength(hair_dadd(a->rest[i], hair_dscale(a->own[i], -1))) <= HAIR_ROD_MOST_STRAIN))
+            return 0;
+    }
+    hair_rod_load(s, margin, &a->pose);
+    hair_rod_balance(s, &a->pose);
+    return hair_rod_is_stable(s, &a->pose, SLOWEST * SLOWEST);
+}
+
+// Return the least c with which the groom holds. It holds with `does`.
+static double least_stiffening(struct search* a, double does)
+{
+    double fails = 1; // 1 + c
+    for (does += 1; does > FINENESS * fails;) {
         double middle = sqrt(fails * does);
-        if (holds(s, middle))
+        stiffen(a, middle - 1);
+        if (holds(a, MARGIN))
             does = middle;
         else
             fails = middle;
     }
+    return does - 1;
+}
+
+// Move the pose on to y(t). Return whether it holds.
+static int holds_at(struct search* a, double t)
+{
+    hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
+    return holds(a, MARGIN);
+}
+
+// Find the least t whose pose holds, and the pose. Return more than 1 when none holds.
+static double find_pose(struct search* a)
+{
+    hair_dquat failed[HAIR_MAX_GUIDE_VERTICES], found[HAIR_MAX_GUIDE_VERTICES];
+    size_t     size  = a->shape->count * sizeof *failed;
+    double     fails = 0, does = STEP;
+    memcpy(failed, a->shape->frame, size);
+    for (; !holds_at(a, does); does += STEP) {
+        if (does >= 1) return does + STEP;
+        memcpy(failed, a->pose.frame, size);
+        fails = does;
+    }
+    memcpy(found, a->pose.frame, size);
+    for (int k = 0; k < BISECTIONS; ++k) {
+        double middle = (fails + does) / 2;
+        hair_rod_pose_at(a->shape, failed, &a->pose);
+        int here = holds_at(a, middle);
+        memcpy(here ? found : failed, a->pose.frame, size);
+        *(here ? &does : &fails) = middle;
+    }
+    hair_rod_pose_at(a->shape, found, &a->pose);
     return does;
+}
+
+// Return how far a vertex of the pose is from its place, at most.
+static double distance(const struct search* a, const hair_dvec3* place)
+{
+    double most = 0;
+    for (uint32_t i = 1; i < a->shape->count; ++i)
+        most = fmax(most, hair_dlength(hair_dadd(a->pose.place[i], hair_dscale(place[i], -1))));
+    return most;
+}
+
+// Return whether the guide comes to rest in the pose when it is released from its groom.
+static int is_reached(const struct search* a)
+{
+    struct hair_rod_pose released;
+    double               length = 0;
+    for (uint32_t i = 0; i + 1 < a->shape->count; ++i) length += a->shape->length[i];
+    hair_rod_pose_at(a->shape, a->shape->frame, &released);
+    hair_rod_settle(a->shape, a->rest, 1, LAST_STEPS, &released);
+    return distance(a, released.place) < SAME * length;
+}
+
+// Find the pose to hold and its rest strain. Return the distance from the groom.
+static double sag(struct search* a)
+{
+    double t = find_pose(a);
+    while (t <= 1) {
+        if (holds(a, MARGIN) && is_reached(a)) return distance(a, a->shape->place);
+        if (t >= 1) break;
+        t = fmin(t + STEP, 1);
+        holds_at(a, t);
+    }
+    // The rest strain bears nothing then, and the guide hangs.
+    memcpy(a->rest, a->own, sizeof a->rest);
+    hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
+    hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
+    return distance(a, a->shape->place);
+}
+
+static int resists(const struct hair_rod_shape* s)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        if (!(hair_rod_stiffness(s, i) > 0)) return 0;
+    return 1;
+}
+
+static void start(struct search* a, struct hair_rod_shape* s)
+{
+    a->shape = s;
+    memcpy(a->bend, s->bend, s->count * sizeof *a->bend);
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        a->own[i] = (hair_dvec3){2 * s->turn[i].x, 2 * s->turn[i].y, 2 * s->turn[i].z};
+    find_levers(s, a->lever);
+    hair_rod_pose_at(s, s->frame, &a->pose);
+}
+
+// Set the stress to that of the rest strain in the groom.
+static void finish(struct search* a)
+{
+    struct hair_rod_shape* s = a->shape;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 u =
+            hair_dscale(hair_dadd(a->own[i], hair_dscale(a->rest[i], -1)), hair_rod_stiffness(s, i));
+        s->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+    }
+}
+
+struct hair_rod_held hair_rod_hold(struct hair_rod_shape* s)
+{
+    struct hair_rod_held held = {.stiffest = 1};
+    struct search        a;
+    if (hair_ddot(s->load, s->load) == 0) return held;
+    start(&a, s);
+    if (!resists(s)) { // No multiple of the stiffness helps.
+        hair_rod_load(s, 1, &a.pose);
+        hair_rod_balance(s, &a.pose);
+        memcpy(s->stress, a.pose.stress, (s->count - 1) * sizeof *s->stress);
+        return held;
+    }
+    if (!holds(&a, MARGIN)) {
+        double most = (HAIR_ROD_MOST_STIFFEN - 1) / a.lever[s->count - 2], c = most;
+        stiffen(&a, most);
+        held.sags = !holds(&a, MARGIN);
+        if (!held.sags) c = least_stiffening(&a, most);
+        stiffen(&a, c);
+        held.stiffest = s->bend[0] / a.bend[0];
+        if (held.sags)
+            held.sag = sag(&a);
+        else
+            holds(&a, MARGIN);
+    }
+    finish(&a);
+    return held;
 }

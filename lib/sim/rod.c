@@ -8,7 +8,8 @@
 #include "lib/sim/rod_shape.h"
 #include "lib/sim/ties.h"
 
-#define TWO_PI 6.283185307179586
+#include <string.h>
+
 #define FRAME (1.0 / 60)  // s
 #define FEWEST_A_FRAME 18 // substeps of the accurate solver: a whip to half a millimetre
 #define FEWEST_A_FRAME_MIXED 24 // BDF2 for the same accuracy
@@ -129,12 +130,6 @@ static hair_vec4 eliminate(struct rows* above, double diagonal, struct band besi
     return (hair_vec4){(float)(1 / row.x), (float)row.y, (float)row.z, 0};
 }
 
-static double pull_squared(const hair_physics* physics, double share)
-{
-    double root = (double)physics->pull_root, frequency = root + share * ((double)physics->pull_tip - root);
-    return TWO_PI * TWO_PI * frequency * frequency;
-}
-
 static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double stiffness)
 {
     if (i + 1 == s->count) return (hair_vec4){0, 0, 0, 0};
@@ -148,16 +143,15 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
 }
 
 // What the mixed scheme needs: it has no factors, and no stiffness is too much for it.
-static void write_mixed(const struct hair_rod_shape* s, double stiffen, const hair_physics* physics, double h,
-                        struct hair_rod* out)
+static void write_mixed(const struct hair_rod_shape* s, double h, struct hair_rod* out)
 {
+    double stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
     for (uint32_t i = 0; i < s->count; ++i) {
-        double pull = pull_squared(physics, (double)i / (s->count - 1));
-        double k    = hair_rod_stiffness(s, i, stiffen);
-        if (i + 1 < s->count) k = fmin(k, (s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE) * most_stiffness(s, i, h));
-        out[i]      = (struct hair_rod){.strain  = rest_strain(s, i, k),
-                                        .segment = {(float)s->length[i], is_fixed(s, i) ? 0 : (float)(1 / s->mass[i]),
-                                                    (float)pull, i + 1 < s->count ? (float)(2 * s->turn[i].w) : 0}};
+        double k = hair_rod_stiffness(s, i), over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
+        if (i + 1 < s->count) k = fmin(k, stiffer * most_stiffness(s, i, h));
+        out[i] = (struct hair_rod){.strain  = rest_strain(s, i, k),
+                                   .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i],
+                                                i + 1 < s->count ? (float)(2 * s->turn[i].w) : 0}};
     }
 }
 
@@ -167,13 +161,13 @@ static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
         out[i].factor.w = (float)next;
 }
 
-static void write_guide(const struct hair_rod_shape* s, double stiffen, double tautness,
-                        const hair_physics* physics, hair_solver solver, double h, struct hair_rod* out)
+static void write_guide(const struct hair_rod_shape* s, double tautness, const hair_physics* physics,
+                        hair_solver solver, double h, struct hair_rod* out)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
     double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        stiffness[i] = fmin(hair_rod_stiffness(s, i, stiffen), most_stiffness(s, i, h));
+        stiffness[i] = fmin(hair_rod_stiffness(s, i), most_stiffness(s, i, h));
     find_bands(s, stiffness, k);
     int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
     if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
@@ -183,7 +177,7 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
     struct rows own = {0}, euler = {0};
     for (uint32_t i = 0; i < s->count; ++i) {
         int    fixed = is_fixed(s, i);
-        double pull  = pull_squared(physics, (double)i / (s->count - 1)) * hair_rod_weight_share(s, i);
+        double pull  = s->pull[i] * hair_rod_weight_share(s, i);
         double of_b  = fixed ? 1 : s->mass[i] * (1 + damping * b + pull * b * b);
         double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
         out[i]       = (struct hair_rod){.strain  = rest_strain(s, i, stiffness[i]),
@@ -195,43 +189,72 @@ static void write_guide(const struct hair_rod_shape* s, double stiffen, double t
     write_ties(s, out);
 }
 
-void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                     const hair_physics* physics, hair_solver solver, int mixed, double substep,
-                     struct hair_rod* out,
-                     struct hair_rods_report* report)
+void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                    const hair_physics* physics, struct hair_rod_borne* out, struct hair_rods_report* report)
 {
-    *report = (struct hair_rods_report){0, 1};
+    *report = (struct hair_rods_report){.stiffest = 1};
+    for (uint32_t k = 0; k < count; ++k) {
+        struct hair_rod_shape  shape;
+        struct hair_rod_borne* own = out + guides[k].first;
+        double                 bend[HAIR_MAX_GUIDE_VERTICES];
+        hair_rod_shape_of(guides + k, rest + guides[k].first, physics, &shape);
+        memcpy(bend, shape.bend, sizeof bend);
+        struct hair_rod_held held = hair_rod_hold(&shape);
+        for (uint32_t i = 0; i < shape.count; ++i) {
+            hair_dvec3 g = shape.stress[i];
+            own[i] = (struct hair_rod_borne){{g.x, g.y, g.z}, bend[i] > 0 ? shape.bend[i] / bend[i] : 1};
+        }
+        report->stiffened += held.stiffest > 1;
+        report->sagging += (uint32_t)held.sags;
+        report->stiffest     = fmaxf(report->stiffest, (float)held.stiffest);
+        report->farthest_sag = fmaxf(report->farthest_sag, (float)held.sag);
+    }
+}
+
+static void find_borne(const struct hair_guide* guide, const struct hair_rest* rest,
+                       const struct hair_rod_borne* borne, const hair_physics* physics,
+                       struct hair_rod_shape* out)
+{
+    hair_rod_shape_of(guide, rest + guide->first, physics, out);
+    hair_rod_bear(out, borne + guide->first);
+}
+
+void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
+                     const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                     hair_solver solver, int mixed, double substep, struct hair_rod* out)
+{
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
-        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
-        double stiffen = hair_rod_stiffen(&shape), tautness = hair_rod_tautness(&shape);
-        if (!mixed) hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
-        if (stiffen > 1) ++report->stiffened;
-        if (stiffen > (double)report->stiffest) report->stiffest = (float)stiffen;
-        if (mixed) write_mixed(&shape, stiffen, physics, substep, out + guides[i].first);
-        else write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guides[i].first);
+        find_borne(guides + i, rest, borne, physics, &shape);
+        if (mixed) {
+            write_mixed(&shape, substep, out + guides[i].first);
+            continue;
+        }
+        double tautness = hair_rod_tautness(&shape);
+        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
+        write_guide(&shape, tautness, physics, solver, substep, out + guides[i].first);
     }
 }
 
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
-                   const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
-                   hair_solver solver, int mixed, double substep, struct hair_rod* out)
+                   const struct hair_rod_borne* borne, const struct hair_knot* knot, uint32_t count,
+                   const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                   struct hair_rod* out)
 {
     for (uint32_t i = 0; i < count;) {
         const struct hair_guide* guide = guides + knot[i].guide;
         struct hair_rod_shape    shape;
-        hair_rod_shape_of(guide, rest + guide->first, physics, &shape);
-        double stiffen = hair_rod_stiffen(&shape); // As it was before.
+        find_borne(guide, rest, borne, physics, &shape);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.tied[knot[i].vertex] = i + 1;
         double tautness = hair_rod_tautness(&shape);
         if (mixed) {
-            write_mixed(&shape, stiffen, physics, substep, out + guide->first);
+            write_mixed(&shape, substep, out + guide->first);
             write_ties(&shape, out + guide->first);
             continue;
         }
         hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
-        write_guide(&shape, stiffen, tautness, physics, solver, substep, out + guide->first);
+        write_guide(&shape, tautness, physics, solver, substep, out + guide->first);
     }
 }
 
@@ -239,14 +262,15 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
 static double least_explicit(const struct hair_rod_shape* s)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
-    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, stiffen = hair_rod_stiffen(s);
-    for (uint32_t i = 0; i + 1 < s->count; ++i) stiffness[i] = hair_rod_stiffness(s, i, stiffen);
+    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
+    for (uint32_t i = 0; i + 1 < s->count; ++i) stiffness[i] = hair_rod_stiffness(s, i);
     find_bands(s, stiffness, k);
     return ceil(FRAME / longest_explicit(s, k));
 }
 
-double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                         const hair_physics* physics, hair_solver solver, int mixed)
+double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, int mixed)
 {
     int direct = solver == HAIR_SOLVER_DIRECT;
     if (mixed) return FRAME / (direct ? FEWEST_A_FRAME_DIRECT : FEWEST_A_FRAME_MIXED);
@@ -254,7 +278,7 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
     double most = direct ? FEWEST_A_FRAME_DIRECT : FEWEST_A_FRAME;
     for (uint32_t i = 0; i < count && (!direct || physics->tip_mass > 0); ++i) {
         struct hair_rod_shape shape;
-        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
+        find_borne(guides + i, rest, borne, physics, &shape);
         double own = direct ? fmin(ceil(2 * FRAME / (3 * hair_rod_longest_taut(&shape))), MOST_A_FRAME_DIRECT)
                             : least_explicit(&shape);
         if (own <= MOST_A_FRAME) most = fmax(most, own);
@@ -271,7 +295,7 @@ static int is_curved(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 strain    = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
-        double     stiffness = hair_rod_stiffness(s, i, 1);
+        double     stiffness = hair_rod_stiffness(s, i);
         if (stiffness > 0) strain = hair_dadd(strain, hair_dscale(hair_rod_excess(s, i, stiffness), -1));
         if (hair_dlength(strain) > STRAIGHT_STRAIN) return 1;
     }
@@ -282,19 +306,20 @@ static int is_curved(const struct hair_rod_shape* s)
 static int is_fine(const struct hair_rod_shape* s, double h)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (hair_rod_stiffness(s, i, 1) > most_stiffness(s, i, h)) return 1;
+        if (hair_rod_stiffness(s, i) > most_stiffness(s, i, h)) return 1;
     return 0;
 }
 
-int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                        const hair_physics* physics, double substep)
+int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
+                        const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                        double substep)
 {
     double h = substep > 0 ? substep : FRAME / FEWEST_A_FRAME_DIRECT;
     if (physics->flatness < 1) return 1;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         if (guides[i].count > MOST_STRAIGHT) return 1;
-        hair_rod_shape_of(guides + i, rest + guides[i].first, physics, &shape);
+        find_borne(guides + i, rest, borne, physics, &shape);
         if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return 1;
     }
     return 0;

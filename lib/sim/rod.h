@@ -18,36 +18,53 @@ struct hair_knot;
 // area. The section's long axis is x: about it it bends easily.
 void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
 
-struct hair_rods_report {
-    uint32_t stiffened; // guides
-    float    stiffest;  // greatest multiple; 1 when there are none
+// What holds a guide's groom against gravity, for each vertex.
+struct hair_rod_borne {
+    double stress[3]; // derivative of the vertex's energy by its strain in the groom
+    double stiffen;   // multiple of the stiffness, 1 to 3
 };
 
-// One hair_rod per guide vertex, for substeps of that length.
+struct hair_rods_report {
+    uint32_t stiffened;    // guides that any vertex of is stiffer
+    float    stiffest;     // greatest multiple; 1 when there are none
+    uint32_t sagging;      // guides that cannot hold their groom even so
+    float    farthest_sag; // greatest distance of their vertices from the groom when they rest, m
+};
+
+// Find out how guides are to hold their groom: hold.c. It depends on no solver and no substep.
 //
-// From a clamped root the rest strain bears `hold` of gravity: with 1 the groom is in equilibrium. Too soft a strand
-// would buckle out of it even so. Such a guide is made stiffer by the least multiple, up to 1e4, with which the
-// equilibrium is stable, with a margin of 5 % of gravity, and no vertex has a rest strain further than 1 from the
-// groom's own. What then still is further, or where there is no stiffness, is cut to that and does not hold.
-void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                     const hair_physics* physics, hair_solver solver, int mixed, double substep, struct hair_rod* out,
-                     struct hair_rods_report* report);
+// From a clamped root the rest strain bears `hold` of gravity: with 1 the groom is in equilibrium.
+// Too soft a strand would buckle out of it even so, or need a rest strain further than 1 from the
+// groom's own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. One
+// that needs more than that sags to a pose that it can keep.
+void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                    const hair_physics* physics, struct hair_rod_borne* out, struct hair_rods_report* report);
+
+// Write one hair_rod per guide vertex, for substeps of that length. `borne` is of hair_rods_hold().
+// A rest strain that is further than 1 from the groom's own is cut to that.
+void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
+                     const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                     hair_solver solver, int mixed, double substep, struct hair_rod* out);
 
 // Write again those guides that ties hold, whose knots are in the order of guides and their vertices.
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
-                   const struct hair_knot* knot, uint32_t count, const hair_physics* physics,
-                   hair_solver solver, int mixed, double substep, struct hair_rod* out);
+                   const struct hair_rod_borne* borne, const struct hair_knot* knot, uint32_t count,
+                   const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                   struct hair_rod* out);
 
-// Return whether the mixed scheme is to solve the guides under direct and accurate: some are curved at rest, have more
-// than 32 vertices, segments too short or a tip too heavy for the scheme of straight rods. A substep of 0 is the one that direct wants.
-int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                        const hair_physics* physics, double substep);
+// Return whether the mixed scheme is to solve the guides under direct and accurate. It does when
+// some are curved at rest, have more than 32 vertices, or segments too short or a tip too heavy for
+// the scheme of straight rods. A substep of 0 is the one that direct wants.
+int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
+                        const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                        double substep);
 
 // The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
 // shorter as bending needs to be stable without being implicit, down to 1/6000; guides that need still shorter ones
 // take BDF2.
-double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                         const hair_physics* physics, hair_solver solver, int mixed);
+double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, int mixed);
 
 // The own method's systems for work groups: one vec4 per vertex and round, round after round; zeros where a guide has
 // no such system. A guide of n vertices has hair_rods_rounds(n) rounds at most, and out and last, which is room to work in,

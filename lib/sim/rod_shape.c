@@ -1,18 +1,8 @@
-// rod_shape.c - a guide's lengths, masses, stiffness, strain, and what gravity does to its rest pose.
-//
-// In equilibrium the moment in the strand at vertex i is that of the weight of all beyond about vertex i:
-//
-//   F_i = sum_(k > i) m_k g                       on all beyond segment i
-//   M_i = M_(i+1) + l_i t_i x F_i,  M_(n-1) = 0
-//
-// With (w, v) = conj(q_(i-1)) q_i, turning segment i by d, as segment i-1 sees it, changes the strain 2 v by w d +
-// d x v. So stress G = dE/du makes the moment M = w G + v x G, and for a moment it takes
-//
-//   G = w M + v (v . M) / w - v x M
+// rod_shape.c - a guide's lengths, masses, stiffness, frames and strain in its groom.
 #include "lib/sim/rod_shape.h"
 
 #define SHORTEST 1e-9 // m. The shortest segment of the shortest strand that a groom keeps is about as long.
-#define LEAST_COSINE 1e-6 // Of half the angle between segments: folded back, there is no G for some M.
+#define TWO_PI 6.283185307179586
 
 static hair_dvec3 along(hair_dquat q)
 {
@@ -51,6 +41,12 @@ void hair_rods_ratios(const hair_physics* physics, double ratio[3])
     ratio[2]    = 1 / flat;
 }
 
+static double pull_squared(const hair_physics* physics, double share)
+{
+    double root = (double)physics->pull_root, frequency = root + share * ((double)physics->pull_tip - root);
+    return TWO_PI * TWO_PI * frequency * frequency;
+}
+
 static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, const hair_physics* physics)
 {
     double     total = 0, so_far = 0, radius = (double)physics->fiber_radius;
@@ -67,6 +63,7 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
     for (uint32_t i = 0; i < s->count; ++i) {
         double share = so_far / total, root = (double)physics->stiffness_root;
         s->bend[i] = bend * (root + share * ((double)physics->stiffness_tip - root));
+        s->pull[i] = pull_squared(physics, (double)i / (s->count - 1));
         so_far += s->length[i];
         if (i > 0) s->weight += s->mass[i] * s->gravity;
     }
@@ -75,35 +72,14 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
 static void find_turns(struct hair_rod_shape* s, const struct hair_guide* guide, const struct hair_rest* rest)
 {
     hair_dquat before = load_frame(&guide->root_frame);
+    s->place[0]       = (hair_dvec3){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 from = hair_dload(&rest[i].position.x), to = hair_dload(&rest[i + 1].position.x);
-        s->frame[i]  = frame_of(&rest[i].frame, hair_dadd(to, hair_dscale(from, -1)));
-        hair_dquat r = hair_dmultiply(hair_dconjugate(before), s->frame[i]);
-        s->turn[i]   = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
-        before       = s->frame[i];
-    }
-}
-
-static hair_dvec3 stress_for(hair_dquat turn, hair_dvec3 moment)
-{
-    hair_dvec3 v = {turn.x, turn.y, turn.z}, across = hair_dcross(v, moment);
-    double     w = fmax(turn.w, LEAST_COSINE), twist = hair_ddot(v, moment) / w;
-    return hair_dadd(hair_dadd(hair_dscale(moment, w), hair_dscale(v, twist)), hair_dscale(across, -1));
-}
-
-// Moments as the frame of the segment they act on sees them: q_i* M_i = q_i* M_(i+1) + l_i y x F_i. Only from a
-// clamp can a strand stand out: from a hinge it hangs, and free it falls, bearing nothing.
-static void find_stress(struct hair_rod_shape* s, const hair_physics* physics)
-{
-    hair_dvec3 load = {0, 0, 0}, moment = {0, 0, 0}, gravity = hair_dload(physics->gravity);
-    double     share = s->clamped ? (double)physics->hold : 0;
-    for (uint32_t i = s->count - 1; i-- > 0;) {
-        load              = hair_dadd(load, hair_dscale(gravity, s->mass[i + 1] * share));
-        hair_dvec3 beyond = hair_drotate(hair_dconjugate(s->frame[i]), load);
-        hair_dvec3 lever  = {s->length[i] * beyond.z, 0, -s->length[i] * beyond.x};
-        moment       = hair_drotate(s->turn[i], hair_dadd(moment, lever)); // As the segment before sees it.
-        s->force[i]  = beyond;
-        s->stress[i] = stress_for(s->turn[i], moment);
+        s->frame[i]     = frame_of(&rest[i].frame, hair_dadd(to, hair_dscale(from, -1)));
+        hair_dquat r    = hair_dmultiply(hair_dconjugate(before), s->frame[i]);
+        s->turn[i]      = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
+        before          = s->frame[i];
+        s->place[i + 1] = hair_dadd(s->place[i], hair_dscale(along(s->frame[i]), s->length[i]));
     }
 }
 
@@ -114,10 +90,14 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     out->count   = guide->count;
     out->clamped = physics->root == HAIR_ROOT_CLAMPED;
     out->held    = physics->root != HAIR_ROOT_FREE;
-    for (uint32_t i = 0; i < out->count; ++i) out->tied[i] = 0;
+    for (uint32_t i = 0; i < out->count; ++i) {
+        out->tied[i]   = 0;
+        out->stress[i] = (hair_dvec3){0, 0, 0};
+    }
+    // Only from a clamp can a strand stand out: from a hinge it hangs, and free it falls, bearing nothing.
+    out->load = hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->hold : 0);
     find_masses(out, rest, physics);
     find_turns(out, guide, rest);
-    find_stress(out, physics);
 }
 
 // At the clamp: far from it a chain under the tension T that leaves it at an angle straightens by the factor r a
@@ -132,9 +112,9 @@ static double clamp_factor(double length, double weight, double bend)
     return 1 + p / 2 + sqrt(1 + p * p / 4);
 }
 
-double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i, double stiffen)
+double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i)
 {
-    double bend = shape->bend[i] * stiffen;
+    double bend = shape->bend[i];
     if (i + 1 >= shape->count || !(bend > 0)) return 0;
     if (i > 0) return 2 * bend / (shape->length[i - 1] + shape->length[i]);
     return shape->clamped ? clamp_factor(shape->length[0], shape->weight, bend) * bend / shape->length[0] : 0;
@@ -145,4 +125,12 @@ hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, doubl
     const double* ratio = shape->ratio;
     hair_dvec3    g     = hair_dscale(shape->stress[i], 1 / stiffness);
     return (hair_dvec3){g.x / ratio[0], g.y / ratio[1], g.z / ratio[2]};
+}
+
+void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne)
+{
+    for (uint32_t i = 0; i < shape->count; ++i) {
+        shape->stress[i] = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
+        shape->bend[i] *= borne[i].stiffen;
+    }
 }

@@ -61,24 +61,24 @@ struct hair_rod_shape {
     int        clamped, held;                   // at the root
     uint32_t   tied[HAIR_MAX_GUIDE_VERTICES];   // by the tie of this number, from 1; 0: not
     double     gravity;                         // m/s^2
+    hair_dvec3 load;                            // the gravity that the rest strain is to bear, m/s^2
     double     weight;                          // of all but the root vertex
     double     length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
     double     mass[HAIR_MAX_GUIDE_VERTICES];
-    double     bend[HAIR_MAX_GUIDE_VERTICES];  // bending stiffness at vertex i, not stiffened
-    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // of segment i
-    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];  // from the frame of segment i-1 to that of i, w >= 0
-    // What gravity, as far as the rest strain is to bear it, does to the groom's own shape:
-    hair_dvec3 force[HAIR_MAX_GUIDE_VERTICES];  // on all beyond segment i, as its frame sees it
-    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of the energy of vertex i by its strain
+    double     pull[HAIR_MAX_GUIDE_VERTICES];   // squared angular frequency of the pull to the groom, 1/s^2
+    double     bend[HAIR_MAX_GUIDE_VERTICES];   // bending stiffness at vertex i
+    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES];  // of segment i
+    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];   // from the frame of segment i-1 to that of i, w >= 0
+    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES];  // of vertex i in the groom, from the root
+    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of vertex i's energy by its strain in the groom
 };
 
-// `rest` is that of the guide.
+// `rest` is that of the guide. The stress is 0: hair_rod_hold() or hair_rod_bear() set it.
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out);
 
-// Bending stiffness over the length it is for, with the whole guide `stiffen` times as stiff. 0 where vertex i
-// resists nothing.
-double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i, double stiffen);
+// Bending stiffness over the length it is for. 0 where vertex i resists nothing.
+double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i);
 
 // From the rest strain that bears the stress to the strain of the groom, at a vertex of that stiffness, not 0.
 #define HAIR_ROD_MOST_STRAIN 1.0
@@ -90,8 +90,19 @@ double hair_rod_longest_taut(const struct hair_rod_shape* shape);    // b that i
 void   hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
 double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
 
-// hold.c: 1, or the least multiple of the stiffness with which the groom's shape is stable and the strain within the most.
-#define HAIR_ROD_MOST_STIFFEN 1e4
-double hair_rod_stiffen(const struct hair_rod_shape* shape);
+// hold.c. Set the stress of a new shape so that it holds its groom, and multiply its bending
+// stiffness for that by 1 to 3, vertex by vertex. With more than that the groom would still be
+// unstable, or a rest strain further than 1 from the groom's own: then the guide is three times as
+// stiff and sags as little as leads to a stable pose.
+#define HAIR_ROD_MOST_STIFFEN 3.0
+struct hair_rod_held {
+    double stiffest; // greatest multiple of the stiffness; 1 when there is none
+    double sag;      // farthest that a vertex comes to rest from the groom, m; 0 when it holds
+    int    sags;
+};
+struct hair_rod_held hair_rod_hold(struct hair_rod_shape* shape);
+
+// Use what hair_rod_hold() found before for a shape like this.
+void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne);
 
 #endif

@@ -6,10 +6,12 @@
 struct hair_rods {
     struct hair_guide*      guides; // copies: the groom may be gone when physics change
     struct hair_rest*       rest;
-    hair_physics            made_for;
+    struct hair_rod_borne*  borne;
+    hair_physics            made_for, borne_for;
     struct hair_rods_report report;
+    int                     held; // whether `borne` is of borne_for
     int                     curved;
-    int                     mixed; // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
+    int                     mixed;  // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
     int                     stiff;  // for SHAKE, some
     int                     struck; // made for: sim->struck,
     uint32_t                tied;   // and sim->ties.which;
@@ -90,7 +92,8 @@ static int are_mixed(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
-    return hair_rods_are_mixed(rods->guides, rods->rest, sim->guides, &sim->physics, sim->asked_substep);
+    return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
+                               sim->asked_substep);
 }
 
 // Return the bytes of forces and turns, and of the rows of a work group that has no room for them.
@@ -100,39 +103,51 @@ static size_t bend_size(const struct hair_sim* sim)
     return each * sim->guide_vertices * sizeof(hair_vec4);
 }
 
+static void hold(struct hair_sim* sim)
+{
+    struct hair_rods* rods = sim->rods;
+    if (rods->held && !hair_rods_differ(&rods->borne_for, &sim->physics)) return;
+    hair_rods_hold(rods->guides, rods->rest, sim->guides, &sim->physics, rods->borne, &rods->report);
+    rods->borne_for = sim->physics;
+    rods->held      = 1;
+}
+
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
 static hair_result make(struct hair_sim* sim, int struck)
 {
     const hair_host*  host    = &sim->gl->host;
     struct hair_rods* rods    = sim->rods;
     double            substep = sim->asked_substep;
-    int               mixed   = are_mixed(sim);
     struct hair_rod*  rod     = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
+    hold(sim);
+    int mixed = are_mixed(sim);
     if (substep == 0) {
-        substep = hair_rods_substep(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, mixed);
+        substep = hair_rods_substep(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
+                                    sim->solver, mixed);
         // Impacts stir what bending in explicit steps can only just bear.
         if (struck && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
     uint32_t longer = times_longer(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
-    hair_rods_write(rods->guides, rods->rest, sim->guides, &sim->physics, sim->solver, mixed, substep, rod,
-                    &rods->report);
-    hair_rods_tie(rods->guides, rods->rest, sim->ties.knot, sim->ties.count, &sim->physics, sim->solver,
-                  mixed, substep, rod);
+    hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver, mixed,
+                    substep, rod);
+    hair_rods_tie(rods->guides, rods->rest, rods->borne, sim->ties.knot, sim->ties.count, &sim->physics,
+                  sim->solver, mixed, substep, rod);
     GLuint      buffer = 0, reduction = 0, bend = sim->bend;
     uint32_t    rounds = 0;
     hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
     if (!result)
         result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
-    if (!result && mixed && !bend) result = hair_gl_storage(sim->gl, "hair bend", bend_size(sim), NULL, &bend);
+    if (!result && mixed && !bend)
+        result = hair_gl_storage(sim->gl, "hair bend", bend_size(sim), NULL, &bend);
     if (result) {
         hair_gl_free_buffer(sim->gl, &reduction);
         hair_gl_free_buffer(sim->gl, &buffer);
     } else {
         if (!mixed) hair_gl_free_buffer(sim->gl, &bend);
-        sim->bend      = bend;
-        rods->mixed    = mixed;
+        sim->bend   = bend;
+        rods->mixed = mixed;
         hair_gl_free_buffer(sim->gl, &sim->rod);
         hair_gl_free_buffer(sim->gl, &sim->reduction);
         sim->rod       = buffer;
@@ -170,7 +185,8 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     struct hair_rods* rods = sim->rods;
     rods->guides           = hair_alloc(host, sim->guides, sizeof *rods->guides);
     rods->rest             = hair_alloc(host, sim->guide_vertices, sizeof *rods->rest);
-    if (!rods->guides || !rods->rest) return hair_fail_memory(host, "the guides as rods");
+    rods->borne            = hair_alloc(host, sim->guide_vertices, sizeof *rods->borne);
+    if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
     hair_result result = make_buffers(sim);
@@ -227,6 +243,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_crowd_free(sim);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
+    hair_free(host, sim->rods->borne);
     hair_free(host, sim->rods);
 }
 
@@ -267,20 +284,23 @@ int hair_sim_is_stiff(const struct hair_sim* sim)
     return sim->rods && sim->rods->stiff;
 }
 
-float hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides)
+struct hair_rods_report hair_sim_held(const struct hair_sim* sim)
 {
-    *guides = sim->rods ? sim->rods->report.stiffened : 0;
-    return *guides ? sim->rods->report.stiffest : 1;
+    return sim->rods ? sim->rods->report : (struct hair_rods_report){.stiffest = 1};
 }
 
 void hair_sim_health(struct hair_sim* sim, hair_health* health)
 {
     uint32_t count[HAIR_HEALTH_COUNT] = {0};
     sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
-    health->euler    = count[HAIR_HEALTH_EULER];
-    health->follow   = count[HAIR_HEALTH_FOLLOW];
-    health->reset    = count[HAIR_HEALTH_RESET];
-    health->taut     = count[HAIR_HEALTH_TAUT];
-    health->stiffest = hair_sim_stiffest(sim, &health->stiffened);
-    health->substep  = (float)sim->substep;
+    health->euler                = count[HAIR_HEALTH_EULER];
+    health->follow               = count[HAIR_HEALTH_FOLLOW];
+    health->reset                = count[HAIR_HEALTH_RESET];
+    health->taut                 = count[HAIR_HEALTH_TAUT];
+    health->substep              = (float)sim->substep;
+    struct hair_rods_report held = hair_sim_held(sim);
+    health->stiffened            = held.stiffened;
+    health->stiffest             = held.stiffest;
+    health->sagging              = held.sagging;
+    health->farthest_sag         = held.farthest_sag;
 }

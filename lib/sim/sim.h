@@ -99,7 +99,7 @@ void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_par
 int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, or their sections are flat
 int         hair_sim_is_mixed(const struct hair_sim* sim);  // Return whether the mixed scheme solves the guides.
 int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
-float       hair_sim_stiffest(const struct hair_sim* sim, uint32_t* guides); // and how many were stiffened
+struct hair_rods_report hair_sim_held(const struct hair_sim* sim); // how guides hold their groom
 void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
 
 // programs.c: passes compiled with what there is; all that a step with what is set now runs; and how many substeps a dispatch may have.

@@ -67,7 +67,19 @@ double hair_test_rod_bend(const hair_physics* p)
     return (double)p->young * r * r / (4 * (double)p->fiber_density);
 }
 
+void hair_test_rod_hold(struct hair_test_rod* f)
+{
+    hair_rods_hold(&f->guide, f->rest, 1, &f->physics, f->borne, &f->report);
+}
+
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep)
 {
-    hair_rods_write(&f->guide, f->rest, 1, &f->physics, solver, 0, substep, f->rod, &f->report);
+    hair_test_rod_hold(f);
+    hair_rods_write(&f->guide, f->rest, f->borne, 1, &f->physics, solver, 0, substep, f->rod);
+}
+
+double hair_test_rod_substep(struct hair_test_rod* f, hair_solver solver)
+{
+    hair_test_rod_hold(f);
+    return hair_rods_substep(&f->guide, f->rest, f->borne, 1, &f->physics, solver, 0);
 }

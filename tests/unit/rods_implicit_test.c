@@ -187,11 +187,6 @@ static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
     return highest;
 }
 
-static double wanted(const struct hair_test_rod* f, hair_solver solver)
-{
-    return hair_rods_substep(&f->guide, f->rest, 1, &f->physics, solver, 0);
-}
-
 // Leapfrog is stable where the substep times the highest frequency is below 2.
 static void the_substep_of_the_accurate_solver_is_stable(void** state)
 {
@@ -201,7 +196,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     f->physics.hold = f->physics.damping = f->physics.pull_root = f->physics.pull_tip = 0;
     for (uint32_t count = 4; count <= 100; count += 8) {
         hair_test_rod_straight(f, count, 0.3, PI / 2);
-        double h       = wanted(f, HAIR_SOLVER_ACCURATE),
+        double h       = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE),
                formula = 1.15 * pow(count - 1, 2) / 30 * sqrt(hair_test_rod_bend(&f->physics)) / 0.09;
         hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h);
         build(f, 1, a);
@@ -215,19 +210,19 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
             assert_true(h * highest < 2);
         }
         if (formula > 106) {
-            assert_true(h == wanted(f, HAIR_SOLVER_ACCURATE) && f->rod[count - 1].segment.w == 1);
-            assert_true(f->rod[1].factor.x > 0);
+            assert_true(h == hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE));
+            assert_true(f->rod[count - 1].segment.w == 1 && f->rod[1].factor.x > 0);
             hair_test_near("a frame", count, 1 / (60 * h), 18, 1e-9);
         }
     }
     // What is stiffened to hold needs shorter ones still.
-    hair_test_rod_straight(f, 24, 0.3, PI / 2);
-    double before   = wanted(f, HAIR_SOLVER_ACCURATE);
+    hair_test_rod_straight(f, 40, 0.3, PI / 2);
+    double before   = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
     f->physics.hold = 1;
-    assert_true(wanted(f, HAIR_SOLVER_ACCURATE) < before / 2);
-    hair_test_near("direct", 0, wanted(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
-    hair_test_near("follow", 0, wanted(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
-    hair_test_near("redblack", 0, wanted(f, HAIR_SOLVER_REDBLACK), 1.0 / 120, 1e-12);
+    assert_true(hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE) < before / 1.7);
+    hair_test_near("direct", 0, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
+    hair_test_near("follow", 0, hair_test_rod_substep(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
+    hair_test_near("redblack", 0, hair_test_rod_substep(f, HAIR_SOLVER_REDBLACK), 1.0 / 120, 1e-12);
     free(a);
     free(f);
 }
@@ -334,7 +329,7 @@ static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
         const float masses[] = {0, 10, 100, 1000};
         double      added = 0, highest = 0, l = 0.01, tip = 0.005 + 0.31 * (double)masses[k];
         f->physics.tip_mass = masses[k];
-        double h = wanted(f, HAIR_SOLVER_DIRECT), b = 2 * h / 3;
+        double h = hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), b = 2 * h / 3;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, h);
         for (uint32_t i = 1; i < 31; ++i) {
             double mass = 1 / (double)f->rod[i].segment.y, below = tip + (30 - i) * l;
@@ -347,7 +342,7 @@ static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
         hair_test_near("tip", k, 1 / (double)f->rod[31].segment.y, tip, 1e-5 * tip);
         assert_true(b * highest < 2.8 && added < 0.02 * tip);
         assert_true(masses[k] > 10 || added < 1e-5);
-        hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, wanted(f, HAIR_SOLVER_ACCURATE));
+        hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE));
         assert_true((f->rod[0].segment.w == 2) == (masses[k] > 10));
     }
     free(f);

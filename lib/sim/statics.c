@@ -1,0 +1,187 @@
+// statics.c - forces and stress of a rod in a pose, and the poses in which it rests.
+//
+// Let F_i be the force on all beyond segment i, by gravity g and the pull p_k = m_k w_k^2 to the
+// groom's places X_k:
+//
+//   F_i = sum_(k > i) m_k g + p_k (X_k - x_k)
+//
+// In equilibrium the moment in the strand at vertex i is
+//
+//   M_i = M_(i+1) + l_i t_i x F_i,   M_(n-1) = 0
+//
+// Let (w, v) = conj(q_(i-1)) q_i. Turning segment i by d, as segment i-1 sees it, changes the
+// strain 2 v by w d + d x v. The stress G = dE/du thus exerts the moment M = w G + v x G.
+// Conversely, the stress for a moment is
+//
+//   G = w M + v (v . M) / w - v x M
+//
+// A pose at rest is found by Newton's method on the turns of the segments: variation.c. Where the
+// matrix is not positive, a multiple of the unit matrix is added. Each step is halved until it does
+// not raise the energy.
+#include "lib/sim/statics.h"
+
+#include <string.h>
+
+#define LEAST_COSINE 1e-6 // of half the angle between segments; at 0 there is no stress for some moments
+#define LONGEST_TURN 0.5  // of a segment in one step, radians
+#define HALVINGS 30       // of a step, at most
+#define ROUNDING 1e-14    // error of the energy, as a fraction
+#define AT_REST 1e-10     // torque that ends the search, as a fraction of the greatest possible
+#define KICK 1e-3         // torque that is tried in an unstable pose without any, as a fraction
+#define FIRST_SHIFT 1e-3  // added multiple of the unit matrix, over the greatest stiffness
+#define SHIFT_GROWTH 4.0
+#define LAST_SHIFT 1e6
+
+static hair_dvec3 axis_of(hair_dquat q)
+{
+    return (hair_dvec3){q.x, q.y, q.z};
+}
+
+void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
+{
+    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0])); // of the scalp
+    out->place[0]     = (hair_dvec3){0, 0, 0};
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dquat q = frames[i], r = hair_dmultiply(hair_dconjugate(before), q);
+        hair_dvec3 along  = hair_drotate(q, (hair_dvec3){0, s->length[i], 0});
+        out->turn[i]      = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
+        out->frame[i]     = q;
+        out->place[i + 1] = hair_dadd(out->place[i], along);
+        before            = q;
+    }
+}
+
+void hair_rod_load(const struct hair_rod_shape* s, double gravity, struct hair_rod_pose* pose)
+{
+    hair_dvec3 load = {0, 0, 0};
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
+        hair_dvec3 own  = hair_dadd(hair_dscale(s->load, gravity), hair_dscale(back, s->pull[i + 1]));
+        load            = hair_dadd(load, hair_dscale(own, s->mass[i + 1]));
+        pose->force[i]  = hair_drotate(hair_dconjugate(pose->frame[i]), load);
+    }
+}
+
+static hair_dvec3 stress_for(hair_dquat turn, hair_dvec3 moment)
+{
+    hair_dvec3 v = axis_of(turn), across = hair_dcross(v, moment);
+    double     w = fmax(turn.w, LEAST_COSINE), twist = hair_ddot(v, moment) / w;
+    return hair_dadd(hair_dadd(hair_dscale(moment, w), hair_dscale(v, twist)), hair_dscale(across, -1));
+}
+
+// Moments as the frame of the segment they act on sees them: q_i* M_i = q_i* M_(i+1) + l_i y x F_i.
+void hair_rod_balance(const struct hair_rod_shape* s, struct hair_rod_pose* pose)
+{
+    hair_dvec3 moment = {0, 0, 0};
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        hair_dvec3 lever = {s->length[i] * pose->force[i].z, 0, -s->length[i] * pose->force[i].x};
+        moment = hair_drotate(pose->turn[i], hair_dadd(moment, lever)); // As the segment before sees it.
+        pose->stress[i] = stress_for(pose->turn[i], moment);
+    }
+}
+
+static hair_dvec3 strain_from(hair_dvec3 rest, hair_dquat turn)
+{
+    return hair_dadd(hair_dscale(axis_of(turn), 2), hair_dscale(rest, -1));
+}
+
+void hair_rod_strain(const struct hair_rod_shape* s, const hair_dvec3* rest_strain,
+                     struct hair_rod_pose* pose)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 u    = hair_dscale(strain_from(rest_strain[i], pose->turn[i]), hair_rod_stiffness(s, i));
+        pose->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+    }
+}
+
+static double energy_of(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+                        const struct hair_rod_pose* pose)
+{
+    double energy = 0;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 u    = strain_from(rest_strain[i], pose->turn[i]);
+        hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
+        double     bent = s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * u.z * u.z;
+        energy += hair_rod_stiffness(s, i) / 2 * bent;
+        energy -= s->mass[i + 1] * gravity * hair_ddot(s->load, pose->place[i + 1]);
+        energy += s->mass[i + 1] * s->pull[i + 1] / 2 * hair_ddot(back, back);
+    }
+    return energy;
+}
+
+// Set `out` to the derivative of the energy by the turns. Return the greatest torque.
+static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, hair_dvec3* out)
+{
+    double most = 0;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 g = pose->stress[i], f = hair_dscale(pose->force[i], s->length[i]);
+        hair_dvec3 slope = hair_dadd(hair_dscale(g, pose->turn[i].w), hair_dcross(g, axis_of(pose->turn[i])));
+        slope            = hair_dadd(slope, (hair_dvec3){-f.z, 0, f.x});
+        if (i + 2 < s->count) {
+            hair_dvec3 n = pose->stress[i + 1], across = hair_dcross(n, axis_of(pose->turn[i + 1]));
+            slope = hair_dadd(slope, hair_dadd(hair_dscale(n, -pose->turn[i + 1].w), across));
+        }
+        out[i] = slope;
+        most   = fmax(most, hair_dlength(slope));
+    }
+    return most;
+}
+
+static hair_dquat exponential(hair_dvec3 turn)
+{
+    double angle = hair_dlength(turn), s = angle > 1e-12 ? sin(angle / 2) / angle : 0.5;
+    return (hair_dquat){s * turn.x, s * turn.y, s * turn.z, cos(angle / 2)};
+}
+
+// Turn the segments from their frames `from` by a fraction of the turns.
+static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, const hair_dvec3* turns,
+                    double share, struct hair_rod_pose* pose)
+{
+    hair_dquat to[HAIR_MAX_GUIDE_VERTICES];
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        to[i] = hair_dmultiply(from[i], exponential(hair_dscale(turns[i], share)));
+    hair_rod_pose_at(s, to, pose);
+}
+
+// Take a step along the turns that does not raise the energy. Return 0 when there is none.
+static int descend(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+                   const hair_dvec3* turns, struct hair_rod_pose* pose)
+{
+    hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
+    double     before = energy_of(s, rest_strain, gravity, pose), most = 0;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) most = fmax(most, hair_dlength(turns[i]));
+    double share = fmin(1, LONGEST_TURN / most);
+    memcpy(from, pose->frame, s->count * sizeof *from);
+    for (int k = 0; k < HALVINGS; ++k, share /= 2) {
+        turn_by(s, from, turns, share, pose);
+        if (energy_of(s, rest_strain, gravity, pose) <= before + ROUNDING * fabs(before)) return 1;
+    }
+    turn_by(s, from, turns, 0, pose);
+    return 0;
+}
+
+double hair_rod_settle(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+                       uint32_t steps, struct hair_rod_pose* pose)
+{
+    hair_dvec3 slope[HAIR_MAX_GUIDE_VERTICES], turns[HAIR_MAX_GUIDE_VERTICES];
+    double     length = 0, stiffness = 0, left = 0;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        length += s->length[i];
+        stiffness = fmax(stiffness, hair_rod_stiffness(s, i));
+    }
+    double torque = s->weight * length;
+    for (uint32_t k = 0;; ++k) {
+        hair_rod_load(s, gravity, pose);
+        hair_rod_strain(s, rest_strain, pose);
+        left         = find_slope(s, pose, slope) / torque;
+        double shift = 0;
+        if (k == steps || (left < AT_REST && hair_rod_is_stable(s, pose, 0))) return left;
+        for (uint32_t i = 0; left < AT_REST && i + 1 < s->count; ++i)
+            slope[i] = (hair_dvec3){KICK * torque, 0, KICK * torque};
+        while (!hair_rod_find_step(s, pose, shift, slope, turns)) {
+            shift = fmax(SHIFT_GROWTH * shift, FIRST_SHIFT * stiffness);
+            if (!(shift < LAST_SHIFT * stiffness)) return left;
+        }
+        if (!descend(s, rest_strain, gravity, turns, pose)) return left;
+    }
+}

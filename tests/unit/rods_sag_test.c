@@ -1,0 +1,160 @@
+// rods_sag_test.c - where guides come to rest under gravity: in their groom, or as far from it as is reported.
+#include "tests/support/support.h"
+
+#include <hair/hair_asset.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "lib/groom/groom.h"
+#include "lib/sim/statics.h"
+#include "lib/sim/ties.h"
+#include "tests/support/rods.h"
+
+#define PI 3.141592653589793
+#define MOST HAIR_MAX_GUIDE_VERTICES
+
+struct rested {
+    double left;   // torque, relative
+    double away;   // from the groom, m
+    int    stable; // with gravity as it is
+    double length;
+};
+
+// Let a guide go from its groom, with the rest strain and the stiffness that the solvers have.
+static struct rested rest_of(const struct hair_guide* guide, const struct hair_rest* rest,
+                             const hair_physics* physics, const struct hair_rod_borne* borne,
+                             const struct hair_rod* rod)
+{
+    struct hair_rod_shape shape;
+    struct hair_rod_pose* pose = malloc(sizeof *pose);
+    hair_dvec3            strain[MOST];
+    struct rested         r = {.length = (double)guide->arc_length};
+    hair_rod_shape_of(guide, rest, physics, &shape);
+    hair_rod_bear(&shape, borne);
+    hair_rod_pose_at(&shape, shape.frame, pose);
+    for (uint32_t i = 0; i < guide->count; ++i) {
+        strain[i] = hair_dload(&rod[i].strain.x);
+        hair_test_near("stiffness", i, hair_rod_stiffness(&shape, i), (double)rod[i].strain.w,
+                       1e-6 * (double)rod[i].strain.w);
+    }
+    r.left   = hair_rod_settle(&shape, strain, 1, 500, pose);
+    r.stable = hair_rod_is_stable(&shape, pose, 0);
+    for (uint32_t i = 0; i < guide->count; ++i)
+        r.away = fmax(r.away, hair_dlength(hair_dadd(pose->place[i], hair_dscale(shape.place[i], -1))));
+    free(pose);
+    return r;
+}
+
+static hair_groom* haircut(hair_style style, uint32_t vertices)
+{
+    hair_style_desc of    = hair_style_desc_default();
+    hair_groom_desc desc  = hair_groom_desc_default();
+    hair_asset*     asset = NULL;
+    hair_groom*     groom = NULL;
+    of.style              = style;
+    of.strand_vertices    = vertices;
+    assert_int_equal(hair_asset_generate(&of, &asset), HAIR_OK);
+    assert_int_equal(hair_asset_fill(asset, &desc), HAIR_OK);
+    desc.follower_count = 0;
+    desc.guide_vertices = vertices;
+    assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
+    hair_asset_destroy(asset);
+    return groom;
+}
+
+static void compare(const char* name, const hair_groom* groom, const hair_physics* physics)
+{
+    uint32_t                count = groom->info.guide_count, sagging = 0, stiffened = 0;
+    struct hair_rod_borne*  borne = calloc(groom->info.guide_vertex_count, sizeof *borne);
+    struct hair_rod*        rod   = calloc(groom->info.guide_vertex_count, sizeof *rod);
+    struct hair_rods_report all, own;
+    hair_rods_hold(groom->guides, groom->rest, count, physics, borne, &all);
+    hair_rods_write(groom->guides, groom->rest, borne, count, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240, rod);
+    assert_true(all.stiffest >= 1 && all.stiffest <= 3);
+    double farthest = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        const struct hair_guide* guide = groom->guides + k;
+        hair_rods_hold(guide, groom->rest, 1, physics, borne, &own);
+        for (uint32_t i = 0; i < guide->count; ++i)
+            assert_true(borne[guide->first + i].stiffen >= 1 && borne[guide->first + i].stiffen <= 3);
+        struct rested r =
+            rest_of(guide, groom->rest + guide->first, physics, borne + guide->first, rod + guide->first);
+        assert_true(r.stable && r.left < 1e-6);
+        assert_true(own.sagging || r.away < 1e-4 * r.length);
+        hair_test_near("sag", k, (double)own.farthest_sag, r.away, 1e-4 * r.length);
+        sagging += own.sagging;
+        stiffened += own.stiffened;
+        farthest = fmax(farthest, r.away);
+    }
+    assert_true(sagging == all.sagging && stiffened == all.stiffened);
+    hair_test_near("farthest", 0, (double)all.farthest_sag, sagging ? farthest : 0, 1e-4);
+    printf("%s, %u vertices: %u of %u stiffened, up to %.2f times; %u sag, by up to %.1f mm\n", name,
+           groom->guides[0].count, stiffened, count, (double)all.stiffest, sagging,
+           1e3 * (double)all.farthest_sag);
+    free(borne);
+    free(rod);
+}
+
+static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
+{
+    (void)state;
+    for (uint32_t vertices = 32; vertices <= 64; vertices += 16)
+        for (int style = 0; hair_style_name((hair_style)style); ++style) {
+            hair_groom*  groom   = haircut((hair_style)style, vertices);
+            hair_physics physics = hair_physics_default();
+            compare(hair_style_name((hair_style)style), groom, &physics);
+            if (vertices == 32) {
+                physics.pull_root = physics.pull_tip = 0;
+                physics.flatness                     = 0.6f;
+                physics.tip_mass                     = 0.1f;
+                compare("without pull, flat, with tips", groom, &physics);
+            }
+            hair_groom_destroy(groom);
+        }
+}
+
+// Upright, nothing tells where to.
+static void an_upright_strand_that_is_too_long_leans(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    f->physics.pull_root = f->physics.pull_tip = 0;
+    for (int k = 0; k < 2; ++k) {
+        hair_test_rod_straight(f, 32, k ? 0.3 : 0.21, PI);
+        hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
+        struct rested r = rest_of(&f->guide, f->rest, &f->physics, f->borne, f->rod);
+        printf("%.2f m: it rests %.3f m away, %.3f m by the report\n", r.length, r.away,
+               (double)f->report.farthest_sag);
+        assert_true(f->report.sagging == 1 && r.stable && r.left < 1e-6);
+        assert_true(f->report.farthest_sag > 0.1f * (float)r.length);
+        hair_test_near("sag", (size_t)k, (double)f->report.farthest_sag, r.away, 1e-3 * r.length);
+    }
+    free(f);
+}
+
+static void what_sags_bears_what_it_bore_when_it_is_tied(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f    = hair_test_rod_make();
+    struct hair_knot      knot = {.vertex = 20};
+    hair_test_rod_straight(f, 32, 0.3, PI / 2);
+    hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
+    assert_int_equal(f->report.sagging, 1);
+    struct hair_rod* rod = calloc(MOST, sizeof *rod);
+    hair_rods_tie(&f->guide, f->rest, f->borne, &knot, 1, &f->physics, HAIR_SOLVER_DIRECT, 0, 1.0 / 240, rod);
+    for (uint32_t i = 0; i < 32; ++i) assert_memory_equal(&rod[i].strain, &f->rod[i].strain, 16);
+    free(rod);
+    free(f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(built_in_haircuts_rest_in_their_groom_or_where_is_said),
+        cmocka_unit_test(an_upright_strand_that_is_too_long_leans),
+        cmocka_unit_test(what_sags_bears_what_it_bore_when_it_is_tied),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
