@@ -8,6 +8,7 @@
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
 #include "rotation.glsl"
 #include "capsules.glsl"
+#include "sim/angular.glsl"
 
 layout(binding = HAIR_UNIT_STATE) uniform samplerBuffer state_texture; // hair_state
 layout(binding = HAIR_UNIT_REST) uniform samplerBuffer rest_texture;   // hair_rest
@@ -54,37 +55,24 @@ vec3 relax_bend(uint i, uint phase)
     return relaxed(i, a, a + 2u, rest_direction(a).w, params.bend);
 }
 
-vec3 direction_of(uint i) { return direction_or(vertex(i + 1u) - vertex(i), vec3(0.0, 1.0, 0.0)); }
-
-// What turns the segment before segment i into it; at the root, its frame.
-vec4 turn_of(vec4 root, uint i)
+angular_moves angular_of(uint i, vec4 head)
 {
-    vec3 now = direction_of(i);
-    if (i == 0u) return quat_multiply(quat_between(rotate(root, vec3(0.0, 1.0, 0.0)), now), root);
-    return quat_between(direction_of(i - 1u), now);
+    vec3  middle = rest_position(i - 1u).xyz, link = middle - rest_position(i - 2u).xyz;
+    float dt     = params.gravity.w;
+    return angular_force(head, vertex(i - 2u), vertex(i - 1u), vertex(i), link, rest_position(i).xyz - middle,
+                         params.angular * dt * dt);
 }
 
-// The frame of segment i, as frames.glsl: the product of all turns up to it, in the order in which the scan there multiplies
-// them, so that it is rounded alike. Blocks of 1, 2, 4, … turns wait, as the bits of a counter do, for one of their size.
-vec4 carry_frame(vec4 root, uint i)
-{
-    vec4 waiting[8];
-    int  waits = 0;
-    for (uint k = 0u; k <= i; ++k) {
-        vec4 block = turn_of(root, i - k);
-        for (uint size = k + 1u; (size & 1u) == 0u; size /= 2u) block = normalize(quat_multiply(waiting[--waits], block));
-        waiting[waits++] = block;
-    }
-    vec4 frame = waiting[--waits];
-    while (waits > 0) frame = normalize(quat_multiply(waiting[--waits], frame));
-    return frame;
-}
-
-vec3 bend_to_rest(uint i, vec4 root)
+vec3 bend_to_rest(uint i, vec4 head)
 {
     if (i < 2u) return vertex(i);
-    vec3 aimed = vertex(i - 1u) + rest_position(i - 1u).w * rotate(carry_frame(root, i - 2u), rest_direction(i - 1u).xyz);
-    return pull(vertex(i), aimed, params.angular, params.gravity.w);
+    vec3 moved = angular_of(i, head).end;
+    if (i + 1u < count) {
+        angular_moves next = angular_of(i + 1u, head);
+        moved -= next.end + next.couple;
+    }
+    if (i + 2u < count) moved += angular_of(i + 2u, head).couple;
+    return vertex(i) + moved;
 }
 
 // Those that are too far do nothing.
@@ -110,9 +98,7 @@ bool is_broken(vec3 head)
 
 void main()
 {
-    int   guide    = 2 * int(texelFetch(owner_texture, gl_VertexID).x);
-    vec4  root     = uintBitsToFloat(texelFetch(guide_texture, guide));
-    uvec4 record   = texelFetch(guide_texture, guide + 1);
+    uvec4 record   = texelFetch(guide_texture, 2 * int(texelFetch(owner_texture, gl_VertexID).x) + 1);
     vec4  rotation = params.substep[0].rotation;
     vec3  head     = params.substep[0].displacement.xyz;
     first = record.x, count = record.y;
@@ -124,7 +110,7 @@ void main()
     kept = x;
     x    = i < 2u ? target : p;
 #elif HAIR_PHASE == 1
-    x = bend_to_rest(i, quat_multiply(rotation, root));
+    x = bend_to_rest(i, rotation);
 #elif HAIR_PHASE == 2 || HAIR_PHASE == 3
     x = relax_distance(i, HAIR_PHASE - 2u);
 #elif HAIR_PHASE == 4 || HAIR_PHASE == 5

@@ -8,15 +8,17 @@
 // A force that pulls to a target with angular frequency w is taken implicitly, p = (p + (w dt)^2 target) / (1 +
 // (w dt)^2), so that no frequency is unstable at any substep.
 //
-// Not handled: convergence (use another solver for that); friction; twist.
+// The angular force has a potential: see sim/angular.glsl. Not handled: convergence, friction, twist.
 #version 450 core
 #include "buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
-#include "frames.glsl"
+#include "rotation.glsl"
 #include "constraints.glsl"
+#include "sim/angular.glsl"
 #include "sim/ride.glsl"
 
 shared uint broken;
+shared vec3 move_end[HAIR_GUIDE_THREADS], move_couple[HAIR_GUIDE_THREADS]; // angular_moves of each vertex
 
 vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
 {
@@ -47,6 +49,9 @@ void main()
     float     dt           = params.gravity.w;
     float     share        = float(i) / float(count - 1u);
     float     frequency    = mix(params.pull_root, params.pull_tip, share);
+    // Rest links before vertex i.
+    vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz, next = at_rest.position.xyz - before;
+    vec3 link   = before - rest[first + max(min(i, count - 1u), 2u) - 2u].position.xyz;
     if (i == 0u) broken = 0u;
     synchronise();
 
@@ -54,7 +59,7 @@ void main()
         vec4 rotation = params.substep[s].rotation;
         vec3 head     = params.substep[s].displacement.xyz;
         vec3 target   = rotate(rotation, at_rest.position.xyz);
-        vec3 before   = x;
+        vec3 start    = x;
 #ifdef HAIR_SKINNED
         ride r   = ride_at(g, params.substep[s].displacement.w);
         target   = rotate(rotation, carry(r, rest[first].position.xyz, at_rest.position.xyz));
@@ -69,15 +74,18 @@ void main()
 
         if (params.angular > 0.0) {
             synchronise();
-            vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
-            carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
-                         quat_multiply(rotation, guide[g].root_frame));
-            vec3 aimed = p;
+            angular_moves moves = angular_moves(vec3(0.0), vec3(0.0));
             if (here && !pinned)
-                aimed = vertex[i - 1u] +
-                        rest[own - 1u].position.w * rotate(scan_frame[i - 2u], rest[own - 1u].direction.xyz);
+                moves = angular_force(rotation, vertex[i - 2u], vertex[i - 1u], p, link, next, params.angular * dt * dt);
+            move_end[i]    = moves.end;
+            move_couple[i] = moves.couple;
             synchronise();
-            if (here && !pinned) vertex[i] = pull(p, aimed, params.angular, dt);
+            if (here && !pinned) {
+                vec3 moved = moves.end;
+                if (i + 1u < count) moved -= move_end[i + 1u] + move_couple[i + 1u];
+                if (i + 2u < count) moved += move_couple[i + 2u];
+                vertex[i] = p + moved;
+            }
         }
         synchronise();
 
@@ -101,7 +109,7 @@ void main()
         }
 
         x            = vertex[i];
-        displacement = x - before + head;
+        displacement = x - start + head;
         // A strand that is not finite, or far beyond any hair, goes back to its rest pose, and along with the head
         // unless that was what went too far.
         if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 || dot(displacement, displacement) > 1e8))

@@ -81,6 +81,37 @@ bool is_sound(const Vector3d& v)
     return v.squaredNorm() < 1e8; // False for NaN.
 }
 
+// The least rotation from unit r to unit e.
+Quaterniond least_rotation(const Vector3d& r, const Vector3d& e)
+{
+    const Vector3d axis = r.cross(e);
+    return Quaterniond(1 + r.dot(e), axis.x(), axis.y(), axis.z()).normalized();
+}
+
+struct angular_moves {
+    Vector3d end, couple; // of vertex i, of vertex i-2; vertex i-1 moves by the opposite of both
+};
+
+// Return the gradient of (1 + e.r) / 2 * k/2 |d|^2, where d = x_(i-1) + q a - x_i and q is the least rotation
+// from r to e. glsl/sim/angular.glsl derives it and says why the stiffness is bounded.
+angular_moves angular_force(const strand& s, const hair_rest* rest, const Quaterniond& head, uint32_t i,
+                            double k)
+{
+    const Vector3d middle = vector_of(rest[i - 1].position);
+    const Vector3d link   = middle - vector_of(rest[i - 2].position);
+    const Vector3d next   = vector_of(rest[i].position) - middle;
+    const Vector3d edge   = s[i - 1] - s[i - 2];
+    const Vector3d r = head * direction_of(link), e = direction_of(edge);
+    const Vector3d arm = least_rotation(r, e) * (head * next), d = s[i - 1] + arm - s[i];
+    const double   ratio = next.norm() / link.norm(), sum = 1 + ratio;
+    const double   stiffness = k / (1 + 1.5 * (1 + sum * sum + ratio * ratio) * k);
+    const Vector3d torque    = stiffness * arm.cross(d);
+    const Vector3d turning   = (1 + e.dot(r)) / 2 * torque.cross(e) - torque.dot(e) / 2 * r.cross(e);
+    const Vector3d opening   = stiffness * d.squaredNorm() / 4 * (r - e.dot(r) * e);
+    return {(1 + e.dot(r)) / 2 * stiffness * d,
+            (turning + opening) / std::fmax(edge.norm(), link.norm() / 2)};
+}
+
 } // namespace
 
 void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const hair_reference_vertex* before,
@@ -108,22 +139,17 @@ void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const ha
 void hair_reference_angular(hair_reference_guide g, uint32_t substep, double* positions)
 {
     if (g.params->angular <= 0) return;
-    const uint32_t      segments = g.guide->count - 1;
-    std::vector<double> from(positions, positions + 3 * g.guide->count), directions(3 * segments),
-        frames(4 * segments);
-    const strand before{from.data()};
-    for (uint32_t i = 0; i < segments; ++i)
-        store(direction_of(before[i + 1] - before[i]), &directions[3 * i]);
-    double root[4];
-    store(head_rotation(g, substep) * quaternion_of(g.guide->root_frame), root);
-    hair_reference_frames(segments, directions.data(), root, frames.data());
-
-    strand s{positions};
+    const Quaterniond     head = head_rotation(g, substep);
+    const double          dt   = length_of_substep(g);
+    std::vector<Vector3d> moved(g.guide->count, Vector3d(0, 0, 0));
+    strand                s{positions};
     for (uint32_t i = pinned; i < g.guide->count; ++i) {
-        const Vector3d along = quaternion_of(&frames[4 * (i - 2)]) * vector_of(g.rest[i - 1].direction);
-        const Vector3d aim   = before[i - 1] + double(g.rest[i - 1].position.w) * along;
-        s.put(i, pull(before[i], aim, g.params->angular, length_of_substep(g)));
+        const angular_moves moves = angular_force(s, g.rest, head, i, g.params->angular * dt * dt);
+        moved[i] += moves.end;
+        moved[i - 1] -= moves.end + moves.couple;
+        moved[i - 2] += moves.couple;
     }
+    for (uint32_t i = pinned; i < g.guide->count; ++i) s.put(i, s[i] + moved[i]);
 }
 
 void hair_reference_distance(hair_reference_guide g, uint32_t phase, double* positions)

@@ -40,7 +40,7 @@ void hair_reference_frames(uint32_t segments, const double* directions, const do
 /// External forces, Verlet integration, pull to the rest pose; pinned vertices go with the scalp.
 void hair_reference_integrate(struct hair_reference_guide guide, uint32_t substep,
                               const struct hair_reference_vertex* before, double* positions);
-/// Pull of every vertex to where its segment would lie if it met the one before at the rest angle.
+/// Pull of every segment to its rest angle with the one before, from a potential that all three vertices feel.
 void hair_reference_angular(struct hair_reference_guide guide, uint32_t substep, double* positions);
 /// Links (0,1), (2,3), … (red, phase 0) or (1,2), (3,4), … (black, phase 1) to their rest length.
 void hair_reference_distance(struct hair_reference_guide guide, uint32_t phase, double* positions);

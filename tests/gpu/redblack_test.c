@@ -118,7 +118,7 @@ static void switch_all_on(struct fixture* f)
 // but for a share 2 exp(-l^2 / 2) of all cases. u = 2^-24; no position is farther than 1 m from the head's
 // origin; a million comparisons want l = 6. Those operations count that round at the size of a position; all
 // others work on what neighbours differ by, a hundredth of it:
-//   a substep       4 to integrate, and with the angular force one per segment for the frame carried there
+//   a substep       4 to integrate, and 4 to add what the angular force does
 //   an iteration    1 for each of two distance and two bend links, 2 for each solid
 // Constraints hardly make errors larger: a link divides them among its ends; out of a solid by more than half
 // its radius nothing is pushed here. Hence the factor 2.
@@ -126,7 +126,7 @@ static double tolerance(const struct fixture* f)
 {
     const struct hair_step_params* params = &f->params;
 
-    double substep   = 4 + (params->angular > 0 ? f->groom->most_vertices : 0);
+    double substep   = 4 + (params->angular > 0 ? 4 : 0);
     double iteration = (params->bend > 0 ? 4 : 2) + 2 * params->solids;
     return 2 * 6 * sqrt(params->substeps * (substep + params->iterations * iteration)) / 16777216;
 }

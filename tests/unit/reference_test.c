@@ -225,21 +225,14 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
 static void the_angular_force_leaves_the_rest_pose_alone(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(9, 0.01f);
-    double         directions[3 * 8], frames[4 * 8], root[4] = {1, 0, 0, 0}, p[3 * 9] = {0};
+    struct fixture f        = straight_down(9, 0.01f);
+    double         p[3 * 9] = {0};
     for (int i = 0; i < 8; ++i) {
-        double angle          = 0.3 * i;
-        directions[3 * i]     = sin(angle) * cos(0.2 * i);
-        directions[3 * i + 1] = -cos(angle);
-        directions[3 * i + 2] = sin(angle) * sin(0.2 * i);
-        for (int k = 0; k < 3; ++k) p[3 * i + 3 + k] = p[3 * i + k] + (double)0.01f * directions[3 * i + k];
-    }
-    hair_reference_frames(8, directions, root, frames);
-    for (int i = 1; i < 8; ++i) {
-        double back[4] = {-frames[4 * i - 4], -frames[4 * i - 3], -frames[4 * i - 2], frames[4 * i - 1]},
-               own[3];
-        rotate(back, directions + 3 * i, own);
-        f.rest[i].direction = (hair_vec4){(float)own[0], (float)own[1], (float)own[2], 0};
+        double angle = 0.3 * i, to[3] = {sin(angle) * cos(0.2 * i), -cos(angle), sin(angle) * sin(0.2 * i)};
+        for (int k = 0; k < 3; ++k) p[3 * i + 3 + k] = p[3 * i + k] + 0.01 * to[k];
+        f.rest[i + 1].position.x = (float)p[3 * i + 3];
+        f.rest[i + 1].position.y = (float)p[3 * i + 4];
+        f.rest[i + 1].position.z = (float)p[3 * i + 5];
     }
     f.params.angular = 1e6f;
     // A right angle about z: x to y, y to -x.
@@ -253,9 +246,43 @@ static void the_angular_force_leaves_the_rest_pose_alone(void** state)
     double moved[3 * 9];
     memcpy(moved, turned, sizeof moved);
     hair_reference_angular(whole(&f), 0, moved);
-    // The rest directions are floats.
+    // The rest positions are floats.
     for (int i = 0; i < 9; ++i)
         near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
+}
+
+// Compute what the angular force does to the free coordinates when one of them is moved.
+static void angular_moves_of(struct fixture* f, const double* bent, int coordinate, double by, double out[21])
+{
+    double moved[27], from[27];
+    memcpy(from, bent, sizeof from);
+    from[6 + coordinate] += by;
+    memcpy(moved, from, sizeof moved);
+    hair_reference_angular(whole(f), 0, moved);
+    for (int k = 0; k < 21; ++k) out[k] = moved[6 + k] - from[6 + k];
+}
+
+// A force that has a potential has a symmetric derivative. Any other can feed the strand without end.
+static void the_angular_force_has_a_potential(void** state)
+{
+    (void)state;
+    struct fixture f     = straight_down(9, 0.01f);
+    double         p[27] = {0}, ahead[21], behind[21], jacobian[21][21], largest = 0;
+    f.params.angular = 2500;
+    for (int i = 1; i < 9; ++i) {
+        double angle = 0.5 * i, to[3] = {sin(angle) * cos(0.9 * i), -cos(angle), sin(angle) * sin(0.9 * i)};
+        for (int k = 0; k < 3; ++k) p[3 * i + k] = i == 1 && k != 1 ? 0 : p[3 * i - 3 + k] + 0.01 * to[k];
+        f.rest[i].position.x += 0.004f * (float)(i % 3 - 1) * (i > 1);
+    }
+    for (int c = 0; c < 21; ++c) {
+        angular_moves_of(&f, p, c, 1e-6, ahead);
+        angular_moves_of(&f, p, c, -1e-6, behind);
+        for (int k = 0; k < 21; ++k) jacobian[k][c] = (ahead[k] - behind[k]) / 2e-6;
+    }
+    for (int i = 0; i < 21 * 21; ++i) largest = fmax(largest, fabs(jacobian[i / 21][i % 21]));
+    assert_true(largest > 0.1);
+    for (int i = 0; i < 21 * 21; ++i)
+        hair_test_near("derivative", (size_t)i, jacobian[i / 21][i % 21], jacobian[i % 21][i / 21], 1e-6);
 }
 
 // A parabola p(s) = c0 + c1 s + c2 s^2 at uneven s: its slopes come out exactly, and then the cubic is the
@@ -400,6 +427,7 @@ int main(void)
         cmocka_unit_test(bend_removes_its_share_of_the_error_over_two_segments),
         cmocka_unit_test(a_vertex_inside_a_capsule_comes_out_the_shortest_way),
         cmocka_unit_test(the_angular_force_leaves_the_rest_pose_alone),
+        cmocka_unit_test(the_angular_force_has_a_potential),
         cmocka_unit_test(hermite_reproduces_parabolas_exactly),
         cmocka_unit_test(a_smoothed_circle_is_round_to_fourth_order),
         cmocka_unit_test(smoothing_interpolates_between_the_ends_of_a_substep),
