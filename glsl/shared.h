@@ -50,7 +50,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_MEMBER 1 // uint[]             places in HAIR_UNIT_WORK of the solids that reach into each brick
 #define HAIR_BIND_NODE 3   // float[]            distances at the nodes of forms, m
 // The passes of the crowd, which is what a hair feels of the hair around it, read the state and the history; and:
-#define HAIR_BIND_CROWD 3    // int[]          of the grid: four per node, mass and momentum; then one, volume
+#define HAIR_BIND_CROWD 3    // int[]          of the grid: HAIR_CROWD_NODE_NUMBERS per node; of the fluid's four, mass and momentum
 #define HAIR_BIND_SHARE 5    // hair_share[]   per guide vertex, never written
 #define HAIR_BIND_LIMIT 6    // float[]        per node, never written: volume from which it presses
 #define HAIR_BIND_PUSH 7     // hair_vec4[]    per guide vertex: acceleration, m/s^2
@@ -242,6 +242,14 @@ typedef uint32_t hair_uint;
 #define HAIR_GUST_LENGTHS 8  // and how many integral length scales its side is
 #define HAIR_NO_SOLID 4294967295u // in place of a solid's number: none is near
 #define HAIR_CROWD_NODES 32       // along an axis, at most
+#define HAIR_CROWD_NODE_NUMBERS 18 // of a node: its mass, and from these on about the node, in cells:
+#define HAIR_CROWD_MOMENTUM 1u    // three,
+#define HAIR_CROWD_VOLUME 4u      // one,
+#define HAIR_CROWD_MOMENT 5u      // three, mass times position,
+#define HAIR_CROWD_ANGULAR 8u     // three, angular momentum,
+#define HAIR_CROWD_SQUARES 11u    // and mass times position twice: xx, yy, zz,
+#define HAIR_CROWD_PRODUCTS 14u   // yz, zx, xy,
+#define HAIR_CROWD_ALIKE 17u      // and mass times mass of the same guide there, by per_strand
 #define HAIR_CROWD_SPEED 16.0f // m/s along an axis relative to the head: what is faster counts as that fast
 
 #define HAIR_FLUID_BOTTOM 8 // cells along an axis of the coarsest level, at most: see glsl/wind/bottom.comp
@@ -450,8 +458,8 @@ struct hair_crowd_params {
     hair_uint vertices;  // of all guides
     float     cohesion;  // share of a relative velocity to be removed, per second, 1/s
     float     volume;    // m^2/s^2
-    float     most_push; // of volume, m/s^2
-    hair_uint unused;
+    float     ahead;     // cells to the middle of a block at HAIR_CROWD_SPEED; 0 takes positions as they are
+    float     per_strand; // 1 / the mass, in units, of so much of a strand as is never at a node
 };
 HAIR_SIZE(hair_crowd_params, 80)
 

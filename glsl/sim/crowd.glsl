@@ -15,36 +15,18 @@ layout(std140, binding = HAIR_BIND_CROWD_PARAMS) uniform crowd_params_buffer { h
 uint  thread() { return hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; }
 uvec3 nodes() { return uvec3(params.nodes_x, params.nodes_y, params.nodes_z); }
 
+#ifdef HAIR_FLUID
+#define NODE_NUMBERS 4u // mass and momentum
+#else
+#define NODE_NUMBERS uint(HAIR_CROWD_NODE_NUMBERS)
+#endif
+
 uvec3 lowest; // of the eight nodes around the vertex
-vec3  part;   // of the way to the next, per axis
+vec3  part;    // of the way to the next, per axis
 
 // By the bits, for comparisons with NaN may be compiled away. What is not finite, or nowhere near, is no part of the
 // crowd: others must not feel it, and its guide goes back to its rest pose.
 bool is_sound(vec3 v) { return (floatBitsToUint(dot(v, v)) & 0x7fffffffu) < floatBitsToUint(1e8); }
-
-// In the grid. What is outside, which only hair that does not keep its length can be, is at its border.
-vec3 spot_of(uint i)
-{
-    vec3 from = rotate(quat_conjugate(params.rotation), state[i].position.xyz) - params.lower.xyz;
-    return clamp(from / params.lower.w, vec3(0.0), vec3(nodes() - 1u));
-}
-
-void find_spot(uint i)
-{
-    vec3 at = spot_of(i);
-    lowest  = min(uvec3(at), nodes() - 2u);
-    part    = at - vec3(lowest);
-}
-
-uvec3 corner_of(uint k) { return uvec3(k & 1u, k >> 1u & 1u, k >> 2u); }
-
-uint node_of(uvec3 corner)
-{
-    uvec3 at = lowest + corner;
-    return at.x + params.nodes_x * (at.y + params.nodes_y * at.z);
-}
-
-vec3 shares_of(uvec3 corner) { return mix(1.0 - part, part, vec3(corner)); }
 
 // Of a vertex whose past is known no better its displacement.
 vec3 rate_of(uint i)
@@ -54,8 +36,44 @@ vec3 rate_of(uint i)
 
 bool counts(uint i) { return is_sound(state[i].position.xyz) && is_sound(rate_of(i)); }
 
-// Relative to the head's origin, in the world's axes; of HAIR_CROWD_SPEED, in [-1, 1].
+// Return the velocity relative to the head's origin, along the grid's axes, over HAIR_CROWD_SPEED, in [-1, 1].
 vec3 speed_of(uint i)
 {
-    return clamp((rate_of(i) - params.moved.xyz) * (params.moved.w / HAIR_CROWD_SPEED), vec3(-1.0), vec3(1.0));
+    vec3 relative = rotate(quat_conjugate(params.rotation), rate_of(i) - params.moved.xyz);
+    return clamp(relative * (params.moved.w / HAIR_CROWD_SPEED), vec3(-1.0), vec3(1.0));
 }
+
+// Return the position in the middle of the block, in cells from node 0. A constant force over a block has the angular
+// impulse of its lever there, so that forces without a torque at these positions keep angular momentum.
+vec3 spot_of(uint i, vec3 speed)
+{
+    vec3 from = rotate(quat_conjugate(params.rotation), state[i].position.xyz) - params.lower.xyz;
+    return from / params.lower.w + params.ahead * speed;
+}
+
+// Hair that is attached to the head stays within the grid. Beyond it there is no crowd, and the fluid's air ends half a
+// cell outside of its outermost nodes.
+#ifdef HAIR_FLUID
+#define OVERHANG 0.5
+#else
+#define OVERHANG 0.0
+#endif
+bool is_inside(vec3 at) { return all(lessThanEqual(abs(at - clamp(at, vec3(0.0), vec3(nodes() - 1u))), vec3(OVERHANG))); }
+
+void find_spot(vec3 at)
+{
+    at     = clamp(at, vec3(0.0), vec3(nodes() - 1u));
+    lowest = min(uvec3(at), nodes() - 2u);
+    part   = at - vec3(lowest);
+}
+
+uvec3 corner_of(uint k) { return uvec3(k & 1u, k >> 1u & 1u, k >> 2u); }
+
+// Return the first number of a node.
+uint node_of(uvec3 corner)
+{
+    uvec3 at = lowest + corner;
+    return NODE_NUMBERS * (at.x + params.nodes_x * (at.y + params.nodes_y * at.z));
+}
+
+vec3 shares_of(uvec3 corner) { return mix(1.0 - part, part, vec3(corner)); }

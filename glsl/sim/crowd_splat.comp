@@ -1,38 +1,106 @@
 // crowd_splat.comp - a guide vertex's mass, momentum and volume given to the eight nodes around it: of each exactly
-// what it has, the last node getting what rounding left. The fluid's grid has no volume, and ends. One thread per guide
-// vertex.
+// what it has, the last node getting what rounding left. Its moments follow. The fluid's grid has mass and momentum only,
+// and ends. One thread per guide vertex.
 #version 450 core
 #include "sim/crowd.glsl"
+
+ivec3 whole(vec3 v) { return ivec3(floor(v + 0.5)); }
+
+void add(uint at, ivec3 v)
+{
+    atomicAdd(crowd[at], v.x);
+    atomicAdd(crowd[at + 1u], v.y);
+    atomicAdd(crowd[at + 2u], v.z);
+}
+
+#ifndef HAIR_FLUID
+vec4 own_below, own_above; // mass of the guide at the four nodes below, and above
+
+// Add vertex j of the guide. False: it is out of reach of all eight nodes.
+bool add_own(uint j)
+{
+    if (!counts(j)) return false;
+    vec3 from  = spot_of(j, speed_of(j)) - vec3(lowest);
+    vec3 lower = max(1.0 - abs(from), 0.0), upper = max(1.0 - abs(from - 1.0), 0.0);
+    vec4 mass  = float(share[j].mass) * vec4(lower.x, upper.x, lower.x, upper.x) * vec4(lower.yy, upper.yy);
+    own_below += lower.z * mass;
+    own_above += upper.z * mass;
+    return all(greaterThan(lower + upper, vec3(0.0)));
+}
+
+// The vertices around i that reach the nodes one after the other.
+void find_own(uint i)
+{
+    own_below = own_above = vec4(0.0);
+    uint j = i;
+    while (add_own(j) && j > share[i].first) --j;
+    for (j = i + 1u; j < share[i].end && add_own(j); ++j) {}
+}
+
+// What cohesion takes of each node. A software rasteriser runs both sides of a branch, but no loop without rounds.
+void add_motion(uint i, vec3 speed)
+{
+    for (uint n = 0u, end = params.cohesion > 0.0 ? 1u : 0u; n < end; ++n) find_own(i);
+    ivec3 left = ivec3(floor(float(share[i].mass) * speed + 0.5));
+    vec3  all  = vec3(left);
+    for (uint k = 0u, end = params.cohesion > 0.0 ? 8u : 0u; k < end; ++k) {
+        uvec3 corner = corner_of(k);
+        vec3  s      = shares_of(corner), r = part - vec3(corner);
+        float weight = s.x * s.y * s.z, mass = weight * float(share[i].mass);
+        float own    = (k < 4u ? own_below : own_above)[k & 3u];
+        vec3  m      = mass * r;
+        ivec3 p      = k == 7u ? left : whole(all * weight);
+        uint  node   = node_of(corner);
+        add(node + HAIR_CROWD_MOMENTUM, p);
+        add(node + HAIR_CROWD_ANGULAR, whole(cross(m, speed)));
+        add(node + HAIR_CROWD_SQUARES, whole(m * r));
+        add(node + HAIR_CROWD_PRODUCTS, whole(m.yzx * r.zxy));
+        atomicAdd(crowd[node + HAIR_CROWD_ALIKE], int(mass * min(own * params.per_strand, 1.0) + 0.5));
+        left -= p;
+    }
+}
+
+void add_all(uint i, vec3 speed)
+{
+    ivec2 bulk = ivec2(share[i].mass, share[i].volume), left = bulk;
+    for (uint k = 0u; k < 8u; ++k) {
+        uvec3 corner = corner_of(k);
+        vec3  s      = shares_of(corner);
+        float weight = s.x * s.y * s.z;
+        ivec2 m      = k == 7u ? left : ivec2(floor(vec2(bulk) * weight + 0.5));
+        uint  node   = node_of(corner);
+        atomicAdd(crowd[node], m.x);
+        atomicAdd(crowd[node + HAIR_CROWD_VOLUME], m.y);
+        add(node + HAIR_CROWD_MOMENT, whole(float(bulk.x) * weight * (part - vec3(corner))));
+        left -= m;
+    }
+    add_motion(i, speed);
+}
+
+#else
+
+void add_all(uint i, vec3 speed)
+{
+    ivec4 motion = ivec4(int(share[i].mass), whole(float(share[i].mass) * speed)), left = motion;
+    for (uint k = 0u; k < 8u; ++k) {
+        uvec3 corner = corner_of(k);
+        vec3  s      = shares_of(corner);
+        ivec4 m      = k == 7u ? left : ivec4(floor(vec4(motion) * (s.x * s.y * s.z) + 0.5));
+        uint  node   = node_of(corner);
+        atomicAdd(crowd[node], m.x);
+        add(node + HAIR_CROWD_MOMENTUM, m.yzw);
+        left -= m;
+    }
+}
+
+#endif
 
 void main()
 {
     uint i = thread();
     if (i >= params.vertices || !counts(i)) return;
-#ifdef HAIR_FLUID
-    vec3 from = (state[i].position.xyz - params.lower.xyz) / params.lower.w;
-    if (any(notEqual(from, clamp(from, vec3(-0.5), vec3(nodes()) - 0.5)))) return;
-#endif
-    find_spot(i);
-    ivec4 motion = ivec4(int(share[i].mass), ivec3(floor(float(share[i].mass) * speed_of(i) + 0.5)));
-    int   volume = int(share[i].volume);
-    ivec4 motion_left = motion;
-    int   volume_left = volume;
-    uint  all         = params.nodes_x * params.nodes_y * params.nodes_z;
-    for (uint k = 0u; k < 8u; ++k) {
-        uvec3 corner = corner_of(k);
-        vec3  s      = shares_of(corner);
-        float weight = s.x * s.y * s.z;
-        ivec4 m      = k == 7u ? motion_left : ivec4(floor(vec4(motion) * weight + 0.5));
-        int   v      = k == 7u ? volume_left : int(floor(float(volume) * weight + 0.5));
-        uint  node   = node_of(corner);
-        atomicAdd(crowd[4u * node], m.x);
-        atomicAdd(crowd[4u * node + 1u], m.y);
-        atomicAdd(crowd[4u * node + 2u], m.z);
-        atomicAdd(crowd[4u * node + 3u], m.w);
-#ifndef HAIR_FLUID
-        atomicAdd(crowd[4u * all + node], v);
-#endif
-        motion_left -= m;
-        volume_left -= v;
-    }
+    vec3 speed = speed_of(i), at = spot_of(i, speed);
+    if (!is_inside(at)) return;
+    find_spot(at);
+    add_all(i, speed);
 }

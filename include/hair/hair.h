@@ -328,7 +328,10 @@ typedef struct hair_physics {
     float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
     float     drag; ///< Of wind, as a multiple of that of a single hair: see hair_wind. [0, 10]. Default 0.1.
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
-    float     cohesion; ///< Decay rate of velocity relative to the hair around. 1/s. [0, 1000]. Default 0.
+    /// Decay rate of the velocity of hair relative to the rigid motion of the hair around. Cohesion and volume keep the
+    /// momentum and the angular momentum of all hair together. They do not reach hair that is off the head and farther
+    /// from it than it is long. 1/s. [0, 1000]. Default 0.
+    float cohesion;
     /// How hair resists being denser than at rest, as a gas does, by its speed of sound squared: it is e times as
     /// dense at the foot of a height of volume / gravity. At most what crosses half a cell of the grid, 1 cm or
     /// more, in 1/120 s.

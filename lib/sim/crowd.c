@@ -6,6 +6,7 @@
 #define BLOCK (1.0 / 120) // s, or a substep if that is longer
 #define LEAST_CELL 0.01f  // m: finer than guides are apart there would be nothing to gather
 #define MOST_IN_BIN 32    // vertices that are looked at of those in a cell
+#define MOST_OF_STRAND 16 // cells of it at a node, as the grid's units have to hold: more counts as that much
 
 int hair_crowd_is_on(const struct hair_sim* sim)
 {
@@ -42,7 +43,7 @@ static uint32_t node_count(const struct hair_crowd* crowd)
 // In fours, as they are cleared.
 static uint32_t grid_fours(const struct hair_crowd* crowd)
 {
-    return (5 * node_count(crowd) + 3) / 4;
+    return (HAIR_CROWD_NODE_NUMBERS * node_count(crowd) + 3) / 4;
 }
 
 struct spot {
@@ -200,6 +201,8 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
     if (!result) {
         weigh(sim, guides, rest, draft.mass);
+        sim->crowd.metres = 0;
+        for (uint32_t i = 0; i < vertices; ++i) sim->crowd.metres += draft.mass[i];
         sort(sim, rest, &draft);
         fill(sim, rest, &draft);
         result = upload(sim, guides, &draft);
@@ -272,16 +275,17 @@ static void write_params(const struct hair_sim* sim, struct hair_crowd_params* p
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     // What is left of a relative velocity after a block is exp(-rate time), however long it is.
     *params = (struct hair_crowd_params){
-        .rotation  = {q.x, q.y, q.z, q.w},
-        .moved     = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
-        .lower     = {crowd->lower.x, crowd->lower.y, crowd->lower.z, crowd->cell},
-        .nodes_x   = crowd->nodes[0],
-        .nodes_y   = crowd->nodes[1],
-        .nodes_z   = crowd->nodes[2],
-        .vertices  = sim->guide_vertices,
-        .cohesion  = (float)(-expm1(-rate * time) / time),
-        .volume    = fminf(sim->physics.volume, sound * sound),
-        .most_push = 0.25f * crowd->cell / (float)(time * time), // An eighth of a cell in a block.
+        .rotation   = {q.x, q.y, q.z, q.w},
+        .moved      = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
+        .lower      = {crowd->lower.x, crowd->lower.y, crowd->lower.z, crowd->cell},
+        .nodes_x    = crowd->nodes[0],
+        .nodes_y    = crowd->nodes[1],
+        .nodes_z    = crowd->nodes[2],
+        .vertices   = sim->guide_vertices,
+        .cohesion   = (float)(-expm1(-rate * time) / time),
+        .volume     = fminf(sim->physics.volume, sound * sound),
+        .per_strand = (float)(crowd->metres / HAIR_CROWD_UNITS) / (MOST_OF_STRAND * crowd->cell),
+        .ahead      = HAIR_CROWD_SPEED * 0.5f * (float)time / crowd->cell,
     };
 }
 

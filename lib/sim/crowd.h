@@ -18,6 +18,7 @@ struct hair_crowd {                                      // All 0 until hair fir
     GLuint    params, grid, share, limit, push, texture; // buffers, as in shared.h; of push
     hair_vec3 lower;                                     // node 0, in the head's frame. m
     float     cell;                                      // m
+    double    metres;                                    // of all guides
     uint32_t  nodes[3];
     uint32_t  beat; // substeps done of the block under way
 };
