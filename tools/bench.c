@@ -62,11 +62,19 @@ static void show_progress(const struct bench* bench, const char* name, const cha
     fprintf(stderr, "%s %s", name, method);
 }
 
+// A wanted name that ends with * is any name that begins as it does.
+static bool is_wanted(const char* wanted, const char* name)
+{
+    size_t length = wanted ? strlen(wanted) : 0;
+    if (length == 0) return !wanted;
+    return wanted[length - 1] == '*' ? !strncmp(wanted, name, length - 1) : !strcmp(wanted, name);
+}
+
 bool bench_begin(struct bench* bench, const char* name, const char* method)
 {
     const struct bench_options* options = &bench->options;
     if (bench->planning) note_case(bench, name);
-    if (options->only_case && strcmp(options->only_case, name)) return false;
+    if (!is_wanted(options->only_case, name)) return false;
     if (options->only_method && strcmp(options->only_method, method)) return false;
     if (bench->planning) ++bench->planned;
     if (bench->planning || interrupted) return false;

@@ -202,6 +202,30 @@ static void the_other_suites_run(void** state)
     expect(0, "$T collision --quick --case shoulders --method push --csv -", ",0,1,");
 }
 
+static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
+{
+    (void)state;
+    // Accurate solves a coil of 6 mm; an idle haircut sleeps, and then its fastest vertex stands still.
+    expect(0, "$T stability --quick --case 'rest *' --method accurate --json $D/s.json --csv /dev/null", "");
+    json_t* root = read_json("s.json");
+    json_t* rows = json_object_get(root, "rows");
+    json_t* row;
+    size_t  i;
+    json_array_foreach(rows, i, row)
+    {
+        if (!json_is_true(json_object_get(row, "pass")))
+            fail_msg("%s", json_string_value(json_object_get(row, "case")));
+        if (json_is_null(json_object_get(row, "radius"))) {
+            assert_true(number(row, "max_speed") == 0);
+            assert_true(number(row, "seconds_to_sleep") > 0.2 && number(row, "seconds_to_sleep") < 15);
+        } else
+            assert_true(number(row, "max_energy") > 0.5 && number(row, "max_energy") < 1.01);
+    }
+    assert_int_equal(i, 3);
+    json_decref(root);
+    expect(0, "rm $D/s.json", "");
+}
+
 static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)
 {
     size_t  i;
@@ -323,6 +347,7 @@ int main(void)
         cmocka_unit_test(the_standard_output_has_the_table_or_the_file_that_is_asked_for),
         cmocka_unit_test(a_row_says_what_was_measured_and_how),
         cmocka_unit_test(the_other_suites_run),
+        cmocka_unit_test(rest_cases_tell_hair_that_rests_from_hair_that_moves),
         cmocka_unit_test(a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn),
         cmocka_unit_test(the_front_is_what_nothing_beats),
         cmocka_unit_test(what_csv_must_quote_is_quoted),

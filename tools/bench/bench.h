@@ -39,7 +39,7 @@ struct bench {
 
     bool     planning; // Nothing is run, rows are only counted.
     uint32_t planned, done;
-    char     cases[1024];   // the names of all that were met, for a wrong --case
+    char     cases[2048];   // the names of all that were met, for a wrong --case
     double   started;       // ms
     char     sentence[512]; // the last of the library's log
     char     refused[512];  // the last that was passed on

@@ -39,7 +39,7 @@ static const struct row {
     {"json", JSON, "FILE", "write the rows as JSON"},
     {"csv", CSV, "FILE", "write the rows as CSV, with the same keys"},
     {"quick", QUICK, NULL, "fewer and smaller cases: a minute at most"},
-    {"case", CASE, "NAME", "only this case of the suite"},
+    {"case", CASE, "NAME", "only this case of the suite; a name that ends with * is any that begins so"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
      "                   none, switch, push, compute or prepass; of render, only this path:\n"

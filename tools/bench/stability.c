@@ -20,6 +20,15 @@ static const char* const columns[] = {"case",
                                       "reset",
                                       "scenes",
                                       "worst_scene",
+                                      "guides",
+                                      "colliders",
+                                      "radius",
+                                      "vertices_per_turn",
+                                      "root",
+                                      "moving_fraction",
+                                      "seconds_to_sleep",
+                                      "max_energy",
+                                      "limit",
                                       "pass",
                                       BENCH_MATERIAL_COLUMNS,
                                       NULL};
@@ -214,6 +223,9 @@ static void run_suite(struct bench* bench)
                                           HAIR_SOLVER_REDBLACK};
     for (const struct bench_stress* stress = bench_stresses; stress->name; ++stress)
         for (int s = 0; s < (stress->rods ? 3 : 4); ++s) measure(bench, stress, solvers[s]);
+    bench_rest_haircuts(bench);
+    bench_rest_curls(bench);
+    bench_rest_contacts(bench);
     bench_fuzz(bench);
 }
 

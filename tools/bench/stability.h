@@ -3,6 +3,7 @@
 #define HAIR_TOOLS_BENCH_STABILITY_H
 
 #include "tools/bench/living.h"
+#include "tools/bench/rest.h"
 
 #define BENCH_MOST_STRETCH 0.02 // Under any stress, of the solvers of rods.
 #define BENCH_MOST_SOLIDS 128
@@ -29,6 +30,18 @@ bool bench_watch(struct bench_living* living, struct bench_watch* out);
 bool bench_watch_step(struct bench_watch* watch, double dt);
 
 void bench_fuzz(struct bench* bench); // stability_fuzz.c
+
+// Hair that should come to rest: stability_rest.c, stability_curl.c, stability_contact.c.
+void bench_rest_haircuts(struct bench* bench);
+void bench_rest_curls(struct bench* bench);
+void bench_rest_contacts(struct bench* bench);
+
+// Set how fast the hair moved and whether it fell asleep, and judge both.
+void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest);
+// Return the fastest vertex that counts as rest, m/s.
+double bench_rest_limit(hair_solver solver);
+// Return whether hair of this solver must fall asleep.
+bool bench_rest_must_sleep(hair_solver solver);
 
 struct bench_stress {
     const char* name;

@@ -1,0 +1,143 @@
+// stability_contact.c - the cases `contact COLLIDER VERTICES`: eight strands let go level, whose roots are held above a
+// collider. They fall on it, and should come to rest.
+#include "tools/bench/stability.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STRANDS 8
+#define LENGTH 0.3 // m
+
+struct contact {
+    const char* name;
+    uint32_t    vertices;
+    double      x, y; // m, of the first root
+    hair_shape  shape;
+    float       position[3], rotation[4], size[3];
+};
+
+#define UPRIGHT                                                                                              \
+    {                                                                                                        \
+        0, 0, 0, 1                                                                                           \
+    }
+#define ALONG_Z                                                                                              \
+    {                                                                                                        \
+        0.70710678f, 0, 0, 0.70710678f                                                                       \
+    } // local y along z
+
+// Every collider's top is at height 0, but that of the ball and the capsule beside the roots.
+static const struct contact contacts[] = {
+    {"box 32", 32, 0.02, 0.02, HAIR_SHAPE_BOX, {0, -0.1f, 0}, UPRIGHT, {0.15f, 0.1f, 0.3f}},
+    {"box 64", 64, 0.02, 0.02, HAIR_SHAPE_BOX, {0, -0.1f, 0}, UPRIGHT, {0.15f, 0.1f, 0.3f}},
+    {"sphere 32", 32, -0.05, 0.02, HAIR_SHAPE_SPHERE, {0, -0.1f, 0}, UPRIGHT, {0.1f}},
+    {"sphere 64", 64, -0.05, 0.02, HAIR_SHAPE_SPHERE, {0, -0.1f, 0}, UPRIGHT, {0.1f}},
+    {"plane 32", 32, 0, 0.1, HAIR_SHAPE_PLANE, {0}, UPRIGHT, {0}},
+    {"plane 64", 64, 0, 0.1, HAIR_SHAPE_PLANE, {0}, UPRIGHT, {0}},
+    {"capsule 32", 32, -0.03, 0.02, HAIR_SHAPE_CAPSULE, {0, -0.05f, 0}, ALONG_Z, {0.05f, 0.3f}},
+    {"capsule 64", 64, -0.03, 0.02, HAIR_SHAPE_CAPSULE, {0, -0.05f, 0}, ALONG_Z, {0.05f, 0.3f}},
+    {"cylinder 48", 48, 0.02, 0.02, HAIR_SHAPE_CYLINDER, {0, -0.1f, 0}, UPRIGHT, {0.12f, 0.1f}},
+    {"cone 48", 48, -0.05, 0.02, HAIR_SHAPE_CONE, {0, -0.1f, 0}, UPRIGHT, {0.2f, 0.1f}},
+};
+#define CONTACTS (sizeof contacts / sizeof *contacts)
+
+// A fan: roots 1 cm apart along z, each strand turned a little more than the one before.
+static hair_result make_groom(struct bench* bench, const struct contact* contact, hair_groom** out)
+{
+    float           positions[3 * STRANDS * BENCH_MOST_VERTICES];
+    uint32_t        vertices[STRANDS];
+    hair_groom_desc desc = hair_groom_desc_default();
+    for (uint32_t s = 0; s < STRANDS; ++s) {
+        double across = 0.01 * s - 0.035, turn = 0.05 * s - 0.175;
+        vertices[s] = contact->vertices;
+        for (uint32_t i = 0; i < contact->vertices; ++i) {
+            float* p      = positions + 3 * ((size_t)s * contact->vertices + i);
+            double length = LENGTH * i / (contact->vertices - 1);
+            p[0]          = (float)(contact->x + cos(turn) * length);
+            p[1]          = (float)contact->y;
+            p[2]          = (float)(across + sin(turn) * length);
+        }
+    }
+    desc.host            = &bench->host;
+    desc.positions       = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count    = STRANDS;
+    desc.strands_are     = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices  = contact->vertices;
+    desc.follower_count  = 0;
+    return hair_groom_create(&desc, out);
+}
+
+static hair_result add_collider(const struct contact* contact, hair_instance* hair)
+{
+    hair_solid solid = hair_solid_default();
+    solid.shape      = contact->shape;
+    memcpy(solid.position, contact->position, sizeof solid.position);
+    memcpy(solid.rotation, contact->rotation, sizeof solid.rotation);
+    memcpy(solid.size, contact->size, sizeof solid.size);
+    return hair_set_solids(hair, &solid, 1, sizeof solid);
+}
+
+static bool run(struct bench* bench, const char* name, hair_instance* hair, const struct bench_scene* scene)
+{
+    struct bench_rest_desc desc   = {20, 0.5, 30, bench_was_interrupted};
+    struct bench_living    living = {.bench = bench, .scene = scene};
+    hair_health            health = hair_health_default();
+    struct bench_rest      rest;
+    if (!bench_measure_rest(hair, STRANDS, scene->vertices, &desc, &rest)) return false;
+    if (hair_get_health(hair, &health)) return false;
+    json_t* row    = bench_rows_add(&bench->rows);
+    living.substep = (double)health.substep;
+    bench_set_text(row, "case", name);
+    bench_set_text(row, "method", bench_solver_name(scene->solver));
+    bench_set_count(row, "vertices", scene->vertices);
+    bench_set_count(row, "guides", STRANDS);
+    bench_set_flag(row, "colliders", true);
+    bench_set_rest(row, scene->solver, &rest);
+    bench_set_count(row, "euler", health.euler);
+    bench_set_count(row, "follow", health.follow);
+    bench_set_count(row, "reset", health.reset);
+    bench_set_material(row, &living);
+    return true;
+}
+
+static void measure(struct bench* bench, const struct contact* contact, hair_solver solver)
+{
+    char        name[32];
+    const char* method = bench_solver_name(solver);
+    snprintf(name, sizeof name, "contact %s", contact->name);
+    if (!bench_begin(bench, name, method)) return;
+    hair_groom*        groom = NULL;
+    hair_instance*     hair  = NULL;
+    struct bench_scene scene = bench_scene_default();
+    hair_desc          desc  = hair_desc_default();
+    scene.physics            = hair_physics_default();
+    scene.physics.pull_root = scene.physics.pull_tip = scene.physics.hold = 0;
+    scene.physics.damping                                                 = 4;
+    scene.vertices                                                        = contact->vertices;
+    scene.solver                                                          = solver;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    desc.physics  = &scene.physics;
+    desc.solver   = solver;
+    desc.mapping  = scene.mapping;
+    if (make_groom(bench, contact, &groom) || hair_create(bench->context, groom, &desc, &hair) ||
+        add_collider(contact, hair) || !run(bench, name, hair, &scene))
+        bench_refuse(bench, name, method);
+    hair_destroy(hair);
+    hair_groom_destroy(groom);
+}
+
+// redblack knows only two shapes.
+static bool is_known(hair_solver solver, hair_shape shape)
+{
+    return solver != HAIR_SOLVER_REDBLACK || shape == HAIR_SHAPE_SPHERE || shape == HAIR_SHAPE_CAPSULE;
+}
+
+void bench_rest_contacts(struct bench* bench)
+{
+    static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
+                                          HAIR_SOLVER_REDBLACK};
+    bool                     quick     = bench->options.quick;
+    for (size_t i = 0; i < (quick ? 1 : CONTACTS); ++i)
+        for (int s = 0; s < (quick ? 1 : 4); ++s)
+            if (is_known(solvers[s], contacts[i].shape)) measure(bench, &contacts[i], solvers[s]);
+}
