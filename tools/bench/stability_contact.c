@@ -11,33 +11,42 @@
 struct contact {
     const char* name;
     uint32_t    vertices;
-    double      x, y; // m, of the first root
+    double      x, y;    // m, of the roots
+    double      dip;     // rad, of the strands below the horizontal
+    bool        is_free; // Roots are let go too.
     hair_shape  shape;
     float       position[3], rotation[4], size[3];
 };
 
-#define UPRIGHT                                                                                              \
-    {                                                                                                        \
-        0, 0, 0, 1                                                                                           \
-    }
-#define ALONG_Z                                                                                              \
-    {                                                                                                        \
-        0.70710678f, 0, 0, 0.70710678f                                                                       \
-    } // local y along z
+// clang-format off
+#define UPRIGHT {0, 0, 0, 1}
+#define ALONG_Z {0.70710678f, 0, 0, 0.70710678f} // local y along z
 
-// Every collider's top is at height 0, but that of the ball and the capsule beside the roots.
+#define BOX      HAIR_SHAPE_BOX,      {0, -0.1f, 0},  UPRIGHT, {0.15f, 0.1f, 0.3f}
+#define SPHERE   HAIR_SHAPE_SPHERE,   {0, -0.1f, 0},  UPRIGHT, {0.1f}
+#define PLANE    HAIR_SHAPE_PLANE,    {0},            UPRIGHT, {0}
+#define CAPSULE  HAIR_SHAPE_CAPSULE,  {0, -0.05f, 0}, ALONG_Z, {0.05f, 0.3f}
+#define CYLINDER HAIR_SHAPE_CYLINDER, {0, -0.1f, 0},  UPRIGHT, {0.12f, 0.1f}
+#define CONE     HAIR_SHAPE_CONE,     {0, -0.1f, 0},  UPRIGHT, {0.2f, 0.1f}
+
+// Every collider's top is at height 0. Strands of positive dip strike the plane with their tips.
 static const struct contact contacts[] = {
-    {"box 32", 32, 0.02, 0.02, HAIR_SHAPE_BOX, {0, -0.1f, 0}, UPRIGHT, {0.15f, 0.1f, 0.3f}},
-    {"box 64", 64, 0.02, 0.02, HAIR_SHAPE_BOX, {0, -0.1f, 0}, UPRIGHT, {0.15f, 0.1f, 0.3f}},
-    {"sphere 32", 32, -0.05, 0.02, HAIR_SHAPE_SPHERE, {0, -0.1f, 0}, UPRIGHT, {0.1f}},
-    {"sphere 64", 64, -0.05, 0.02, HAIR_SHAPE_SPHERE, {0, -0.1f, 0}, UPRIGHT, {0.1f}},
-    {"plane 32", 32, 0, 0.1, HAIR_SHAPE_PLANE, {0}, UPRIGHT, {0}},
-    {"plane 64", 64, 0, 0.1, HAIR_SHAPE_PLANE, {0}, UPRIGHT, {0}},
-    {"capsule 32", 32, -0.03, 0.02, HAIR_SHAPE_CAPSULE, {0, -0.05f, 0}, ALONG_Z, {0.05f, 0.3f}},
-    {"capsule 64", 64, -0.03, 0.02, HAIR_SHAPE_CAPSULE, {0, -0.05f, 0}, ALONG_Z, {0.05f, 0.3f}},
-    {"cylinder 48", 48, 0.02, 0.02, HAIR_SHAPE_CYLINDER, {0, -0.1f, 0}, UPRIGHT, {0.12f, 0.1f}},
-    {"cone 48", 48, -0.05, 0.02, HAIR_SHAPE_CONE, {0, -0.1f, 0}, UPRIGHT, {0.2f, 0.1f}},
+    {"box 32",          32,  0.02, 0.02,  0,   false, BOX},
+    {"box 64",          64,  0.02, 0.02,  0,   false, BOX},
+    {"sphere 32",       32, -0.05, 0.02,  0,   false, SPHERE},
+    {"sphere 64",       64, -0.05, 0.02,  0,   false, SPHERE},
+    {"plane 32",        32,  0,    0.1,   0,   false, PLANE},
+    {"plane 64",        64,  0,    0.1,   0,   false, PLANE},
+    {"capsule 32",      32, -0.03, 0.02,  0,   false, CAPSULE},
+    {"capsule 64",      64, -0.03, 0.02,  0,   false, CAPSULE},
+    {"cylinder 48",     48,  0.02, 0.02,  0,   false, CYLINDER},
+    {"cone 48",         48, -0.05, 0.02,  0,   false, CONE},
+    {"plane level 64",  64,  0,    0.1,   0,   true,  PLANE},
+    {"plane upright 64", 64, 0,    0.35,  1.4, true,  PLANE},
+    {"plane standing 64", 64, 0,   0.2,  -1.4, false, PLANE},
+    {"plane pressed 64", 64, 0,    0.2,   1.4, false, PLANE},
 };
+// clang-format on
 #define CONTACTS (sizeof contacts / sizeof *contacts)
 
 // A fan: roots 1 cm apart along z, each strand turned a little more than the one before.
@@ -52,9 +61,10 @@ static hair_result make_groom(struct bench* bench, const struct contact* contact
         for (uint32_t i = 0; i < contact->vertices; ++i) {
             float* p      = positions + 3 * ((size_t)s * contact->vertices + i);
             double length = LENGTH * i / (contact->vertices - 1);
-            p[0]          = (float)(contact->x + cos(turn) * length);
-            p[1]          = (float)contact->y;
-            p[2]          = (float)(across + sin(turn) * length);
+            double level  = cos(contact->dip) * length;
+            p[0]          = (float)(contact->x + cos(turn) * level);
+            p[1]          = (float)(contact->y - sin(contact->dip) * length);
+            p[2]          = (float)(across + sin(turn) * level);
         }
     }
     desc.host            = &bench->host;
@@ -113,12 +123,13 @@ static void measure(struct bench* bench, const struct contact* contact, hair_sol
     scene.physics            = hair_physics_default();
     scene.physics.pull_root = scene.physics.pull_tip = scene.physics.hold = 0;
     scene.physics.damping                                                 = 4;
-    scene.vertices                                                        = contact->vertices;
-    scene.solver                                                          = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
-    desc.physics  = &scene.physics;
-    desc.solver   = solver;
-    desc.mapping  = scene.mapping;
+    scene.physics.root = contact->is_free ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
+    scene.vertices     = contact->vertices;
+    scene.solver       = solver;
+    scene.mapping      = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    desc.physics       = &scene.physics;
+    desc.solver        = solver;
+    desc.mapping       = scene.mapping;
     if (make_groom(bench, contact, &groom) || hair_create(bench->context, groom, &desc, &hair) ||
         add_collider(contact, hair) || !run(bench, name, hair, &scene))
         bench_refuse(bench, name, method);
