@@ -1,6 +1,6 @@
 """plot.py - run time against error, as SVG, from the CSV files of hair-bench; logarithmic both ways, a panel a file
 
-plot.py accuracy CASE VERTICES OUT.svg TITLE=FILE.csv...   every solver, at every setting
+plot.py accuracy NAME=CASE:VERTICES,... OUT.svg TITLE=FILE.csv...   every solver, at every setting; a row of panels a case
 plot.py render CASE OUT.svg TITLE=FILE.csv...              every way to draw; what nothing beats joined and labelled
 """
 import csv
@@ -17,19 +17,20 @@ def rows(path):
         yield from csv.DictReader(file)
 
 
-# Of a point: series, across, down, label, whether it is on the front.
+# A point: series, across, down, label, whether it is on the front, whether it is a solver's own setting.
 def accuracy_points(path, case, vertices):
     for row in rows(path):
-        if row["measured_by"] == "here" and row["case"] == case and row["vertices"] == vertices:
+        if row["measured_by"] == "here" and row["case"] == case and row["vertices"] == vertices and row["rms_error"]:
             count = row["iterations"] or row["substeps"]
-            yield row["method"], float(row["us_per_strand"]), float(row["rms_error"]), count, False
+            own = row.get("default") == "true"
+            yield row["method"], float(row["us_per_strand"]), float(row["rms_error"]), count, False, own
 
 
 def render_points(path, case):
     for row in rows(path):
         if row["case"] == case and row["flip"]:
             label = f'{row["lod"]}, {row["segments"]}' + (" lines" if row["primitive"] == "lines" else "")
-            yield row["samples"], float(row["ms"]), float(row["flip"]), label, row["front"] == "true"
+            yield row["samples"], float(row["ms"]), float(row["flip"]), label, row["front"] == "true", False
 
 
 # Marks from below the least value to above the greatest.
@@ -40,18 +41,18 @@ def marks(values, steps):
     return [m for m in at if low <= m <= high]
 
 
-def panel(out, left, title, data, colors, style):
+def panel(out, left, head, title, data, colors, style):
     across, down = marks([p[1] for p in data], style["across"]), marks([p[2] for p in data], style["down"])
-    right, bottom = left + WIDTH - LEFT, TOP + HEIGHT - TOP - BOTTOM
+    top, right, bottom = head + TOP, left + WIDTH - LEFT, head + HEIGHT - BOTTOM
 
     def place(x, y):
         share = lambda v, m: math.log(v / m[0]) / math.log(m[-1] / m[0])
-        return left + share(x, across) * (right - left), bottom - share(y, down) * (bottom - TOP)
+        return left + share(x, across) * (right - left), bottom - share(y, down) * (bottom - top)
 
-    out.append(f'<text x="{left}" y="{TOP - 14}" font-weight="bold">{title}</text>')
+    out.append(f'<text x="{left}" y="{top - 14}" font-weight="bold">{title}</text>')
     for mark in across:
         x = place(mark, down[0])[0]
-        out.append(f'<line x1="{x:.1f}" y1="{TOP}" x2="{x:.1f}" y2="{bottom}" stroke="#ddd"/>'
+        out.append(f'<line x1="{x:.1f}" y1="{top}" x2="{x:.1f}" y2="{bottom}" stroke="#ddd"/>'
                    f'<text x="{x:.1f}" y="{bottom + 16}" text-anchor="middle">{mark:g}</text>')
     for mark in down:
         y = place(across[0], mark)[1]
@@ -71,40 +72,57 @@ def panel(out, left, title, data, colors, style):
             shown = style["joined"] or p[4]
             size = 'r="3"' if shown else 'r="2" fill-opacity="0.35"'
             text = f'<text x="{x + 5:.1f}" y="{y - 4:.1f}" fill="{color}" font-size="9">{p[3]}</text>' if shown else ""
-            out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" {size} fill="{color}"/>{text}')
+            ring = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{color}"/>' if p[5] else ""
+            out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" {size} fill="{color}"/>{ring}{text}')
 
 
-def write(path, files, colors, style, points, unit):
-    width = len(files) * (WIDTH + GAP)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{HEIGHT + 24}" font-family="sans-serif" font-size="11">',
+# `cases` is a list of name and function from a file to its points: a row of panels each.
+def write(path, files, colors, style, cases, unit):
+    width, height = len(files) * (WIDTH + GAP), len(cases) * HEIGHT
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height + 24}" font-family="sans-serif" font-size="11">',
            '<rect width="100%" height="100%" fill="white"/>']
     seen = set()
-    for i, named in enumerate(files):
-        title, _, file = named.partition("=")
-        data = list(points(file))
-        seen |= {p[0] for p in data}
-        panel(out, LEFT + i * (WIDTH + GAP), title, data, colors, style)
+    for k, (name, points) in enumerate(cases):
+        for i, named in enumerate(files):
+            title, _, file = named.partition("=")
+            data = list(points(file))
+            if not data:
+                sys.exit(f"plot.py: {file} has no rows of {name or path}")
+            seen |= {p[0] for p in data}
+            panel(out, LEFT + i * (WIDTH + GAP), k * HEIGHT, f"{name}, {title}" if name else title, data, colors, style)
     for i, series in enumerate(s for s in colors if s in seen):
         x = LEFT + i * 100
-        out.append(f'<circle cx="{x}" cy="{HEIGHT + 10}" r="4" fill="{colors[series]}"/>'
-                   f'<text x="{x + 9}" y="{HEIGHT + 14}">{series}{unit if series == "1" else unit + "s" if unit else ""}</text>')
+        out.append(f'<circle cx="{x}" cy="{height + 10}" r="4" fill="{colors[series]}"/>'
+                   f'<text x="{x + 9}" y="{height + 14}">{series}{unit if series == "1" else unit + "s" if unit else ""}</text>')
+    if "ring" in style:
+        x = LEFT + len(seen) * 100
+        out.append(f'<circle cx="{x}" cy="{height + 10}" r="6" fill="none" stroke="#555"/>'
+                   f'<text x="{x + 11}" y="{height + 14}">{style["ring"]}</text>')
     out.append("</svg>\n")
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(out))
 
 
+# NAME=CASE:VERTICES,...
+def accuracy_cases(text):
+    for named in text.split(","):
+        name, _, case = named.rpartition("=")
+        case, _, vertices = case.partition(":")
+        yield name, lambda file, case=case, vertices=vertices: accuracy_points(file, case, vertices)
+
+
 def main():
     arguments = sys.argv[1:]
-    if len(arguments) > 4 and arguments[0] == "accuracy":
-        _, case, vertices, path, *files = arguments
+    if len(arguments) > 3 and arguments[0] == "accuracy":
+        _, cases, path, *files = arguments
         style = {"across": (1,), "down": (1,), "mark": lambda m: f"{100 * m:g} %", "joined": True,
-                 "label": "microseconds a strand and frame"}
-        write(path, files, SOLVERS, style, lambda file: accuracy_points(file, case, vertices), "")
+                 "label": "microseconds a strand and frame", "ring": "own setting"}
+        write(path, files, SOLVERS, style, list(accuracy_cases(cases)), "")
     elif len(arguments) > 3 and arguments[0] == "render":
         _, case, path, *files = arguments
         style = {"across": (1, 2, 5), "down": (1, 2, 5), "mark": lambda m: f"{m:g}", "joined": False,
                  "label": "milliseconds a picture"}
-        write(path, files, SAMPLES, style, lambda file: render_points(file, case), " sample")
+        write(path, files, SAMPLES, style, [("", lambda file: render_points(file, case))], " sample")
     else:
         sys.exit(__doc__)
 

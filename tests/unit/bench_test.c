@@ -249,6 +249,25 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
     expect(0, "rm $D/s.json", "");
 }
 
+// Rows that the solvers pass, and whose measure would be off by far if it were wrong.
+static void physics_cases_are_measured_against_what_is_known(void** state)
+{
+    (void)state;
+    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        char command[256];
+        snprintf(command, sizeof command,
+                 "$T physics --quick --case %s --method accurate --json $D/p.json --csv /dev/null", names[i]);
+        expect(0, command, "");
+        json_t*       root = read_json("p.json");
+        const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
+        if (!json_is_true(json_object_get(row, "pass"))) fail_msg("%s", names[i]);
+        assert_true(number(row, "relative_error") > 0);
+        json_decref(root);
+    }
+    expect(0, "rm $D/p.json", "");
+}
+
 static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)
 {
     size_t  i;
@@ -371,6 +390,7 @@ int main(void)
         cmocka_unit_test(a_row_says_what_was_measured_and_how),
         cmocka_unit_test(the_other_suites_run),
         cmocka_unit_test(curved_hair_is_compared_with_the_reference),
+        cmocka_unit_test(physics_cases_are_measured_against_what_is_known),
         cmocka_unit_test(rest_cases_tell_hair_that_rests_from_hair_that_moves),
         cmocka_unit_test(a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn),
         cmocka_unit_test(the_front_is_what_nothing_beats),

@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-static const char* const columns[] = {"case",     "method",   "vertices",  "gamma",
-                                      "angle",    "mode",     "reynolds",  "rate",
-                                      "substeps", "expected", "measured",  "relative_error",
-                                      "limit",    "pass",     "reference", BENCH_MATERIAL_COLUMNS,
-                                      NULL};
+static const char* const columns[] = {
+    "case",      "method",   "vertices", "gamma",    "angle",          "mode",      "reynolds",
+    "rate",      "substeps", "expected", "measured", "relative_error", "limit",     "pass",
+    "reference", "friction", "load",     "creep",    "speed",          "fallbacks", BENCH_MATERIAL_COLUMNS,
+    NULL};
 
 const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
 
@@ -29,6 +29,16 @@ json_t* bench_physics_row(struct bench_living* living, const char* name, double 
     return row;
 }
 
+bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out)
+{
+    if (!bench_live(bench, scene, out)) return false;
+    double count = dt / out->substep;
+    if (fabs(count - round(count)) < 1e-3) return true;
+    bench_die(out);
+    scene->substep = dt / ceil(count);
+    return bench_live(bench, scene, out);
+}
+
 static void run_suite(struct bench* bench)
 {
     bench_cantilever(bench);
@@ -42,6 +52,12 @@ static void run_suite(struct bench* bench)
     bench_frame_rates(bench);
     bench_vertex_counts(bench);
     bench_drag(bench);
+    bench_whip_energy(bench);
+    bench_free_bodies(bench);
+    bench_head_spin(bench);
+    bench_capstan(bench);
+    bench_tip_masses(bench);
+    bench_fine_segments(bench);
 }
 
 const struct bench_suite bench_physics = {"physics", "hair against what is known of rods and chains", columns,

@@ -15,7 +15,12 @@ extern const hair_solver bench_rod_solvers[BENCH_RODS];
 json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
                           double limit, const char* reference);
 
-// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c: the cases.
+// Bring the scene to life with the substep that the solver wants, made to divide `dt`: strands are read where the last
+// substep left them. Sets scene->substep where that has to be changed. False: the library refused.
+bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out);
+
+// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c, physics_body.c, physics_spin.c,
+// physics_capstan.c, physics_fine.c: the cases.
 void bench_cantilever(struct bench* bench);
 void bench_catenary(struct bench* bench);
 void bench_bend_twist(struct bench* bench);
@@ -27,5 +32,11 @@ void bench_energy(struct bench* bench);
 void bench_frame_rates(struct bench* bench);
 void bench_vertex_counts(struct bench* bench);
 void bench_drag(struct bench* bench);
+void bench_whip_energy(struct bench* bench);
+void bench_free_bodies(struct bench* bench);
+void bench_head_spin(struct bench* bench);
+void bench_capstan(struct bench* bench);
+void bench_tip_masses(struct bench* bench);
+void bench_fine_segments(struct bench* bench);
 
 #endif

@@ -143,3 +143,45 @@ void bench_energy(struct bench* bench)
     for (int i = 0; i < 2 * BENCH_RODS && !bench->options.quick; ++i)
         measure_energy(bench, bench_rod_solvers[i / 2], i % 2 ? -30 : -60);
 }
+
+// Let go level, a strand cracks as a whip. What is left of its energy, above that of hanging down, after five seconds.
+static bool run_whip(struct bench_living* living, struct hair_reference_rod* rod)
+{
+    double weight = bench_section_of(&living->scene->physics).line_density * LENGTH * BENCH_GRAVITY;
+    double at[3][3 * VERTICES], velocity[3 * VERTICES];
+    double h = living->substep, count = round(5 / h);
+    for (double k = 0; k < count; ++k)
+        if (!bench_step(living, NULL, h) || bench_was_interrupted()) return false;
+    for (int k = 0; k < 3; ++k)
+        if (!bench_step(living, NULL, h) || !bench_read(living, at[k])) return false;
+    for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (at[2][i] - at[0][i]) / (2 * h);
+    hair_reference_rod_set_state(rod, at[1], velocity);
+    double  energy = hair_reference_rod_energy(rod).total / (weight * LENGTH / 2) + 1;
+    json_t* row    = bench_physics_row(living, "whip_energy", 1, energy,
+                                    living->scene->solver == HAIR_SOLVER_ACCURATE ? 0.05 : BENCH_NO_LIMIT,
+                                       "energy above hanging down, after 5 s, over that at the start");
+    bench_set_number(row, "substeps", bench_substeps(living));
+    return true;
+}
+
+static void measure_whip(struct bench* bench, hair_solver solver)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "whip_energy", method)) return;
+    struct bench_living        living;
+    struct bench_scene         scene = make_hair(bench, solver, VERTICES, 0);
+    struct hair_reference_rod* rod   = bench_reference(&scene);
+    if (!rod || !bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "whip_energy", method);
+        hair_reference_rod_destroy(rod);
+        return;
+    }
+    if (!run_whip(&living, rod)) bench_refuse(bench, "whip_energy", method);
+    bench_die(&living);
+    hair_reference_rod_destroy(rod);
+}
+
+void bench_whip_energy(struct bench* bench)
+{
+    for (int s = 0; s < BENCH_RODS && !bench->options.quick; ++s) measure_whip(bench, bench_rod_solvers[s]);
+}

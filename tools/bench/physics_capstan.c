@@ -1,0 +1,115 @@
+// physics_capstan.c - a chain over a rough cylinder, both ends hanging: it holds, or slips.
+#include "tools/bench/physics.h"
+
+#include <math.h>
+
+#define RADIUS 0.05  // m, of the collider
+#define SHORT 0.02   // m, that hangs on the side of the root
+#define SLIPPED 0.01 // m, in two seconds
+#define CREEP 5e-5   // m/s
+
+// The chain slips when the long side hangs down by as much as this. With the angle t over the cylinder, a weight w of a
+// metre, friction m and radius R, tension grows as T' = m T + w R (cos t + m sin t): T = C e^(m t) + w R (A cos t +
+// (m A + 1) sin t) with A = -2 m / (1 + m^2).
+static double find_limit(double friction, double radius)
+{
+    double a = -2 * friction / (1 + friction * friction);
+    return radius * ((SHORT / radius - a) * exp(friction * BENCH_PI) - a);
+}
+
+// Where the chain is, `at` from its root: up, over the cylinder about the origin, down.
+static void find_place(double at, double radius, double out[2])
+{
+    double angle = (at - SHORT) / radius;
+    if (angle <= 0) {
+        out[0] = -radius;
+        out[1] = at - SHORT;
+    } else if (angle < BENCH_PI) {
+        out[0] = -radius * cos(angle);
+        out[1] = radius * sin(angle);
+    } else {
+        out[0] = radius;
+        out[1] = BENCH_PI * radius + SHORT - at;
+    }
+}
+
+static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
+                                     double friction, double fraction)
+{
+    struct bench_scene scene  = bench_scene_default();
+    double             margin = 0.001, radius = RADIUS + margin;
+    double             length = SHORT + BENCH_PI * radius + fraction * find_limit(friction, radius);
+    scene.vertices            = vertices;
+    for (uint32_t i = 0; i < vertices; ++i) {
+        double at[2];
+        find_place(length * i / (vertices - 1), radius, at);
+        scene.positions[3 * i]     = (float)at[0];
+        scene.positions[3 * i + 1] = (float)at[1];
+    }
+    scene.solver           = solver;
+    scene.mapping          = bench->options.mapping;
+    scene.physics.root     = HAIR_ROOT_FREE;
+    scene.physics.young    = 0;
+    scene.physics.damping  = 4;
+    scene.physics.friction = (float)friction;
+    scene.physics.margin   = (float)margin;
+    return scene;
+}
+
+static bool wait_and_read(struct bench_living* living, int frames, double* out)
+{
+    for (int k = 0; k < frames; ++k)
+        if (!bench_step(living, NULL, 1.0 / 60) || bench_was_interrupted()) return false;
+    return bench_read(living, out);
+}
+
+static void add_row(struct bench_living* living, double friction, double fraction, double slipped,
+                    double creep)
+{
+    bool    slips = fraction > 1;
+    json_t* row   = bench_physics_row(living, "capstan", slips, slipped > SLIPPED, 0,
+                                      "weights over a rough cylinder: 1 slips, 0 holds");
+    bench_set_number(row, "friction", friction);
+    bench_set_number(row, "load", fraction);
+    bench_set_number(row, "creep", creep);
+    bench_set_null(row, "relative_error");
+    bench_set_number(row, "limit", slips ? NAN : CREEP);
+    bench_set_flag(row, "pass", slips ? slipped > SLIPPED : slipped <= SLIPPED && creep <= CREEP);
+}
+
+static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, double friction,
+                    double fraction)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "capstan", method)) return;
+    double first[3 * BENCH_MOST_VERTICES], middle[3 * BENCH_MOST_VERTICES], last[3 * BENCH_MOST_VERTICES];
+    struct bench_scene  scene = make_scene(bench, solver, vertices, friction, fraction);
+    struct bench_living living;
+    hair_solid          cylinder = hair_solid_default();
+    cylinder.shape               = HAIR_SHAPE_CAPSULE;
+    cylinder.size[0]             = (float)RADIUS;
+    cylinder.size[1]             = 0.2f;
+    cylinder.rotation[0] = cylinder.rotation[3] = (float)sqrt(0.5); // local y along z
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "capstan", method);
+        return;
+    }
+    uint32_t tip = 3 * (vertices - 1) + 1;
+    if (!hair_set_solids(living.hair, &cylinder, 1, sizeof cylinder) && bench_read(&living, first) &&
+        wait_and_read(&living, 60, middle) && wait_and_read(&living, 60, last))
+        add_row(&living, friction, fraction, first[tip] - last[tip], fabs(middle[tip] - last[tip]));
+    else
+        bench_refuse(bench, "capstan", method);
+    bench_die(&living);
+}
+
+void bench_capstan(struct bench* bench)
+{
+    static const double frictions[] = {0.2, 0.5}, fractions[] = {0.95, 1.05};
+    bool                quick = bench->options.quick;
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t vertices = 32; vertices <= (quick ? 32 : 128); vertices *= 2)
+            for (int f = 0; f < (quick ? 1 : 2); ++f)
+                for (int k = 0; k < 2; ++k)
+                    measure(bench, bench_rod_solvers[s], vertices, frictions[f], fractions[k]);
+}

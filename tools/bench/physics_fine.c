@@ -1,0 +1,121 @@
+// physics_fine.c - what strains numbers: short segments, heavy tips.
+#include "lib/reference/continuum.h"
+#include "tools/bench/physics.h"
+#include "tools/bench/rest.h"
+
+#include <math.h>
+
+static struct bench_scene make_level(const struct bench* bench, hair_solver solver, uint32_t vertices,
+                                     double length)
+{
+    const double       root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    struct bench_scene scene = bench_scene_default();
+    bench_scene_straight(&scene, vertices, length, root, along);
+    scene.solver          = solver;
+    scene.mapping         = bench->options.mapping;
+    scene.physics.damping = 4;
+    return scene;
+}
+
+// Short segments --------------------------------------------------------------------------------------------
+
+static void add_fine_row(struct bench_living* living, const char* name, double gamma, const double* positions)
+{
+    struct hair_reference_elastica rest   = hair_reference_elastica(gamma, 0, 0);
+    double                         length = living->length, across = rest.across, down = rest.down;
+    const double*                  tip = positions + 3 * (living->scene->vertices - 1);
+    double  off = hypot(hypot(tip[0] / length - across, tip[1] / length + down), tip[2] / length);
+    json_t* row = gamma < 0.1
+                      ? bench_physics_row(living, name, down, -tip[1] / length, 0.005, "elastica, H/L")
+                      : bench_physics_row(living, name, 0, off, 0.005, "elastica, off by over L");
+    bench_set_number(row, "gamma", gamma);
+}
+
+static void measure_fine(struct bench* bench, hair_solver solver, uint32_t vertices, double length)
+{
+    const char *name = length < 0.02 ? "fur" : "fine_segments", *method = bench_solver_name(solver);
+    if (!bench_begin(bench, name, method)) return;
+    double               positions[3 * BENCH_MOST_VERTICES];
+    struct bench_living  living;
+    struct bench_scene   scene   = make_level(bench, solver, vertices, length);
+    struct bench_section section = bench_section_of(&scene.physics);
+    double               gamma   = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
+    if (!bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, name, method);
+        return;
+    }
+    if (bench_settle(&living, positions))
+        add_fine_row(&living, name, gamma, positions);
+    else
+        bench_refuse(bench, name, method);
+    bench_die(&living);
+}
+
+void bench_fine_segments(struct bench* bench)
+{
+    const double length = 0.0631; // m: of a gamma of 2 by default
+    bool         quick  = bench->options.quick;
+    for (int s = 0; s < BENCH_RODS; ++s) {
+        for (uint32_t vertices = 32; vertices <= (quick ? 32 : 256); vertices *= 2)
+            measure_fine(bench, bench_rod_solvers[s], vertices, length);
+        measure_fine(bench, bench_rod_solvers[s], 32, 0.01);
+    }
+}
+
+// Heavy tips ------------------------------------------------------------------------------------------------
+
+#define TIP_MASS 1000
+#define TIP_LENGTH 0.1 // m
+
+// The fastest vertex within the last half of 14 s goes into the row as `speed`.
+static bool run_tip(struct bench_living* living, const double* truth, double gamma)
+{
+    struct bench_rest_desc desc     = {14, 0.5, 14, bench_was_interrupted};
+    uint32_t               vertices = living->scene->vertices;
+    double                 now[3 * BENCH_MOST_VERTICES], most = 0;
+    struct bench_rest      rest;
+    if (!bench_measure_rest(living->hair, 1, vertices, &desc, &rest) || !bench_read(living, now))
+        return false;
+    for (uint32_t i = 0; i < 3 * vertices; i += 3) {
+        double off = hypot(hypot(now[i] - truth[i], now[i + 1] - truth[i + 1]), now[i + 2] - truth[i + 2]);
+        if (!(off <= most)) most = off;
+    }
+    json_t* row = bench_physics_row(living, "tip_mass", 0, most / living->length, 0.001,
+                                    "statics of the same chain, farthest over the length");
+    bench_set_number(row, "gamma", gamma);
+    bench_set_number(row, "speed", rest.max_speed);
+    if (rest.max_speed > 0.001) bench_set_flag(row, "pass", false);
+    return true;
+}
+
+static void measure_tip(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "tip_mass", method)) return;
+    double              truth[3 * BENCH_MOST_VERTICES];
+    struct bench_living living;
+    struct bench_scene  scene = make_level(bench, solver, vertices, TIP_LENGTH);
+    bench_scene_set_gamma(&scene, TIP_LENGTH, gamma);
+    scene.physics.tip_mass           = TIP_MASS;
+    struct hair_reference_rod* rod   = bench_reference(&scene);
+    bool                       found = rod && hair_reference_rod_rest(rod).converged;
+    if (found) hair_reference_rod_positions(rod, truth);
+    hair_reference_rod_destroy(rod);
+    snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
+    if (!found || !bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "tip_mass", method);
+        return;
+    }
+    if (!run_tip(&living, truth, gamma)) bench_refuse(bench, "tip_mass", method);
+    bench_die(&living);
+}
+
+void bench_tip_masses(struct bench* bench)
+{
+    static const double gammas[] = {2, 184, 3000};
+    bool                quick    = bench->options.quick;
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t vertices = quick ? 32 : 16; vertices <= 32; vertices *= 2)
+            for (int k = 0; k < (quick ? 1 : 3); ++k)
+                measure_tip(bench, bench_rod_solvers[s], vertices, gammas[k]);
+}

@@ -1,0 +1,111 @@
+// physics_spin.c - hair on a head that spins steadily: where it trails.
+#include "tools/bench/physics.h"
+
+#include <math.h>
+
+#define LENGTH 0.3 // m
+#define ROOT 0.1   // m, from the axis
+#define RISE 2.0   // s, until the head turns evenly
+#define STEADY 4.0 // s, evenly
+#define STEP (1.0 / 240)
+
+static const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
+
+static double find_angle(double rate, double time)
+{
+    return 2 * BENCH_PI * rate * (time < RISE ? time * time / (2 * RISE) : time - RISE / 2);
+}
+
+static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, uint32_t vertices)
+{
+    const double       root[3] = {ROOT, 0, 0}, along[3] = {1, 0, 0};
+    struct bench_scene scene = bench_scene_default();
+    bench_scene_straight(&scene, vertices, LENGTH, root, along);
+    scene.solver          = solver;
+    scene.mapping         = bench->options.mapping;
+    scene.physics.damping = 4;
+    return scene;
+}
+
+static bool turn(struct bench_living* living, struct hair_reference_rod* rod, double rate, double from,
+                 double to, uint32_t substeps)
+{
+    for (double time = from + STEP; time < to + STEP / 2; time += STEP) {
+        struct hair_reference_rod_pose head = bench_pose(up, find_angle(rate, time), none);
+        if (living && !bench_step(living, &head, STEP)) return false;
+        if (rod && !hair_reference_rod_advance(rod, &head, STEP, substeps)) return false;
+        if (bench_was_interrupted()) return false;
+    }
+    return true;
+}
+
+// The rod, which stands straight out and turns as the head does, comes to trail in the time that it is damped.
+static bool find_truth(const struct bench_scene* scene, double rate, double* truth)
+{
+    double             start[3 * BENCH_MOST_VERTICES], velocities[3 * BENCH_MOST_VERTICES];
+    struct bench_scene turned = *scene;
+    double             angle = find_angle(rate, RISE), spin = 2 * BENCH_PI * rate;
+    turned.head                    = bench_pose(up, angle, none);
+    struct hair_reference_rod* rod = bench_reference(&turned);
+    if (!rod) return false;
+    for (uint32_t i = 0; i < scene->vertices; ++i) {
+        double far            = (double)scene->positions[3 * i];
+        start[3 * i]          = far * cos(angle);
+        start[3 * i + 1]      = 0;
+        start[3 * i + 2]      = -far * sin(angle);
+        velocities[3 * i]     = -far * spin * sin(angle);
+        velocities[3 * i + 1] = 0;
+        velocities[3 * i + 2] = -far * spin * cos(angle);
+    }
+    hair_reference_rod_set_state(rod, start, velocities);
+    double   longest  = hair_reference_rod_longest_substep(rod) / 2;
+    uint32_t substeps = (uint32_t)fmax(8, ceil(STEP / longest));
+    bool     whole    = turn(NULL, rod, rate, RISE, RISE + STEADY, substeps);
+    hair_reference_rod_positions(rod, truth);
+    hair_reference_rod_destroy(rod);
+    return whole;
+}
+
+static void add_row(struct bench_living* living, double rate, double error)
+{
+    hair_health health = hair_health_default();
+    json_t*     row    = bench_physics_row(living, "head_spin", 0, error, 0.005,
+                                           "rod in double precision, farthest over the length");
+    bench_set_number(row, "rate", rate);
+    if (hair_get_health(living->hair, &health)) return;
+    bench_set_count(row, "fallbacks", (uint64_t)health.euler + health.follow + health.reset);
+    if (health.euler + health.follow + health.reset > 0) bench_set_flag(row, "pass", false);
+}
+
+static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, double rate)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "head_spin", method)) return;
+    double              truth[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES], most = 0;
+    struct bench_scene  scene = make_scene(bench, solver, vertices);
+    struct bench_living living;
+    if (!bench_live_in_step(bench, &scene, STEP, &living)) {
+        bench_refuse(bench, "head_spin", method);
+        return;
+    }
+    if (find_truth(&scene, rate, truth) && turn(&living, NULL, rate, 0, RISE + STEADY, 0) &&
+        bench_read(&living, now)) {
+        for (uint32_t i = 0; i < 3 * vertices; i += 3) {
+            double off =
+                hypot(hypot(now[i] - truth[i], now[i + 1] - truth[i + 1]), now[i + 2] - truth[i + 2]);
+            if (!(off <= most)) most = off;
+        }
+        add_row(&living, rate, most / LENGTH);
+    } else
+        bench_refuse(bench, "head_spin", method);
+    bench_die(&living);
+}
+
+void bench_head_spin(struct bench* bench)
+{
+    bool quick = bench->options.quick;
+    for (int s = 0; s < BENCH_RODS; ++s)
+        for (uint32_t vertices = 32; vertices <= (quick ? 32 : 128); vertices *= 2)
+            for (int rate = quick ? 3 : 1; rate <= (quick ? 3 : 6); ++rate)
+                measure(bench, bench_rod_solvers[s], vertices, rate);
+}
