@@ -40,7 +40,7 @@ static void hanging_hair_sleeps_and_is_still(void** state)
     struct bench_rest rest    = hang(*state, &physics);
     print_message("    asleep after %.2f s\n", rest.seconds_asleep);
     assert_true(rest.max_speed == 0 && rest.moving_fraction == 0 && rest.finite);
-    assert_true(rest.seconds_asleep < 4);
+    assert_true(rest.seconds_asleep < 2);
 }
 
 static void hair_that_may_not_sleep_is_measured(void** state)
