@@ -8,7 +8,7 @@
 #define TURNS 5
 #define SECONDS 10.0
 #define NUDGE 0.05         // s
-#define NUDGE_GRAVITY 2.0f // m/s^2: 0.1 m/s at its end
+#define NUDGE_GRAVITY 0.2f // m/s^2: 10 mm/s at its end. Soft coils creep back for long after more.
 #define NUDGE_PULL 8.0f    // Hz, at the root of a free coil
 #define MAX_ENERGY 1.01
 
@@ -74,7 +74,7 @@ static bool nudge(struct curl* curl)
     const double                   forward[3] = {0, 0, 1}, none[3] = {0, 0, 0};
     if (push.root == HAIR_ROOT_FREE) { // Pulled at one end.
         push.pull_root = NUDGE_PULL;
-        head           = bench_pose(forward, 0.1, none);
+        head           = bench_pose(forward, 0.01, none);
     } else
         push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
     double h = living->substep, count = ceil(NUDGE / h);
