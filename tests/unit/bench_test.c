@@ -203,71 +203,6 @@ static void the_other_suites_run(void** state)
     expect(0, "$T collision --quick --case shoulders --method push --csv -", ",0,1,");
 }
 
-// A wave that is curved at rest: the solver of higher cost is nearer to the reference, and one row is of its own setting.
-static void curved_hair_is_compared_with_the_reference(void** state)
-{
-    (void)state;
-    expect(0, "$T accuracy --quick --case wave --strands 4 --json $D/w.json --csv /dev/null", "");
-    json_t* root = read_json("w.json");
-    json_t* rows = json_object_get(root, "rows");
-    json_t* row;
-    size_t  i, defaults = 0;
-    json_array_foreach(rows, i, row)
-    {
-        const char* method = json_string_value(json_object_get(row, "method"));
-        if (json_is_true(json_object_get(row, "default"))) ++defaults;
-        if (strcmp(method, "direct") && strcmp(method, "accurate")) continue;
-        double rms = number(row, "rms_error"), most = number(row, "max_error");
-        assert_true(rms > 1e-6 && rms < 0.02 && most > rms && most < 0.1);
-    }
-    assert_int_equal(defaults, 1);
-    json_decref(root);
-    expect(0, "rm $D/w.json", "");
-}
-
-static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
-{
-    (void)state;
-    // Accurate solves a coil of 6 mm; an idle haircut sleeps, and then its fastest vertex stands still.
-    expect(0, "$T stability --quick --case 'rest *' --method accurate --json $D/s.json --csv /dev/null", "");
-    json_t* root = read_json("s.json");
-    json_t* rows = json_object_get(root, "rows");
-    json_t* row;
-    size_t  i;
-    json_array_foreach(rows, i, row)
-    {
-        if (!json_is_true(json_object_get(row, "pass")))
-            fail_msg("%s", json_string_value(json_object_get(row, "case")));
-        if (json_is_null(json_object_get(row, "radius"))) {
-            assert_true(number(row, "max_speed") == 0);
-            assert_true(number(row, "seconds_to_sleep") > 0.2 && number(row, "seconds_to_sleep") < 15);
-        } else
-            assert_true(number(row, "max_energy") > 0.5 && number(row, "max_energy") < 1.01);
-    }
-    assert_int_equal(i, 3);
-    json_decref(root);
-    expect(0, "rm $D/s.json", "");
-}
-
-// Rows that the solvers pass, and whose measure would be off by far if it were wrong.
-static void physics_cases_are_measured_against_what_is_known(void** state)
-{
-    (void)state;
-    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-        char command[256];
-        snprintf(command, sizeof command,
-                 "$T physics --quick --case %s --method accurate --json $D/p.json --csv /dev/null", names[i]);
-        expect(0, command, "");
-        json_t*       root = read_json("p.json");
-        const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
-        if (!json_is_true(json_object_get(row, "pass"))) fail_msg("%s", names[i]);
-        assert_true(number(row, "relative_error") > 0);
-        json_decref(root);
-    }
-    expect(0, "rm $D/p.json", "");
-}
-
 static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)
 {
     size_t  i;
@@ -389,9 +324,6 @@ int main(void)
         cmocka_unit_test(the_standard_output_has_the_table_or_the_file_that_is_asked_for),
         cmocka_unit_test(a_row_says_what_was_measured_and_how),
         cmocka_unit_test(the_other_suites_run),
-        cmocka_unit_test(curved_hair_is_compared_with_the_reference),
-        cmocka_unit_test(physics_cases_are_measured_against_what_is_known),
-        cmocka_unit_test(rest_cases_tell_hair_that_rests_from_hair_that_moves),
         cmocka_unit_test(a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn),
         cmocka_unit_test(the_front_is_what_nothing_beats),
         cmocka_unit_test(what_csv_must_quote_is_quoted),

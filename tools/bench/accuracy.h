@@ -23,7 +23,8 @@ struct bench_motion {
     char                           reference[96];
 };
 
-// Straight strands: yawed with the head, over solids, without bending, let go level, spun up by the head.
+// Straight strands: yawed with the head, over solids, without bending, let go level, spun up by the
+// head.
 void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
 void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench_motion* out);

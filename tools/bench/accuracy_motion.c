@@ -36,10 +36,11 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
     }
 }
 
-// Where shoulders are, and how thick. One strand's luck makes its error half as large again or half as small: so there
-// are several. Left out are those over which it may fall either way, so that the reference itself has not converged: its
-// error, against half as many substeps, is below 1e-4 of the length for each of these. By 2 cm farther out or in than the
-// first it is 2e-3 and 6e-4, by 2 cm out and up 6e-4, of a radius of 0.25 with the same top 3e-3.
+// Where shoulders are, and how thick. One strand's luck makes its error half as large again or half as
+// small: so there are several. Left out are those over which it may fall either way, so that the
+// reference itself has not converged: its error, against half as many substeps, is below 1e-4 of the
+// length for each of these. By 2 cm farther out or in than the first it is 2e-3 and 6e-4, by 2 cm out
+// and up 6e-4, of a radius of 0.25 with the same top 3e-3.
 static const struct {
     float x, y, radius; // m
 } shoulders[] = {
@@ -57,8 +58,9 @@ void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
     shoulder->size[0]     = shoulders[run].radius;
 }
 
-// The same head as a sphere, and a shoulder, over which the strand falls and is drawn. (Against an upright body the tip
-// strikes like a whip, and over a ridge along it a strand may fall either way: there any two runs go apart.)
+// The same head as a sphere, and a shoulder, over which the strand falls and is drawn. (Against an
+// upright body the tip strikes like a whip, and over a ridge along it a strand may fall either way:
+// there any two runs go apart.)
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     bench_make_shake(bench, vertices, out);

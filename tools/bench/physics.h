@@ -15,8 +15,8 @@ extern const hair_solver bench_rod_solvers[BENCH_RODS];
 json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
                           double limit, const char* reference);
 
-// Bring the scene to life with the substep that the solver wants, made to divide `dt`: strands are read where the last
-// substep left them. Sets scene->substep where that has to be changed. False: the library refused.
+// Create the scene with the substep that the solver wants, shortened where needed so that it divides `dt`: strands
+// are read where the last substep left them. Return false when the library refused.
 bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out);
 
 // physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c, physics_body.c, physics_spin.c,

@@ -1,4 +1,5 @@
-// physics_body.c - a free helix that spins: its angular momentum stays, and it turns as the reference does.
+// physics_body.c - a free helix that spins: its angular momentum stays, and it turns as the reference
+// does.
 #include "tools/bench/coil.h"
 #include "tools/bench/physics.h"
 
@@ -108,7 +109,8 @@ static double length_of(const double v[3])
     return hypot(hypot(v[0], v[1]), v[2]);
 }
 
-// Farthest of a vertex from the reference, which starts as the solver does, half a second on. Relative to the length.
+// Farthest of a vertex from the reference, which starts as the solver does, half a second on. Relative
+// to the length.
 static double compare(struct body* body, struct hair_reference_rod* rod)
 {
     double truth[3 * VERTICES], most = 0, h = body->living.substep;

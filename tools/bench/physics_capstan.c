@@ -8,9 +8,9 @@
 #define SLIPPED 0.01 // m, in two seconds
 #define CREEP 5e-5   // m/s
 
-// The chain slips when the long side hangs down by as much as this. With the angle t over the cylinder, a weight w of a
-// metre, friction m and radius R, tension grows as T' = m T + w R (cos t + m sin t): T = C e^(m t) + w R (A cos t +
-// (m A + 1) sin t) with A = -2 m / (1 + m^2).
+// The chain slips when the long side hangs down by as much as this. With the angle t over the
+// cylinder, a weight w of a metre, friction m and radius R, tension grows as T' = m T + w R (cos t + m
+// sin t): T = C e^(m t) + w R (A cos t + (m A + 1) sin t) with A = -2 m / (1 + m^2).
 static double find_limit(double friction, double radius)
 {
     double a = -2 * friction / (1 + friction * friction);

@@ -39,7 +39,8 @@ static bool turn(struct bench_living* living, struct hair_reference_rod* rod, do
     return true;
 }
 
-// The rod, which stands straight out and turns as the head does, comes to trail in the time that it is damped.
+// The rod, which stands straight out and turns as the head does, comes to trail in the time that it is
+// damped.
 static bool find_truth(const struct bench_scene* scene, double rate, double* truth)
 {
     double             start[3 * BENCH_MOST_VERTICES], velocities[3 * BENCH_MOST_VERTICES];

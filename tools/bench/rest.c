@@ -7,8 +7,8 @@
 
 #define FRAME (1.0 / 60)
 #define MAX_ROWS 64
-// A vertex that goes to and fro every substep is where it was after two: speeds are taken over an odd number of
-// substeps. Over less than this time the last place of a float would pass for a speed.
+// A vertex that goes to and fro every substep is where it was after two: speeds are taken over an odd
+// number of substeps. Over less than this time the last place of a float would pass for a speed.
 #define MIN_INTERVAL (1.0 / 1000)
 
 struct bench_rest_desc bench_rest_desc_default(void)

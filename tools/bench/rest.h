@@ -1,4 +1,5 @@
-// rest.h - how fast hair still moves when it should be at rest. Uses only the public interface, so tests use it too.
+// rest.h - how fast hair still moves when it should be at rest. Uses only the public interface, so
+// tests use it too.
 #ifndef HAIR_TOOLS_BENCH_REST_H
 #define HAIR_TOOLS_BENCH_REST_H
 
@@ -25,8 +26,8 @@ struct bench_rest {
 // 10 s of which the last half is measured, 15 s to fall asleep.
 struct bench_rest_desc bench_rest_desc_default(void);
 
-// Step the instance, whose head and colliders stay, and measure. Every guide has `vertices`. Return false when the
-// library refused or `stop` asked to give up.
+// Step the instance, whose head and colliders stay, and measure. Every guide has `vertices`. Return
+// false when the library refused or `stop` asked to give up.
 bool bench_measure_rest(hair_instance* hair, uint32_t guides, uint32_t vertices,
                         const struct bench_rest_desc* desc, struct bench_rest* out);
 

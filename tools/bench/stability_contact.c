@@ -1,5 +1,5 @@
-// stability_contact.c - the cases `contact COLLIDER VERTICES`: eight strands let go level, whose roots are held above a
-// collider. They fall on it, and should come to rest.
+// stability_contact.c - the cases `contact COLLIDER VERTICES`: eight strands let go level, whose roots
+// are held above a collider. They fall on it, and should come to rest.
 #include "tools/bench/stability.h"
 
 #include <math.h>

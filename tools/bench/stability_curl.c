@@ -1,4 +1,5 @@
-// stability_curl.c - the cases `rest curl RADIUS`: coils in their own rest shape, without gravity, nudged.
+// stability_curl.c - the cases `rest curl RADIUS`: coils in their own rest shape, without gravity,
+// nudged.
 #include "tools/bench/coil.h"
 #include "tools/bench/stability.h"
 

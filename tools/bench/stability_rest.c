@@ -1,4 +1,5 @@
-// stability_rest.c - the cases `rest HAIRCUT VERTICES`: every built-in haircut on a still head, by all defaults.
+// stability_rest.c - the cases `rest HAIRCUT VERTICES`: every built-in haircut on a still head, by all
+// defaults.
 #include "tools/bench/stability.h"
 #include "tools/common/rig.h"
 
