@@ -144,7 +144,7 @@ void bench_energy(struct bench* bench)
         measure_energy(bench, bench_rod_solvers[i / 2], i % 2 ? -30 : -60);
 }
 
-// Let go level, a strand cracks as a whip. What is left of its energy, above that of hanging down, after five seconds.
+// Measure the energy of a strand, let go level, after five seconds, above that of hanging down.
 static bool run_whip(struct bench_living* living, struct hair_reference_rod* rod)
 {
     double weight = bench_section_of(&living->scene->physics).line_density * LENGTH * BENCH_GRAVITY;
