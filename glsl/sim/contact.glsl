@@ -18,7 +18,7 @@
 #define RISE 0.2       // of a vertex out of where its root is, by its distance from that
 
 OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
-OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it
+OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it; of STICKS w: friction
 #ifdef HAIR_ANY
 #define BITS uvec2 // one for each solid of a list,
 #else
@@ -127,16 +127,27 @@ struct outcome {
     vec4  freedom, slip; // as touch and slip have them
 };
 
+// Return by how much friction takes a vertex to be pressed against a solid that it is so deep in. Under the mixed scheme that is what
+// it was at the end of the last substep, where it touched: so Newton's method has a symmetric system, and from substep to
+// substep friction over a round body builds up as fast as Picard's iteration of T' = friction T.
+#ifdef HAIR_MIXED
+OWN(float, pressure); // of vertex i against solids, at the end of the last substep, m/s^2
+float pressing;       // that of the vertex which is looked at, as a displacement
+float grip_depth(float depth) { return depth > 0.0 && pressing > 0.0 ? pressing : max(depth, 0.0); }
+#else
+float grip_depth(float depth) { return max(depth, 0.0); }
+#endif
+
 // Out of one solid by the depth, and held by its friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {
     float friction = params.friction * factor;
     vec3  way      = made.d - surface;
     way -= dot(way, normal) * normal;
-    float far = length(way), grip = friction * max(depth, 0.0);
+    float far = length(way), grip = friction * grip_depth(depth);
     bool  stuck = far <= grip;
     made.d += depth * normal - (stuck ? way : way * (grip / far));
-    made.slip    = stuck || depth <= 0.0 ? vec4(0.0) : vec4(way * (friction / far), grip / far);
+    made.slip    = depth <= 0.0 ? vec4(0.0) : stuck ? vec4(0.0, 0.0, 0.0, friction) : vec4(way * (friction / far), grip / far);
     made.freedom = stuck ? vec4(normal, STICKS) : left_of(made.freedom, normal);
 }
 
@@ -151,6 +162,9 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
 {
     outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
+#ifdef HAIR_MIXED
+    pressing = own(pressure) * of_force;
+#endif
     get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);
     return made;
 }

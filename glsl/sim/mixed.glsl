@@ -139,6 +139,7 @@ void predict(int method)
         vec3 before = BEFORE_VEC3(edge);
         move_freely(i, method, before);
     }
+    of_force = SUBSTEP * SUBSTEP * (IS_BACK(method) ? 4.0 / 9.0 : 1.0);
     predict_turns(IS_LEADER(method));
     find_wanted();
 }

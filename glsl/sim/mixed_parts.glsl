@@ -10,6 +10,7 @@ void accept_turns(bool led)
     MEET;
     if (led) align_frames();
     EACH(guide_count) {
+        own(pressure)      = led ? 0.0 : own(pressure_now);
         own(turned_before) = own(turned);
         own(turned)        = led ? vec3(0.0) : 2.0 * own(turn).xyz / own(turn).w;
         own(force)         = led ? vec3(0.0) : GET(handed);
@@ -66,7 +67,7 @@ void attempt_all(vec3 head_moved)
             continue;
         }
         if (!fits) count_in(HAIR_HEALTH_FOLLOW);
-        if (!fits && (TIED || any_of(bvec2(!finite, false)).x)) {
+        if (!fits && (touching || any_of(bvec2(!finite, false)).x)) { // What contact makes of forces that are wrong may be anything.
             leads = true;
             continue;
         }

@@ -13,7 +13,9 @@
 
 #define FREEZE_FROM 3u   // Newton steps after which contacts stay as they are: see try_frozen().
 
+OWN(float, pressure_now); // pressure at the end of the substep
 OWN(vec4, plane);      // Of a contact as it stays, touch
+OWN(vec4, plane_slip); // and slip,
 OWN(vec3, plane_move); // and the displacement that it allowed.
 bool guarded;  // A Newton step was not trusted in this substep.
 uint rounds_in_all;
@@ -61,17 +63,28 @@ void apply_solution(bool far)
 void try_frozen(bool first)
 {
     EACH(guide_count) {
-        if (first) own(plane) = vec4(own(touch).xyz, own(touch).w);
-        if (first) own(plane_move) = GET(moved);
+        if (first) {
+            own(plane)      = own(touch);
+            own(plane_move) = GET(moved);
+            own(plane_slip) = own(slip);
+        }
         vec3  to = own(plane_move), n = own(plane).xyz, d = own(wanted);
         float depth = dot(n, to - d), kind = own(plane).w;
-        own(touch).w = kind;
+        own(touch) = own(plane);
+        own(slip)  = own(plane_slip);
         if (kind == GLIDES) d = to + dot(n, d - to) * n;
+        pressing = own(pressure) * of_force;
         if (kind == SLIDES || kind == STICKS) {
-            bool pushed = depth > 0.0;
-            vec3 slid = d + depth * n - depth * own(slip).xyz;
-            d = !pushed ? d : kind == STICKS ? to : slid;
-            own(touch).w = pushed ? kind : FREE;
+            vec3  on = d + depth * n, way = on - to;
+            float pressed = grip_depth(depth), grip = own(slip).w * pressed, far = length(way);
+            if (depth <= 0.0) own(touch) = own(slip) = vec4(0.0);
+            else if (kind == SLIDES) d = on - pressed * own(slip).xyz;
+            else if (far <= grip) d = to;
+            else { // It slips after all.
+                d          = on - way * (grip / far);
+                own(touch) = vec4(n, SLIDES);
+                own(slip)  = vec4(way * (own(slip).w / far), grip / far);
+            }
         }
         PUT(moved, d);
     }
@@ -146,6 +159,9 @@ void close_spans()
 void place_vertices()
 {
     EACH(guide_count) {
+        vec3 by_solids = GET(moved) - own(wanted);
+        bool normal_known = own(touch).w == SLIDES || own(touch).w == STICKS;
+        own(pressure_now) = SOLIDS && own(touch).w != FREE ? (normal_known ? dot(by_solids, own(touch).xyz) : length(by_solids)) / of_force : 0.0;
         // Without the forces of segments, which cancel, and would leave what rounding makes of stiff ones.
         PUT(lever, own(reached) + (GET(moved) - own(wanted)));
         vec3 then   = along_of(seen(section));
@@ -202,7 +218,6 @@ bool attempt(int method, vec3 head_moved)
             continue;
         }
         apply_solution(judged.x);
-        exact = true;
         done  = !judged.y;
         if (done && !touching) break;
     }

@@ -65,12 +65,12 @@ void put_mobility(uint i)
 #endif
 }
 
-// Return the stiffness that keeps an increment of twist finite where nothing else does: of a strand without a clamp, which
-// turns about its own axis freely, and of one without stiffness.
-float twist_hold(uint i, float l)
+// Return the stiffness that keeps an increment of twist finite where too little else does: of a strand without a clamp, which
+// turns about its own axis freely, and of one without stiffness, beside what inertia makes of the other turns.
+float twist_hold(float l, float twist)
 {
-    float hinge = root_is_clamped ? 0.0 : rod[guide_first + min(i + 1u, guide_count - 1u)].strain.w;
-    return TWIST_HELD * (max(hinge, own(strain).w * float(!root_is_clamped)) + l * l * l / (SUBSTEP * SUBSTEP));
+    float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (SOLIDS || TIED ? 0.5 / HELD : 1.0);
+    return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
 // Write all rows, by the exact second derivatives or only by what of them is always convex. Return whether a segment
@@ -94,7 +94,7 @@ bool put_rows(bool exact, float tolerance)
         // Tension resists turning, compression does the opposite. Else of t f^T + f t^T, times half the length.
         if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, symmetric(2.0 * t * f, t.yzx * f.zxy + t.zxy * f.yzx)));
         else c = plus(c, minus(multiple_of_one(max(pull, 0.0)), times(max(pull, 0.0), outer(t))));
-        c      = plus(c, times(twist_hold(i, l), outer(t)));
+        c      = plus(c, times(twist_hold(l, dot(t, times(c, t))), outer(t)));
         vec3 e = l * change_by(own(turn), then) - to;
 #ifdef HAIR_TIED
         e += l * then - between;

@@ -33,6 +33,7 @@ void load()
 #ifdef HAIR_MIXED
         own(rest_real)      = segment.w;
         own(force)          = bend[3u * at].xyz;
+        own(pressure)       = bend[3u * at].w;
         own(turned)         = bend[3u * at + 1u].xyz * rescale;
         own(turned_before)  = bend[3u * at + 2u].xyz;
         PUT(moved, vec3(0.0));
@@ -75,7 +76,7 @@ void store()
             state[at].displacement.w = own(tension);
 #endif
 #ifdef HAIR_MIXED
-            bend[3u * at]      = vec4(own(force), 0.0);
+            bend[3u * at]      = vec4(own(force), own(pressure));
             bend[3u * at + 1u] = vec4(own(turned), 0.0);
             bend[3u * at + 2u] = vec4(own(turned_before), 0.0);
 #endif
