@@ -312,13 +312,13 @@ static int is_fine(const struct hair_rod_shape* s, double h)
 
 int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                        double substep)
+                        hair_solver solver, double substep)
 {
     double h = substep > 0 ? substep : FRAME / FEWEST_A_FRAME_DIRECT;
     if (physics->flatness < 1) return 1;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
-        if (guides[i].count > MOST_STRAIGHT) return 1;
+        if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MOST_STRAIGHT) return 1;
         find_borne(guides + i, rest, borne, physics, &shape);
         if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return 1;
     }

@@ -53,11 +53,11 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
                    struct hair_rod* out);
 
 // Return whether the mixed scheme is to solve the guides under direct and accurate. It does when
-// some are curved at rest, have more than 32 vertices, or segments too short or a tip too heavy for
-// the scheme of straight rods. A substep of 0 is the one that direct wants.
+// some are curved at rest, or have segments too short or a tip too heavy for the scheme of straight
+// rods; under direct also when some have more than 32 vertices. A substep of 0 is the one that direct wants.
 int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                        double substep);
+                        hair_solver solver, double substep);
 
 // The substep that a solver wants. s. Of direct: 1/240, with heavy tips down to 1/960. Of accurate: 1/1080, or as much
 // shorter as bending needs to be stable without being implicit, down to 1/6000; guides that need still shorter ones

@@ -93,7 +93,7 @@ static int are_mixed(const struct hair_sim* sim)
     const struct hair_rods* rods = sim->rods;
     if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
     return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
-                               sim->asked_substep);
+                               sim->solver, sim->asked_substep);
 }
 
 // Return the bytes of forces and turns, and of the rows of a work group that has no room for them.

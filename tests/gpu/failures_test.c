@@ -198,7 +198,9 @@ static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
         of.host              = &test->host.host;
         of.get_proc          = hair_egl_get_proc;
         of.glsl_dir          = hair_test_folder();
-        b.file               = b.desc.solver == HAIR_SOLVER_REDBLACK ? "redblack.comp" : "rod.comp";
+        b.file               = b.desc.solver == HAIR_SOLVER_REDBLACK ? "redblack.comp"
+                               : b.desc.solver == HAIR_SOLVER_FOLLOW ? "rod.comp"
+                                                                     : "mixed.comp";
         b.groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
         hair_test_ok(test, hair_context_create(&of, &b.context));
         hair_create_finds_it(test, &b);

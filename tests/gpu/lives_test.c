@@ -111,7 +111,7 @@ static void timings_count_the_runs_of_every_pass(void** state)
     assert_int_equal(hair_timings(context, NULL, 0), count);
     assert_in_range(count, 3, 16);
     for (uint32_t i = 0; i < count; ++i) {
-        int solves = !strcmp(timings[i].pass, "sim/direct_curved_32");
+        int solves = !strcmp(timings[i].pass, "sim/mixed_32");
         int smooth = !strcmp(timings[i].pass, "interpolate/smooth_32"); // Nobody has looked.
         if (solves || smooth) assert_int_equal(timings[i].runs, solves ? 9 : 0);
         assert_null(strstr(timings[i].pass, "draw/"));
@@ -197,9 +197,9 @@ static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(voi
 static uint32_t count_solvers(const hair_context* context)
 {
     uint32_t                 count     = 0;
-    static const char* const solvers[] = {"sim/direct", "sim/accurate", "sim/follow", "sim/redblack"};
+    static const char* const solvers[] = {"sim/direct", "sim/accurate", "sim/mixed", "sim/follow", "sim/redblack"};
     for (uint32_t i = 0; i < context->gl.programs; ++i)
-        for (int k = 0; k < 4; ++k)
+        for (int k = 0; k < 5; ++k)
             count += !strncmp(context->gl.program[i]->label, solvers[k], strlen(solvers[k]));
     return count;
 }
@@ -230,8 +230,8 @@ static void check_compiled(struct hair_test* test, int way)
         assert_int_equal(count_solvers(context), compiled);
 
         hair_gl_pass pass = rows[way];
-        if (hair->sim.rods && hair_sim_is_stiff(&hair->sim))
-            pass += HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE;
+        if (hair_sim_is_mixed(&hair->sim))
+            pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);
         pass = hair_gl_with(pass, (curved ? HAIR_GL_WITH(CURVED) : 0) | (solids ? HAIR_GL_WITH(SOLIDS) : 0));
         if (!hair_test_program(&context->gl, pass))
             fail_msg("%s curved %d, solids %d is not compiled", hair_gl_row_label(pass), curved, solids);

@@ -57,7 +57,7 @@ static uint32_t count_runs(hair_context* context)
     hair_timing timings[1024];
     uint32_t    count = hair_timings(context, timings, 1024), runs = 0;
     for (uint32_t i = 0; i < count && i < 1024; ++i)
-        if (!strncmp(timings[i].pass, "sim/direct", 10)) runs += timings[i].runs;
+        if (!strncmp(timings[i].pass, "sim/mixed", 9)) runs += timings[i].runs;
     return runs;
 }
 

@@ -441,7 +441,7 @@ static void each_solver_can_be_asked_for(void** state)
         expect(0, command, method);
     }
     expect(0, "$T " SMALL " --frames 0:2 --set mapping=group --stats -",
-           "\"method\": \"sim/direct_curved_32");
+           "\"method\": \"sim/mixed_32");
     expect(0, "$T " SMALL " --frames 0:2 --set mapping=thread --stats -",
            "\"method\": \"sim/direct_thread_curved_32");
 }
