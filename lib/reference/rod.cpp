@@ -34,6 +34,14 @@ void set_geometry(hair_reference_rod& rod, const hair_reference_rod_desc& desc)
     rod.target = desc.pull_target ? vectors_of(desc.pull_target, rod.vertices) : rod.x;
 }
 
+// 2 w of joints whose strain, 2 v, is given.
+std::vector<double> real_of(const std::vector<Vector3d>& strain)
+{
+    std::vector<double> real;
+    for (const Vector3d& u : strain) real.push_back(std::sqrt(std::fmax(4 - u.squaredNorm(), 0)));
+    return real;
+}
+
 void set_masses(hair_reference_rod& rod, const hair_reference_rod_desc& desc)
 {
     rod.masses = array_of(desc.masses, rod.vertices, 0);
@@ -80,8 +88,8 @@ bool is_sound(const hair_reference_rod& rod)
     return is_positive(rod.lengths) && is_positive(rod.masses) && is_not_negative(rod.pull) &&
            is_not_negative(rod.scale) && is_not_negative({rod.bend[0], rod.bend[1], rod.twist}) &&
            is_not_negative({rod.damping, rod.drag}) && is_finite(rod.x) && is_finite(rod.target) &&
-           is_finite(rod.rest_strain) && is_finite({rod.gravity, rod.wind}) &&
-           std::fabs(rod.scalp().norm() - 1) < 1e-9;
+           is_finite(rod.rest_strain) && is_not_negative(rod.rest_real) &&
+           is_finite({rod.gravity, rod.wind}) && std::fabs(rod.scalp().norm() - 1) < 1e-9;
 }
 
 } // namespace
@@ -104,11 +112,13 @@ hair_reference_rod* hair_reference_rod_create(const hair_reference_rod_desc* des
     set_masses(*rod, *desc);
     rod->pull = array_of(desc->pull, rod->vertices, 0);
     for (double& w : rod->pull) w *= w;
-    rod->bend[0]       = desc->bend[0];
-    rod->bend[1]       = desc->bend[1];
-    rod->twist         = desc->twist;
-    rod->scale         = array_of(desc->scale, rod->vertices, 1);
-    rod->rest_strain   = vectors_of(desc->rest_strain, rod->segments());
+    rod->bend[0]     = desc->bend[0];
+    rod->bend[1]     = desc->bend[1];
+    rod->twist       = desc->twist;
+    rod->scale       = array_of(desc->scale, rod->vertices, 1);
+    rod->rest_strain = vectors_of(desc->rest_strain, rod->segments());
+    rod->rest_real =
+        desc->rest_real ? array_of(desc->rest_real, rod->segments(), 0) : real_of(rod->rest_strain);
     rod->straight      = desc->straight != 0;
     rod->plain_clamp   = desc->plain_clamp != 0;
     rod->root          = desc->root;

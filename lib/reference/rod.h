@@ -3,14 +3,18 @@
 ///
 /// Vertices 0 (root) to N-1 (tip); segment j, of fixed length l_j, from vertex j to j+1, with a frame q_j
 /// whose y is along it. A joint i, 0 to N-2, lies at vertex i, between segments i-1 and i; at joint 0 the
-/// scalp is segment -1, with the root frame. With (w, v) = conj(q_{i-1}) q_i, sign chosen so that w >= 0, the strain of
-/// a joint is u = 2 v: by length 2 sin(half the angle), whose energy with rest strain U is
+/// scalp is segment -1, with the root frame. With (w, v) = conj(q_{i-1}) q_i, sign chosen so that w >= 0, the
+/// strain of a joint is u = 2 v: by length 2 sin(half the angle). With rest strain U its energy is
 ///
-///   1 / (2 l_i) [B1 (u - U)_x^2 + C (u - U)_y^2 + B2 (u - U)_z^2],  l_i = (l_{i-1} + l_i) / 2,
+///   1 / (2 l_i) [B1 (u - U)_x^2 + C (u - U)_y^2 + B2 (u - U)_z^2 + B2 (2 w - 2 w0)^2],
 ///
-/// at the clamp 1 / (2 l_0) [k1 B1 (..)_x^2 + 2 C (..)_y^2 + k2 B2 (..)_z^2], k1 and k2 being of
-/// hair_reference_rod_clamp_factor(). The angles of the frames about their segments have no inertia: they
-/// minimise the energy at every moment.
+/// l_i = (l_{i-1} + l_i) / 2, at the clamp
+///
+///   1 / (2 l_0) [k1 B1 (..)_x^2 + 2 C (..)_y^2 + k2 B2 (..)_z^2 + k2 B2 (..)^2],
+///
+/// k1 and k2 being of hair_reference_rod_clamp_factor(). The last term makes the energy grow with the angle
+/// from the rest shape up to half a turn, however bent the joint is at rest. The angles of the frames about
+/// their segments have no inertia: they minimise the energy at every moment.
 ///
 /// Vectors are xyz, quaternions xyzw; SI units. Positions are in the world where not in the head's frame.
 #ifndef HAIR_REFERENCE_ROD_H
@@ -51,6 +55,7 @@ struct hair_reference_rod_desc {
     double        twist;       ///< C. N m^2.
     const double* scale;       ///< Per vertex, of all three. NULL: 1.
     const double* rest_strain; ///< U, of vertices - 1 joints. NULL: 0.
+    const double* rest_real;   ///< 2 w0, of vertices - 1 joints. NULL: (4 - |U|^2)^(1/2), 0 if |U| > 2.
     int           straight;    ///< 1: u is the difference of the unit tangents, B1 alone, no frames, U = 0.
 
     enum hair_reference_rod_root root;
@@ -158,10 +163,10 @@ uint32_t hair_reference_rod_modes(const struct hair_reference_rod* rod, uint32_t
 /// the root frame by the least rotation: with this as rest strain the shape is that without load.
 void hair_reference_rod_strain(uint32_t vertices, const double* positions, const double root_frame[4],
                                double* strain);
-/// The rest strain with which `desc`, clamped and not straight, is at rest in its own pose, whatever rest
-/// strain it has: gravity and pull are in balance at every joint, stable or not (hair_reference_rod_stability).
-/// 0 when there is none.
-int hair_reference_rod_hold(const struct hair_reference_rod_desc* desc, double* strain);
+/// Find the rest strain and `rest_real` with which `desc`, clamped and not straight, is at rest in its own
+/// pose, whatever those of `desc` are. Gravity and pull are in balance at every joint, stable or not
+/// (hair_reference_rod_stability). `real` is that of the pose itself. Return 0 when there are none.
+int hair_reference_rod_hold(const struct hair_reference_rod_desc* desc, double* strain, double* real);
 
 #ifdef __cplusplus
 }

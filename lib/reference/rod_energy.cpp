@@ -55,7 +55,9 @@ hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& r
     joint.v               = sign * r.vec();
     const Vector3d excess = 2 * joint.v - rod.rest_strain[i];
     joint.g               = rod.stiffness[i].cwiseProduct(excess);
-    joint.energy          = joint.g.dot(excess) / 2;
+    const double off      = 2 * joint.w - rod.rest_real[i];
+    joint.e               = hair_reference_rod_real_stiffness(rod, i) * off;
+    joint.energy          = (joint.g.dot(excess) + joint.e * off) / 2;
     return joint;
 }
 
@@ -69,7 +71,8 @@ struct expansion {
     std::vector<double> slope, diagonal, beside; // beside[j]: of segments j and j + 1
 };
 
-// Turning segments i-1 and i by a and b about their y makes of r = (w, v) exp(-y a/2) r exp(y b/2).
+// Turning segments i-1 and i by a and b about their y makes of r = (w, v) exp(-y a/2) r exp(y b/2). This
+// changes 2 w by v.y (a - b) - w (a - b)^2 / 4.
 expansion expand(const hair_reference_rod& rod)
 {
     const uint32_t n = rod.segments();
@@ -80,16 +83,17 @@ expansion expand(const hair_reference_rod& rod)
             hair_reference_rod_joint_at(rod, i, hair_reference_rod_before(rod, i), rod.frames[i]);
         const Vector3d by_a(-j.v.z(), -j.w, j.v.x()); // -(w y + y x v)
         const Vector3d by_b(-j.v.z(), j.w, j.v.x());  //   w y + v x y
-        const Vector3d k = rod.stiffness[i];
-        const double   c = -0.5 * j.g.dot(j.v);
+        const Vector3d k       = rod.stiffness[i];
+        const double   of_real = hair_reference_rod_real_stiffness(rod, i) * j.v.y() * j.v.y();
+        const double   c       = of_real - 0.5 * (j.g.dot(j.v) + j.e * j.w);
         e.energy += j.energy;
-        e.slope[i] += j.g.dot(by_b);
+        e.slope[i] += j.g.dot(by_b) - j.e * j.v.y();
         e.diagonal[i] += by_b.dot(k.cwiseProduct(by_b)) + c;
         if (i == 0) continue; // The scalp does not turn.
-        e.slope[i - 1] += j.g.dot(by_a);
+        e.slope[i - 1] += j.g.dot(by_a) + j.e * j.v.y();
         e.diagonal[i - 1] += by_a.dot(k.cwiseProduct(by_a)) + c;
-        e.beside[i - 1] += by_a.dot(k.cwiseProduct(by_b)) -
-                           0.5 * (j.g.x() * j.v.x() - j.g.y() * j.v.y() + j.g.z() * j.v.z());
+        e.beside[i - 1] += by_a.dot(k.cwiseProduct(by_b)) - of_real -
+                           0.5 * (j.g.x() * j.v.x() - j.g.y() * j.v.y() + j.g.z() * j.v.z() - j.e * j.w);
     }
     return e;
 }
@@ -193,12 +197,12 @@ void hair_reference_rod_update(hair_reference_rod& rod)
     rod.energy = 0;
     if (rod.straight) return update_straight(rod);
     settle_twist(rod);
-    // Turning segment i by d changes u by w d' + d' x v, d' as segment i-1 sees d. With no torque about the
-    // segments, how the frames turn about them as the segments move does not matter.
+    // Turning segment i by d changes u by w d' + d' x v and 2 w by -v.d', d' as segment i-1 sees d. With no
+    // torque about the segments, how the frames turn about them as the segments move does not matter.
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
         const Quaterniond              before = hair_reference_rod_before(rod, i);
         const hair_reference_rod_joint j      = hair_reference_rod_joint_at(rod, i, before, rod.frames[i]);
-        const Vector3d                 torque = -(before * (j.w * j.g + j.v.cross(j.g)));
+        const Vector3d                 torque = -(before * (j.w * j.g + j.v.cross(j.g) - j.e * j.v));
         rod.energy += j.energy;
         couple(rod, i, torque);
         if (i > 0) couple(rod, i - 1, -torque);

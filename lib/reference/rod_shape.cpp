@@ -10,8 +10,13 @@ Vector3d strain_of(const Quaterniond& before, const Quaterniond& after)
     return r.w() < 0 ? Vector3d(-2 * r.vec()) : Vector3d(2 * r.vec());
 }
 
-// The torque of a joint on the segment after it is -(w g + v x g), as the segment before sees it. What g it
-// takes for the torque `wanted`:
+double real_of(const Quaterniond& before, const Quaterniond& after)
+{
+    return std::fabs(2 * (before.conjugate() * after).w());
+}
+
+// The torque of a joint on the segment after it is -(w g + v x g), as the segment before sees it, where 2 w
+// is as at rest. Return the g that gives the torque `wanted`.
 Vector3d stress_for(const Quaterniond& before, const Quaterniond& after, const Vector3d& wanted)
 {
     const Vector3d u = strain_of(before, after), v = u / 2;
@@ -37,7 +42,7 @@ void hair_reference_rod_strain(uint32_t vertices, const double* positions, const
 // Cut at joint i, the part beyond is in balance when the joint's torque on it is that of its weight about
 // vertex i, less. Segment by segment from the tip: the torque at its start is that at its end and that of the
 // couple which the load F beyond makes with its length, l t x F.
-int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain)
+int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain, double* real)
 {
     hair_reference_rod* rod = hair_reference_rod_create(desc);
     const bool          fit = rod && !rod->straight && rod->root == HAIR_REFERENCE_ROD_CLAMPED;
@@ -58,6 +63,7 @@ int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain)
             for (int k = 0; k < 3; ++k)
                 if (rod->stiffness[j][k] > 0) excess[k] = stress[k] / rod->stiffness[j][k];
             store(Vector3d(strain_of(before, after) - excess), strain + 3 * j);
+            real[j] = real_of(before, after);
         }
     }
     hair_reference_rod_destroy(rod);

@@ -20,6 +20,7 @@ struct hair_reference_rod {
     double                  bend[2], twist;
     std::vector<double>     scale;
     std::vector<Vector3d>   rest_strain;
+    std::vector<double>     rest_real; // 2 w at rest
     bool                    straight, plain_clamp;
     hair_reference_rod_root root;
     Quaterniond             root_frame; // in the head's frame, as the root's place is:
@@ -45,12 +46,18 @@ struct hair_reference_rod {
     double      inverse_mass(uint32_t i) const { return i == 0 && is_held() ? 0 : 1 / masses[i]; }
 };
 
-// A joint's strain and what follows from it: g = dE/du.
+// A joint's strain and what follows from it: g = dE/du, e = dE/d(2 w).
 struct hair_reference_rod_joint {
     double   w;
     Vector3d v, g;
-    double   energy;
+    double   e, energy;
 };
+
+// The stiffness of a joint by 2 w: that by the strain about z.
+static inline double hair_reference_rod_real_stiffness(const hair_reference_rod& rod, uint32_t joint)
+{
+    return rod.stiffness[joint].z();
+}
 
 static inline Vector3d along(const Quaterniond& q)
 {

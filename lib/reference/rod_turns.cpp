@@ -28,26 +28,29 @@ void add_load(hair_reference_turns& t, uint32_t j, const Vector3d& f)
 }
 
 // r = (w, v) becomes exp(-a/2) r exp(b/2) as the segments before and after turn by a and b. To second order
-// that is r + (r b - a r) / 2 - (|a|^2 + |b|^2) r / 8 - a r b / 4, and u twice its vector.
+// that is r + (r b - a r) / 2 - (|a|^2 + |b|^2) r / 8 - a r b / 4, and u twice its vector. 2 w becomes
+//
+//   2 w + v.(a - b) - (|a|^2 + |b|^2) w / 4 + (w a.b + a.(v x b)) / 2
 void add_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& t)
 {
     const hair_reference_rod_joint j =
         hair_reference_rod_joint_at(rod, i, hair_reference_rod_before(rod, i), rod.frames[i]);
     const Matrix3d turn = cross_matrix(j.v), one = Matrix3d::Identity();
     const Matrix3d by_a = -(j.w * one - turn), by_b = j.w * one + turn;
-    const Matrix3d k = rod.stiffness[i].asDiagonal(), c = -0.5 * j.g.dot(j.v) * one;
+    const Matrix3d of_real = hair_reference_rod_real_stiffness(rod, i) * j.v * j.v.transpose();
+    const Matrix3d k = rod.stiffness[i].asDiagonal(), c = of_real - 0.5 * (j.g.dot(j.v) + j.e * j.w) * one;
     const int      n = int(i);
     t.energy += j.energy;
     t.size = std::fmax(t.size,
                        rod.stiffness[i].maxCoeff()); // Strains are good to a share of 1, not of themselves.
-    add_slope(t, i, by_b.transpose() * j.g);
+    add_slope(t, i, by_b.transpose() * j.g - j.e * j.v);
     t.curvature.add(n, n, by_b.transpose() * k * by_b + c);
     if (i == 0) return; // The scalp does not turn.
-    add_slope(t, i - 1, by_a.transpose() * j.g);
+    add_slope(t, i - 1, by_a.transpose() * j.g + j.e * j.v);
     t.curvature.add(n - 1, n - 1, by_a.transpose() * k * by_a + c);
     const Matrix3d a_r_b = -j.v * j.g.transpose() - j.g * j.v.transpose() + j.g.dot(j.v) * one -
                            j.w * cross_matrix(j.g); // g (a r b), by a and b
-    const Matrix3d mixed = by_a.transpose() * k * by_b - 0.5 * a_r_b;
+    const Matrix3d mixed = by_a.transpose() * k * by_b - of_real - 0.5 * a_r_b + 0.5 * j.e * by_b;
     t.curvature.add(n, n - 1, mixed.transpose());
 }
 

@@ -8,7 +8,8 @@
 
 struct hair_test_plane {
     struct hair_reference_rod_desc desc; // Must stay where it is: it points into the arrays.
-    double positions[3 * HAIR_TEST_MOST], lengths[HAIR_TEST_MOST], strain[3 * HAIR_TEST_MOST];
+    double                         positions[3 * HAIR_TEST_MOST], lengths[HAIR_TEST_MOST];
+    double                         strain[3 * HAIR_TEST_MOST], real[HAIR_TEST_MOST];
 };
 
 // Straight, in the plane of x and y, `angle` from straight down (pi / 2: along x), gravity `gamma` along -y.

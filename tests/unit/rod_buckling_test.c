@@ -129,8 +129,9 @@ static double held(double gamma, uint32_t segments, const void* user)
     const double*          angle = user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, *angle * PI / 180, gamma);
-    assert_true(hair_reference_rod_hold(&p.desc, p.strain));
+    assert_true(hair_reference_rod_hold(&p.desc, p.strain, p.real));
     p.desc.rest_strain                   = p.strain;
+    p.desc.rest_real                     = p.real;
     struct hair_reference_rod* rod       = hair_test_rod(&p.desc);
     double                     stability = hair_reference_rod_stability(rod);
     hair_reference_rod_destroy(rod);

@@ -66,7 +66,7 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double                p[3 * 20], strain[3 * 20], most = 0;
+    double                p[3 * 20], strain[3 * 20], real[20], most = 0;
     hair_test_rod_curl(f, 20, 0.002);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 0);
@@ -81,7 +81,7 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
     desc.twist                  = ratio[1] * desc.bend[0];
     for (int k = 0; k < 3; ++k) desc.gravity[k] = (double)f->physics.gravity[k];
     for (int k = 0; k < 4; ++k) desc.root_frame[k] = (double)(&f->guide.root_frame.x)[k];
-    assert_true(hair_reference_rod_hold(&desc, strain));
+    assert_true(hair_reference_rod_hold(&desc, strain, real));
     for (int i = 0; i < 57; ++i)
         if (i != 1)
             hair_test_near("strain", (size_t)i, (double)(&f->rod[i / 3].strain.x)[i % 3], strain[i], 5e-6);

@@ -2,6 +2,9 @@
 #include "tools/bench/scene.h"
 
 #include <math.h>
+#include <stdbool.h>
+
+#include "lib/sim/rod.h"
 
 struct bench_scene bench_scene_default(void)
 {
@@ -124,6 +127,29 @@ static int is_straight(const struct bench_scene* scene, const double* strain)
     return scene->physics.flatness == 1 && most < 1e-4;
 }
 
+// Return whether the mixed scheme solves the strand, which is straight. Only the scheme of straight rods has
+// the energy of the chord between tangents.
+static bool is_mixed(const struct bench_scene* scene, const double root_frame[4])
+{
+    struct hair_rest        rest[BENCH_MOST_VERTICES]  = {0};
+    struct hair_rod_borne   borne[BENCH_MOST_VERTICES] = {0};
+    struct hair_rods_report report;
+    const hair_vec4         frame = {(float)root_frame[0], (float)root_frame[1], (float)root_frame[2],
+                                     (float)root_frame[3]};
+    struct hair_guide       guide = {.root_frame = frame, .count = scene->vertices};
+    if (scene->solver != HAIR_SOLVER_DIRECT && scene->solver != HAIR_SOLVER_ACCURATE) return false;
+    for (uint32_t i = 0; i < scene->vertices; ++i) {
+        const float* p   = scene->positions + 3 * i;
+        bool         tip = i + 1 == scene->vertices;
+        rest[i].position =
+            (hair_vec4){p[0], p[1], p[2], tip ? 0 : hypotf(hypotf(p[3] - p[0], p[4] - p[1]), p[5] - p[2])};
+        rest[i].frame = frame;
+        guide.arc_length += rest[i].position.w;
+    }
+    hair_rods_hold(&guide, rest, 1, &scene->physics, borne, &report);
+    return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->substep);
+}
+
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
 {
     double                         positions[3 * BENCH_MOST_VERTICES], strain[3 * BENCH_MOST_VERTICES];
@@ -146,8 +172,8 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     desc.bend[1]      = section.bend[1];
     desc.twist        = section.twist;
     desc.scale        = scale;
-    desc.straight     = is_straight(scene, strain);
-    desc.rest_strain  = desc.straight ? NULL : strain;
+    desc.rest_strain  = is_straight(scene, strain) ? NULL : strain;
+    desc.straight     = !desc.rest_strain && !is_mixed(scene, desc.root_frame);
     desc.root         = (enum hair_reference_rod_root)p->root;
     desc.damping      = (double)p->damping;
     desc.pull         = pull;
