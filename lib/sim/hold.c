@@ -19,11 +19,11 @@
 // Where three times is not enough, the guide holds another pose, which sags. The candidates are the
 // poses y(t) in which a guide three times as stiff rests under t times the gravity, with the groom
 // as its rest shape. y(0) is the groom, and y(1) is stable because it is at rest. In the pose y(t)
-// the rest strain again balances the whole gravity; this is exact however roughly y(t) was
-// computed, so one step of Newton's method for each t is enough. The least t is taken whose pose is
-// stable, and to which the guide falls when it is released from its groom. Measured over the
-// built-in haircuts, other ways from the groom to a hanging pose sag farther: gravity on a part of
-// the strand only, or a pull to the groom that weakens.
+// the rest strain again balances the whole gravity, with the 2 w0 of rod.h from that pose. This is
+// exact however roughly y(t) was computed, so one step of Newton's method for each t is enough. The
+// least t is taken whose pose is stable, and to which the guide falls when it is released from its
+// groom. Measured over the built-in haircuts, other ways from the groom to a hanging pose sag
+// farther: gravity on a part of the strand only, or a pull to the groom that weakens.
 #include "lib/sim/statics.h"
 
 #include <string.h>
@@ -42,8 +42,8 @@ struct search {
     struct hair_rod_pose   pose;
     double                 bend[HAIR_MAX_GUIDE_VERTICES];  // stiffness of the material
     double                 lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
-    hair_dvec3             own[HAIR_MAX_GUIDE_VERTICES];   // strain of the groom
-    hair_dvec3             rest[HAIR_MAX_GUIDE_VERTICES];  // strain that makes the pose an equilibrium
+    hair_rod_rest          own[HAIR_MAX_GUIDE_VERTICES];   // rest shape that is the groom
+    hair_rod_rest          rest[HAIR_MAX_GUIDE_VERTICES];  // rest shape that makes the pose an equilibrium
 };
 
 static void find_levers(const struct hair_rod_shape* s, double* lever)
@@ -64,7 +64,14 @@ static void stiffen(struct search* a, double c)
         s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MOST_STIFFEN, 1 + c * a->lever[i]);
 }
 
-// Return whether the pose can be held. Set `rest` to the strain that does.
+// Return how far the rest strain is from the groom's own.
+static hair_dvec3 strain_off(const struct search* a, uint32_t i)
+{
+    hair_rod_rest own = a->own[i], rest = a->rest[i];
+    return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
+}
+
+// Return whether the pose can be held. Set `rest` to the rest shape that does.
 static int holds(struct search* a, double margin)
 {
     const struct hair_rod_shape* s = a->shape;
@@ -73,10 +80,9 @@ static int holds(struct search* a, double margin)
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
         hair_dquat t = a->pose.turn[i];
-        a->rest[i]   = (hair_dvec3){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
-                                    2 * t.z - g.z / s->ratio[2]};
-        if (!(hair_dlength(hair_dadd(a->rest[i], hair_dscale(a->own[i], -1))) <= HAIR_ROD_MOST_STRAIN))
-            return 0;
+        a->rest[i]   = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
+                                       2 * t.z - g.z / s->ratio[2], 2 * t.w};
+        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return 0;
     }
     hair_rod_load(s, margin, &a->pose);
     hair_rod_balance(s, &a->pose);
@@ -149,7 +155,7 @@ static int is_reached(const struct search* a)
     return distance(a, released.place) < SAME * length;
 }
 
-// Find the pose to hold and its rest strain. Return the distance from the groom.
+// Find the pose to hold and its rest shape. Return the distance from the groom.
 static double sag(struct search* a)
 {
     double t = find_pose(a);
@@ -159,7 +165,7 @@ static double sag(struct search* a)
         t = fmin(t + STEP, 1);
         holds_at(a, t);
     }
-    // The rest strain bears nothing then, and the guide hangs.
+    // The rest shape bears nothing then, and the guide hangs.
     memcpy(a->rest, a->own, sizeof a->rest);
     hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
     hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
@@ -178,19 +184,19 @@ static void start(struct search* a, struct hair_rod_shape* s)
     a->shape = s;
     memcpy(a->bend, s->bend, s->count * sizeof *a->bend);
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        a->own[i] = (hair_dvec3){2 * s->turn[i].x, 2 * s->turn[i].y, 2 * s->turn[i].z};
+        a->own[i] = (hair_rod_rest){2 * s->turn[i].x, 2 * s->turn[i].y, 2 * s->turn[i].z, 2 * s->turn[i].w};
     find_levers(s, a->lever);
     hair_rod_pose_at(s, s->frame, &a->pose);
 }
 
-// Set the stress to that of the rest strain in the groom.
+// Set the stress to that of the rest strain in the groom, and rest_real.
 static void finish(struct search* a)
 {
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 u =
-            hair_dscale(hair_dadd(a->own[i], hair_dscale(a->rest[i], -1)), hair_rod_stiffness(s, i));
-        s->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        hair_dvec3 u    = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
+        s->stress[i]    = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        s->rest_real[i] = a->rest[i].w;
     }
 }
 

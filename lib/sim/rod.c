@@ -151,7 +151,7 @@ static void write_mixed(const struct hair_rod_shape* s, double h, struct hair_ro
         if (i + 1 < s->count) k = fmin(k, stiffer * most_stiffness(s, i, h));
         out[i] = (struct hair_rod){.strain  = rest_strain(s, i, k),
                                    .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i],
-                                                i + 1 < s->count ? (float)(2 * s->turn[i].w) : 0}};
+                                                (float)s->rest_real[i]}};
     }
 }
 
@@ -202,7 +202,8 @@ void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* res
         struct hair_rod_held held = hair_rod_hold(&shape);
         for (uint32_t i = 0; i < shape.count; ++i) {
             hair_dvec3 g = shape.stress[i];
-            own[i] = (struct hair_rod_borne){{g.x, g.y, g.z}, bend[i] > 0 ? shape.bend[i] / bend[i] : 1};
+            own[i]       = (struct hair_rod_borne){
+                {g.x, g.y, g.z}, shape.rest_real[i], bend[i] > 0 ? shape.bend[i] / bend[i] : 1};
         }
         report->stiffened += held.stiffest > 1;
         report->sagging += (uint32_t)held.sags;

@@ -4,7 +4,10 @@
 // u_i = 2 Im(conj(q_(i-1)) q_i), q_i the frame of the segment after vertex i (of the scalp at i = -1), real part
 // positive, the energy of vertex i is
 //
-//   strain.w / 2 ((u - strain) . R (u - strain)),   R = diag(ratio)
+//   strain.w / 2 ((u - strain) . R (u - strain) + R_z (2 w - 2 w0)^2),   R = diag(ratio)
+//
+// w is the real part and 2 w0 its double at rest. The scheme of straight rods leaves the last term out: see
+// glsl/sim/mixed.glsl for what it is good for.
 #ifndef HAIR_SIM_ROD_H
 #define HAIR_SIM_ROD_H
 
@@ -21,6 +24,7 @@ void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
 // What holds a guide's groom against gravity, for each vertex.
 struct hair_rod_borne {
     double stress[3]; // derivative of the vertex's energy by its strain in the groom
+    double rest_real; // 2 w0: 2 w in the pose that the guide holds
     double stiffen;   // multiple of the stiffness, 1 to 3
 };
 

@@ -78,6 +78,7 @@ static void find_turns(struct hair_rod_shape* s, const struct hair_guide* guide,
         s->frame[i]     = frame_of(&rest[i].frame, hair_dadd(to, hair_dscale(from, -1)));
         hair_dquat r    = hair_dmultiply(hair_dconjugate(before), s->frame[i]);
         s->turn[i]      = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
+        s->rest_real[i] = 2 * s->turn[i].w;
         before          = s->frame[i];
         s->place[i + 1] = hair_dadd(s->place[i], hair_dscale(along(s->frame[i]), s->length[i]));
     }
@@ -94,6 +95,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
         out->tied[i]   = 0;
         out->stress[i] = (hair_dvec3){0, 0, 0};
     }
+    out->rest_real[out->count - 1] = 0;
     // Only from a clamp can a strand stand out: from a hinge it hangs, and free it falls, bearing nothing.
     out->load = hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->hold : 0);
     find_masses(out, rest, physics);
@@ -130,7 +132,8 @@ hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, doubl
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne)
 {
     for (uint32_t i = 0; i < shape->count; ++i) {
-        shape->stress[i] = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
+        shape->stress[i]    = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
+        shape->rest_real[i] = borne[i].rest_real;
         shape->bend[i] *= borne[i].stiffen;
     }
 }

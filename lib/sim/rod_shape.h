@@ -71,9 +71,11 @@ struct hair_rod_shape {
     hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];   // from the frame of segment i-1 to that of i, w >= 0
     hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES];  // of vertex i in the groom, from the root
     hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of vertex i's energy by its strain in the groom
+    double     rest_real[HAIR_MAX_GUIDE_VERTICES]; // 2 w at rest, w the real part of `turn`: see rod.h
 };
 
-// `rest` is that of the guide. The stress is 0: hair_rod_hold() or hair_rod_bear() set it.
+// `rest` is that of the guide. The stress is 0 and rest_real is the groom's: hair_rod_hold() or
+// hair_rod_bear() set them.
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out);
 
@@ -90,8 +92,8 @@ double hair_rod_longest_taut(const struct hair_rod_shape* shape);    // b that i
 void   hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
 double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
 
-// hold.c. Set the stress of a new shape so that it holds its groom, and multiply its bending
-// stiffness for that by 1 to 3, vertex by vertex. With more than that the groom would still be
+// hold.c. Set stress and rest_real of a new shape so that it holds its groom, and multiply its
+// bending stiffness for that by 1 to 3, vertex by vertex. With more than that the groom would still be
 // unstable, or a rest strain further than 1 from the groom's own: then the guide is three times as
 // stiff and sags as little as leads to a stable pose.
 #define HAIR_ROD_MOST_STIFFEN 3.0

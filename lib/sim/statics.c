@@ -10,8 +10,9 @@
 //   M_i = M_(i+1) + l_i t_i x F_i,   M_(n-1) = 0
 //
 // Let (w, v) = conj(q_(i-1)) q_i. Turning segment i by d, as segment i-1 sees it, changes the
-// strain 2 v by w d + d x v. The stress G = dE/du thus exerts the moment M = w G + v x G.
-// Conversely, the stress for a moment is
+// strain 2 v by w d + d x v, and 2 w by -v . d. The stress G = dE/du and e = dE/d(2 w) thus exert
+// the moment M = w G + v x G - e v. In a pose whose 2 w are those at rest e is 0. The stress for a
+// moment is then
 //
 //   G = w M + v (v . M) / w - v x M
 //
@@ -76,32 +77,37 @@ void hair_rod_balance(const struct hair_rod_shape* s, struct hair_rod_pose* pose
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 lever = {s->length[i] * pose->force[i].z, 0, -s->length[i] * pose->force[i].x};
         moment = hair_drotate(pose->turn[i], hair_dadd(moment, lever)); // As the segment before sees it.
-        pose->stress[i] = stress_for(pose->turn[i], moment);
+        pose->stress[i]      = stress_for(pose->turn[i], moment);
+        pose->real_stress[i] = 0;
     }
 }
 
-static hair_dvec3 strain_from(hair_dvec3 rest, hair_dquat turn)
+// Return what a turn differs from the rest shape by.
+static hair_dquat excess_of(hair_rod_rest rest, hair_dquat turn)
 {
-    return hair_dadd(hair_dscale(axis_of(turn), 2), hair_dscale(rest, -1));
+    return (hair_dquat){2 * turn.x - rest.x, 2 * turn.y - rest.y, 2 * turn.z - rest.z, 2 * turn.w - rest.w};
 }
 
-void hair_rod_strain(const struct hair_rod_shape* s, const hair_dvec3* rest_strain,
-                     struct hair_rod_pose* pose)
+void hair_rod_strain(const struct hair_rod_shape* s, const hair_rod_rest* rest, struct hair_rod_pose* pose)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 u    = hair_dscale(strain_from(rest_strain[i], pose->turn[i]), hair_rod_stiffness(s, i));
-        pose->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        hair_dquat    u      = excess_of(rest[i], pose->turn[i]);
+        double        k      = hair_rod_stiffness(s, i);
+        const double* r      = s->ratio;
+        pose->stress[i]      = (hair_dvec3){k * r[0] * u.x, k * r[1] * u.y, k * r[2] * u.z};
+        pose->real_stress[i] = k * r[2] * u.w;
     }
 }
 
-static double energy_of(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+static double energy_of(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
                         const struct hair_rod_pose* pose)
 {
     double energy = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 u    = strain_from(rest_strain[i], pose->turn[i]);
+        hair_dquat u    = excess_of(rest[i], pose->turn[i]);
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
-        double     bent = s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * u.z * u.z;
+        double     bent =
+            s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * (u.z * u.z + u.w * u.w);
         energy += hair_rod_stiffness(s, i) / 2 * bent;
         energy -= s->mass[i + 1] * gravity * hair_ddot(s->load, pose->place[i + 1]);
         energy += s->mass[i + 1] * s->pull[i + 1] / 2 * hair_ddot(back, back);
@@ -109,18 +115,23 @@ static double energy_of(const struct hair_rod_shape* s, const hair_dvec3* rest_s
     return energy;
 }
 
+// Return the derivative of vertex i's energy by the turn of the segment after it, and with a `side`
+// of -1 by that of the segment before, as these segments see it.
+static hair_dvec3 slope_at(const struct hair_rod_pose* pose, uint32_t i, int side)
+{
+    hair_dvec3 g = pose->stress[i], v = axis_of(pose->turn[i]);
+    hair_dvec3 own = hair_dadd(hair_dscale(g, pose->turn[i].w), hair_dscale(v, -pose->real_stress[i]));
+    return hair_dadd(hair_dscale(own, side), hair_dcross(g, v));
+}
+
 // Set `out` to the derivative of the energy by the turns. Return the greatest torque.
 static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, hair_dvec3* out)
 {
     double most = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 g = pose->stress[i], f = hair_dscale(pose->force[i], s->length[i]);
-        hair_dvec3 slope = hair_dadd(hair_dscale(g, pose->turn[i].w), hair_dcross(g, axis_of(pose->turn[i])));
-        slope            = hair_dadd(slope, (hair_dvec3){-f.z, 0, f.x});
-        if (i + 2 < s->count) {
-            hair_dvec3 n = pose->stress[i + 1], across = hair_dcross(n, axis_of(pose->turn[i + 1]));
-            slope = hair_dadd(slope, hair_dadd(hair_dscale(n, -pose->turn[i + 1].w), across));
-        }
+        hair_dvec3 f = hair_dscale(pose->force[i], s->length[i]), slope = {-f.z, 0, f.x};
+        slope = hair_dadd(slope, slope_at(pose, i, 1));
+        if (i + 2 < s->count) slope = hair_dadd(slope, slope_at(pose, i + 1, -1));
         out[i] = slope;
         most   = fmax(most, hair_dlength(slope));
     }
@@ -144,23 +155,23 @@ static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, cons
 }
 
 // Take a step along the turns that does not raise the energy. Return 0 when there is none.
-static int descend(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
                    const hair_dvec3* turns, struct hair_rod_pose* pose)
 {
     hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
-    double     before = energy_of(s, rest_strain, gravity, pose), most = 0;
+    double     before = energy_of(s, rest, gravity, pose), most = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) most = fmax(most, hair_dlength(turns[i]));
     double share = fmin(1, LONGEST_TURN / most);
     memcpy(from, pose->frame, s->count * sizeof *from);
     for (int k = 0; k < HALVINGS; ++k, share /= 2) {
         turn_by(s, from, turns, share, pose);
-        if (energy_of(s, rest_strain, gravity, pose) <= before + ROUNDING * fabs(before)) return 1;
+        if (energy_of(s, rest, gravity, pose) <= before + ROUNDING * fabs(before)) return 1;
     }
     turn_by(s, from, turns, 0, pose);
     return 0;
 }
 
-double hair_rod_settle(const struct hair_rod_shape* s, const hair_dvec3* rest_strain, double gravity,
+double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
                        uint32_t steps, struct hair_rod_pose* pose)
 {
     hair_dvec3 slope[HAIR_MAX_GUIDE_VERTICES], turns[HAIR_MAX_GUIDE_VERTICES];
@@ -172,7 +183,7 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_dvec3* rest_st
     double torque = s->weight * length;
     for (uint32_t k = 0;; ++k) {
         hair_rod_load(s, gravity, pose);
-        hair_rod_strain(s, rest_strain, pose);
+        hair_rod_strain(s, rest, pose);
         left         = find_slope(s, pose, slope) / torque;
         double shift = 0;
         if (k == steps || (left < AT_REST && hair_rod_is_stable(s, pose, 0))) return left;
@@ -182,6 +193,6 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_dvec3* rest_st
             shift = fmax(SHIFT_GROWTH * shift, FIRST_SHIFT * stiffness);
             if (!(shift < LAST_SHIFT * stiffness)) return left;
         }
-        if (!descend(s, rest_strain, gravity, turns, pose)) return left;
+        if (!descend(s, rest, gravity, turns, pose)) return left;
     }
 }

@@ -1,11 +1,12 @@
 // variation.c - a rod's energy to second order in the turns of its segments: what is stable, and
 // Newton's step.
 //
-// The forces F_i, the stress G and (w, v) are those of statics.c. Let segment i turn by a_i, as its
-// own frame sees it: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex, k
-// its stiffness and R the ratios of rod.h. To second order the vertex's energy changes by
+// The forces F_i, the stress G, e and (w, v) are those of statics.c. Let segment i turn by a_i, as
+// its own frame sees it: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex,
+// k its stiffness and R the ratios of rod.h. To second order the vertex's energy changes by
 //
-//   G . du + k/2 du . R du - (G . v) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2
+//   G . du + k/2 du . R du - (G . v + e w) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2
+//     + e v . (a - b) + k R_z/2 (v . (a - b))^2 + e/2 a . (w + [v]x) b
 //   du = (w + [v]x) b - (w - [v]x) a
 //
 // The force F on a segment of length l along y changes the energy by
@@ -92,29 +93,33 @@ struct hinge {
     struct block before, between, after; // of turns a a, b a, b b
 };
 
-static struct hinge hinge_of(const double* ratio, double stiffness, hair_dquat t, hair_dvec3 stress)
+static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
-    const double v[3] = {t.x, t.y, t.z}, g[3] = {stress.x, stress.y, stress.z}, w = t.w;
-    const double by_b[3][3]   = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
-    const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
-    const double strained     = g[0] * v[0] + g[1] * v[1] + g[2] * v[2];
-    double       by_a[3][3], with_b[3][3]; // du by a, negative, and by b; times the stiffness
-    struct hinge h;
+    const hair_dquat t    = pose->turn[i];
+    const hair_dvec3 q    = pose->stress[i];
+    const double     v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
+    const double     by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
+    const double     turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
+    const double     strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
+    double           by_a[3][3], with_b[3][3]; // du by a, negative, and by b; times the stiffness
+    struct hinge     h;
     for (int n = 0; n < 3; ++n)
         for (int c = 0; c < 3; ++c) {
-            by_a[n][c]   = stiffness * ratio[n] * by_b[c][n];
-            with_b[n][c] = stiffness * ratio[n] * by_b[n][c];
+            by_a[n][c]   = stiffness * s->ratio[n] * by_b[c][n];
+            with_b[n][c] = stiffness * s->ratio[n] * by_b[n][c];
         }
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) {
             const double* row  = by_b[r];
-            double        same = r == c ? strained / 2 : 0;
+            double        same = r == c ? strained / 2 : 0, self = r == c ? (strained + e * w) / 2 : 0;
+            double        real = stiffness * s->ratio[2] * v[r] * v[c];
             double        aa   = row[0] * by_a[0][c] + row[1] * by_a[1][c] + row[2] * by_a[2][c];
             double        ab   = row[0] * with_b[0][c] + row[1] * with_b[1][c] + row[2] * with_b[2][c];
             double bb = by_b[0][r] * with_b[0][c] + by_b[1][r] * with_b[1][c] + by_b[2][r] * with_b[2][c];
-            h.before.m[r][c]  = aa - same;
-            h.between.m[c][r] = (w * turned[r][c] + v[r] * g[c] + g[r] * v[c]) / 2 - same - ab;
-            h.after.m[r][c]   = bb - same;
+            h.before.m[r][c] = aa + real - self;
+            h.between.m[c][r] =
+                (w * turned[r][c] + v[r] * g[c] + g[r] * v[c] + e * row[c]) / 2 - same - ab - real;
+            h.after.m[r][c] = bb + real - self;
         }
     return h;
 }
@@ -165,7 +170,7 @@ struct matrix {
 static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
                      struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
 {
-    struct hinge h     = hinge_of(s->ratio, hair_rod_stiffness(s, i), pose->turn[i], pose->stress[i]);
+    struct hinge h     = hinge_of(s, pose, i);
     struct block swing = swing_of(s, pose, i);
     double       pull  = s->mass[i + 1] * (s->pull[i + 1] - matrix.squared_frequency);
     for (int r = 0; r < 3; ++r) v->xx.m[r][r] += pull;
