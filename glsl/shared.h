@@ -308,7 +308,8 @@ struct hair_rod {
     // segment 0): 2 Im(conj(q_(i-1)) q_i); w: bending stiffness over the length it is for, m^3/s^2
     hair_vec4 strain;
     // x: length of segment i, m (0 for the tip); y: 1 / mass, 1/m; z: pull squared, 1/s^2; w: of a first vertex, how
-    // accurate takes it: 0 explicitly, 1 by BDF2, 2 by implicit Euler, for a heavy tip pulls it taut
+    // accurate takes it: 0 explicitly, 1 by BDF2, 2 by implicit Euler, for a heavy tip pulls it taut. For the mixed
+    // scheme, of every vertex: 2 w0, twice the real part of that quaternion at rest (0 for the tip)
     hair_vec4 segment;
     // Rows of L D L^T of the implicit systems: x: 1/D, y: L(i+1,i), z: L(i+2,i). Of the solver's own method, w: the
     // number of the first tie beyond this vertex, from 1, or 0; and of implicit Euler, to which it falls back
