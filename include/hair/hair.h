@@ -330,8 +330,8 @@ typedef struct hair_physics {
     float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
     /// Decay rate of the velocity of hair relative to the rigid motion of the hair around. Cohesion and volume keep the
     /// momentum and the angular momentum of all hair together. They do not reach hair that is off the head and farther
-    /// from it than it is long. 1/s. [0, 1000]. Default 0.
-    float cohesion;
+    /// from it than it is long.
+    float cohesion; ///< 1/s. [0, 1000]. Default 0.
     /// How hair resists being denser than at rest, as a gas does, by its speed of sound squared: it is e times as
     /// dense at the foot of a height of volume / gravity. At most what crosses half a cell of the grid, 1 cm or
     /// more, in 1/120 s.

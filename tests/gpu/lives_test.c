@@ -232,6 +232,8 @@ static void check_compiled(struct hair_test* test, int way)
         hair_gl_pass pass = rows[way];
         if (hair_sim_is_mixed(&hair->sim))
             pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);
+        else if (hair_sim_is_stiff(&hair->sim))
+            pass += HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE;
         pass = hair_gl_with(pass, (curved ? HAIR_GL_WITH(CURVED) : 0) | (solids ? HAIR_GL_WITH(SOLIDS) : 0));
         if (!hair_test_program(&context->gl, pass))
             fail_msg("%s curved %d, solids %d is not compiled", hair_gl_row_label(pass), curved, solids);

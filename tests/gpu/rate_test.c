@@ -207,7 +207,7 @@ static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
     compare("half", &full, &low, (struct bounds){0.04, 5e-4, 1e-4, 0.15});
     assert_int_equal(low.runs, FRAMES / 2);
     run(&f, at_quarter, NULL, &low);
-    compare("quarter", &full, &low, (struct bounds){0.08, 1e-3, 2.5e-4, 0.2});
+    compare("quarter", &full, &low, (struct bounds){0.08, 1e-3, 2.5e-4, 0.22});
     assert_int_equal(low.runs, FRAMES / 4);
     finish(&f);
 }

@@ -147,7 +147,7 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
         guide.arc_length += rest[i].position.w;
     }
     hair_rods_hold(&guide, rest, 1, &scene->physics, borne, &report);
-    return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->substep);
+    return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, scene->substep);
 }
 
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
