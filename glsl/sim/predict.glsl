@@ -13,7 +13,7 @@
 vec3 offset_of(uint i, int method, vec3 last)
 {
     if (IS_SHAKE(method) || LEAPS(method)) return vec3(0.0);
-    return own(slack) == 0.0 ? held_move(i) : IS_BACK(method) ? last / 3.0 : vec3(0.0);
+    return own(slack) == 0.0 ? held_move(i) : IS_BACK(method) ? last : vec3(0.0);
 }
 
 #ifdef HAIR_WIND
@@ -45,13 +45,15 @@ vec3 rate_from(uint i, int method)
 
 // x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
 // ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f), f of the end but for q.
+// BDF2 solves for q - (2/3) d, with f at x + d. The matrix K is that of a straight rod, and takes a bent one that turns for
+// stiffer than it is: so it acts on what is of second order alone, not on all that a substep turns.
 // A leap is x' = x + d + q, of the right side h^2 (m (g + c (u - v)) + f) with f of the start.
 void step_back(uint i, int method, vec3 force, vec3 bending)
 {
     float h = params.gravity.w, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
     bool  leaps = LEAPS(method);
     vec3  hv = rate_from(i, method), q = leaps ? -params.damping * h * hv : b * hv;
-    own(wanted) = leaps ? hv : IS_BACK(method) ? own(displacement) / 3.0 : vec3(0.0);
+    own(wanted) = leaps ? hv : IS_BACK(method) ? own(displacement) : vec3(0.0);
 #ifdef HAIR_WIND
     q += leaps ? drifts - by_parts(drags, hv) : b * b * drifts;
 #endif
@@ -59,6 +61,7 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 #ifdef HAIR_WIND
     PUT(moved, dragged_back(i, b, GET(moved)));
 #endif
+    if (IS_BACK(method) && !leaps) PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / own(slack) * own(displacement));
 }
 
 #ifdef KEEPS_RATES
