@@ -302,7 +302,8 @@ struct hair_rest {
 HAIR_SIZE(hair_rest, 48)
 
 // A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. Everything is divided by the mass
-// of a metre of hair, so that masses are lengths.
+// of a metre of hair, so that masses are lengths. Follow-the-leader reads strain and factors in its own way: strain has
+// what lib/sim/follow.c calls K r + a' and c, factor p, all over the inertia; factor_euler r and a rate of damping.
 struct hair_rod {
     // xyz: rest strain at the vertex, between the frames of segments i-1 and i (at the root: of the scalp and
     // segment 0): 2 Im(conj(q_(i-1)) q_i); w: bending stiffness over the length it is for, m^3/s^2

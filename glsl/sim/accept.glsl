@@ -6,20 +6,7 @@
 
 // Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
 // the method of its solver fails again, for ever.
-#define LEADER_KEEPS (HAIR_SOLVER == LEADER ? 1.0 : 0.5)
-
-void count_in(uint what)
-{
-    if (lane == 0u) atomicAdd(health[what], 1u);
-}
-
-// What no compiler takes for a sum whose parts it may take away again. `precise` says so too, but of all that leads there:
-// then nothing in a substep is multiplied and added at once.
-vec3 rounded(vec3 v)
-{
-    uint nothing = params.substeps >> 31;
-    return uintBitsToFloat(floatBitsToUint(v) ^ nothing);
-}
+#define LEADER_KEEPS 0.5
 
 // What is known of the past after a substep without an impact.
 float known_after(int method)
@@ -71,8 +58,8 @@ bool accept(int method, bool waits, vec3 head_moved)
     EACH(guide_count) {
         PUT(place, rotate(turn_now, rest_from_root(i)));
         own(displacement) = still;
-        if (CURVED) seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
 #ifdef HAIR_MIXED
+        seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
         own(force) = own(turned) = own(turned_before) = vec3(0.0);
         own(pressure) = 0.0;
 #endif

@@ -4,8 +4,7 @@
 //
 // Where bending is taken implicitly what keeps the lengths moves the strand by A^-1 = (M + b^2 K)^-1, as all forces
 // do: by M^-1 alone the shape at rest would depend on the substep, and a stiff strand with a kink would flail. The
-// first steps correct them so, the others, of what is left, by M^-1, which is exact sooner. Of strands that are curved
-// at rest they are those of a conjugate gradient (Fletcher and Reeves 1964), and go on while that has farther to go.
+// first steps correct them so, the others, of what is left, by M^-1, which is exact sooner.
 #include "sim/contact_try.glsl"
 #include "sim/past.glsl"
 #ifdef HAIR_TIED
@@ -14,25 +13,16 @@
 #include "sim/leader.glsl"
 
 OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
-OWN(float, course);      // of a step by A^-1: tensions that it goes by
-float descent;           // what the last of these took away, to the first order
-bool  owed;              // it went another way than the strand wants: there is more to take away
 
 #ifndef KEEPS_RATES
 #define STIFFLY 0u // None is that stiff.
-#elif defined(HAIR_CURVED)
-#define STIFFLY 4u // steps by A^-1 at most: with kinks of 25 degrees it takes three
 #else
-#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // The bias at rest is a tenth with each.
+#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // steps by A^-1: the bias at rest is a tenth with each
 #endif
-#define MOST_KEPT 4.0
-#define MOST_FAR 2.0
-#define NEARLY_RIGHT 0.1
 #define MOST_STEPS 8u
 
 // The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
-// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988): with
-// a kink of 25 degrees it is up to four times too much.
+// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988).
 void stiffen_solution(float b)
 {
     uint segments = guide_count - 1u;
@@ -47,39 +37,13 @@ void stiffen_solution(float b)
     MEET;
 }
 
-// What the solution would take away, and, of the steps after the first, how much of the step before goes on in it.
-void conjugate(bool first)
+// By A^-1 of the forces in moved[].
+void move_stiffly()
 {
-    float gain = 0.0;
-    EACH(guide_count - 1u) { gain -= i + 1u < guide_count ? own(excess) * own(solution) : 0.0; }
-    gain        = sum_of(gain);
-    float share = first || !(descent > 0.0) ? 0.0 : min(gain / descent, MOST_KEPT);
-    descent     = gain;
-    EACH(guide_count - 1u) {
-        own(solution) += share > 0.0 ? share * own(course) : 0.0;
-        own(course) = own(solution);
-    }
-}
-
-// By A^-1 of the forces in moved[], as far as brings the lengths nearest to right.
-void move_stiffly(bool euler)
-{
-    solve_implicit(euler);
-    float far = 1.0;
-    if (CURVED) {
-        float against = 0.0;
-        MEET;
-        EACH(guide_count - 1u) {
-            float longer = dot(GET(edge), AFTER_VEC3(moved) - GET(moved));
-            against += i + 1u < guide_count ? own(solution) * longer : 0.0;
-        }
-        against = sum_of(against);
-        far     = against > 0.0 ? clamp(descent / against, 0.0, MOST_FAR) : 0.0;
-        owed    = abs(far - 1.0) > NEARLY_RIGHT;
-    }
+    solve_implicit(false);
     EACH(guide_count) {
-        if (own(slack) > 0.0) own(wanted) += far * GET(moved);
-        FIND_TENSION(far);
+        if (own(slack) > 0.0) own(wanted) += GET(moved);
+        FIND_TENSION(1.0);
     }
 }
 
@@ -87,7 +51,7 @@ void move_stiffly(bool euler)
 // forces are those of the start, what is lacking at first is made up for along the segments there.
 void correct_lengths(int method, uint n)
 {
-    bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && (CURVED ? !of_start : IS_BACK(method));
+    bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && IS_BACK(method);
     uint segments = guide_count - 1u;
     if (SOLIDS && LEAPS(method) && n == 0u) {
         EACH(segments) { PUT(edge, normalize(AFTER_VEC3(place) - GET(place))); }
@@ -118,10 +82,7 @@ void correct_lengths(int method, uint n)
         if (own(row).y == 0.0) own(row) = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
     }
     solve_rows(segments);
-    if (stiffly) {
-        stiffen_solution(IS_BACK(method) ? 2.0 / 3.0 * params.gravity.w : params.gravity.w);
-        if (CURVED) conjugate(n == 0u);
-    }
+    if (stiffly) stiffen_solution(2.0 / 3.0 * params.gravity.w);
     EACH(segments) { PUT(handed, -own(solution) * (of_start ? GET(lever) : GET(edge))); }
     MEET;
     EACH(guide_count) {
@@ -135,7 +96,7 @@ void correct_lengths(int method, uint n)
             FIND_TENSION(1.0);
         }
     }
-    if (stiffly) move_stiffly(method >= EULER);
+    if (stiffly) move_stiffly();
 }
 
 // Or, by the last of the methods, from root to tip. False: some length is broken even so.
@@ -149,8 +110,7 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
         } else {
             measure(tolerance);
             // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
-            if ((n > 0u && !loose && !(CURVED && owed)) || n == MOST_STEPS || !has_rounds()) return !broken;
-            owed = false;
+            if ((n > 0u && !loose) || n == MOST_STEPS || !has_rounds()) return !broken;
             correct_lengths(method, n);
         }
     }

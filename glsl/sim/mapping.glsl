@@ -21,11 +21,6 @@
 #include "workgroup.glsl"
 
 // What a program leaves out. Constants, for software rasterisers run both sides of a branch.
-#if defined(HAIR_CURVED) || defined(HAIR_MIXED)
-#define CURVED true
-#else
-#define CURVED false
-#endif
 #ifdef HAIR_SOLIDS
 #define SOLIDS true
 #else

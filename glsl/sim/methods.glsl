@@ -7,7 +7,7 @@
 // Of a method, constants where the program never has it: software rasterisers run both sides of a branch.
 #define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
 #define IS_BACK(method) (HAS_BACK && (method) == BACK)
-#define IS_LEADER(method) (HAIR_SOLVER == LEADER || (method) == LEADER)
+#define IS_LEADER(method) ((method) == LEADER)
 #ifdef HAIR_MIXED
 #define LEAPS(method) false
 #else
@@ -16,7 +16,7 @@
 
 #if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
 #define KEEPS_RATES
-#define HAS_BACK (HAIR_SOLVER != LEADER)
+#define HAS_BACK true
 OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
 PARKED(vec3, rate_before); // and of the one before
 OWN(float, touched);    // 1: something, at the end of the last substep
@@ -36,16 +36,10 @@ OWN(float, tension);    // of segment i, the force that keeps its length, over l
 #define HAS_BACK false
 #define FIND_TENSION(part)
 #endif
-#ifdef HAIR_CROWD
-layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
-OWN(vec3, push); // acceleration by the hair around, m/s^2
-#endif
 #ifdef HAIR_STIFF
 int own_method; // of the guide
 #else
 const int own_method = HAIR_SOLVER;
 #endif
-OWN(vec4, aim);         // rest position from the root, in groom space; w^2
 float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between: of SHAKE, it waits; else it leaps
 float     of_force;  // what a force does in the substep, displacement times mass: s^2
-vec4      turn_then; // turn_now, of the substep before

@@ -43,7 +43,7 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
 // as contact does by M^-1 to come out again; so not among many small solids, where that leads into others.
 vec3 pressed(uint i, int method)
 {
-#if defined(HAIR_SOLIDS) && defined(KEEPS_RATES) && !defined(HAIR_CURVED) && !defined(HAIR_ANY)
+#if defined(HAIR_SOLIDS) && defined(KEEPS_RATES) && !defined(HAIR_ANY)
     vec3 taken = GET(moved) - own(wanted);
     if (LEAPS(method) || own(touched) == 0.0) return min(PRESSED, MOST_PRESSED / max(length(taken), 1e-9)) * taken;
 #endif

@@ -18,6 +18,11 @@ OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a tie
 OWN(vec3, wanted);       // displacement if no solid were in the way
 OWN(vec3, displacement); // over the last substep
 OWN(float, excess);      // of length, of segment i
+OWN(vec4, aim);          // rest position from the root, in groom space; squared frequency of the pull to it
+#ifdef HAIR_CROWD
+layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
+OWN(vec3, push); // acceleration by the hair around, m/s^2
+#endif
 
 // The guide, the same for all its vertices.
 uint  guide_number, guide_first, guide_count;
@@ -26,11 +31,15 @@ bool  heavy; // its tip outweighs the rest of it
 vec3 root_then;  // from the head's origin, at the start of the substep,
 vec3 root_now;   // and at its end
 vec3 root_moved; // over it
+vec3 root_at_rest; // in groom space
 vec4 turn_now;   // of the head
+vec4 turn_then;  // of the substep before
 vec4 scalp;      // frame that clamps the first segment
 vec3 clamp_way, clamp_at_rest; // its way, and in groom space
 bool root_is_free;
 bool loose, broken; // what measure() finds
+
+vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
 
 // Seconds that the motion under way takes: a substep, or under the mixed scheme a part of one.
 #ifdef HAIR_MIXED
@@ -90,4 +99,17 @@ void measure(float tolerance)
     bvec2 found = any_of(bvec2(most > floatBitsToUint(tolerance), most > floatBitsToUint(TOO_LONG)));
     loose       = found.x;
     broken      = found.y;
+}
+
+void count_in(uint what)
+{
+    if (lane == 0u) atomicAdd(health[what], 1u);
+}
+
+// What no compiler takes for a sum whose parts it may take away again. `precise` says so too, but of all that leads there:
+// then nothing in a substep is multiplied and added at once.
+vec3 rounded(vec3 v)
+{
+    uint nothing = params.substeps >> 31;
+    return uintBitsToFloat(floatBitsToUint(v) ^ nothing);
 }

@@ -1,8 +1,4 @@
 // stored.glsl - what there is of a guide between dispatches.
-vec3 root_at_rest;
-
-vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
-
 void load()
 {
     float rescale = params.rescale;
@@ -31,6 +27,7 @@ void load()
         own(tension)        = was.displacement.w;
 #endif
 #ifdef HAIR_MIXED
+        seen(section)       = material[at];
         own(rest_real)      = segment.w;
         own(force)          = bend[3u * at].xyz;
         own(pressure)       = bend[3u * at].w;
@@ -48,7 +45,6 @@ void load()
 #ifdef HAIR_TIED
         load_tie(i);
 #endif
-        if (CURVED) seen(section) = material[at];
 #ifdef HAIR_CROWD
         own(push) = texelFetch(push_texture, int(at)).xyz;
 #endif
@@ -67,7 +63,6 @@ void store()
             uint at                = guide_first + i;
             state[at].position     = vec4(root_now + GET(place), known);
             state[at].displacement = vec4(own(displacement), 0.0);
-            if (CURVED) material[at] = seen(section);
 #ifdef KEEPS_RATES
             history[at].rate         = vec4(own(rate), 0.0);
             history[at].rate_before  = vec4(parked(rate_before), own(touched));
@@ -76,6 +71,7 @@ void store()
             state[at].displacement.w = own(tension);
 #endif
 #ifdef HAIR_MIXED
+            material[at]       = seen(section);
             bend[3u * at]      = vec4(own(force), own(pressure));
             bend[3u * at + 1u] = vec4(own(turned), 0.0);
             bend[3u * at + 2u] = vec4(own(turned_before), 0.0);

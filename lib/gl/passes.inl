@@ -19,7 +19,6 @@ FEATURE(CROWD, "HAIR_CROWD")             // hair feels other hair
 FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE") // else a work group
 FEATURE(FIRST, "HAIR_FIRST")             // only what the solver's own method can do
 FEATURE(LISTED, "HAIR_LISTED")           // only guides of which FIRST has left that
-FEATURE(CURVED, "HAIR_CURVED")           // curved or flat strands
 FEATURE(MIXED, "HAIR_MIXED")             // guides are solved by turns and forces of segments
 FEATURE(SOLIDS, "HAIR_SOLIDS")           // few
 FEATURE(ANY, "HAIR_ANY")                 // any number of them
@@ -47,7 +46,6 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the ho
 #define STRAND_FEATURES \
     SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(SOLIDS) | WITH(ANY) | WITH(BODIES) | \
         WITH(FEW)
-#define SOLVER_FEATURES STRAND_FEATURES | WITH(CURVED)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
         WITH(SHARES) | WITH(WIDENED)
@@ -81,11 +79,11 @@ PASS(STIR, "sim/stir", 0, "sim/stir.comp")
 PASS(CROWD_CLEAR, "sim/crowd_clear", 0, "HAIR_CROWD=1 sim/crowd_clear.comp")
 PASS(CROWD_SPLAT, "sim/crowd_splat", 0, "HAIR_CROWD=1 sim/crowd_splat.comp")
 PASS(CROWD_GATHER, "sim/crowd_gather", 0, "HAIR_CROWD=1 sim/crowd_gather.comp")
-PASS(DIRECT, "sim/direct", SOLVER_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=1 sim/rod.comp")
-PASS(ACCURATE, "sim/accurate", SOLVER_FEATURES, "HAIR_SOLVER=0 sim/rod.comp")
-PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVER_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
+PASS(DIRECT, "sim/direct", STRAND_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=1 sim/rod.comp")
+PASS(ACCURATE, "sim/accurate", STRAND_FEATURES, "HAIR_SOLVER=0 sim/rod.comp")
+PASS(ACCURATE_STIFF, "sim/accurate_stiff", STRAND_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
 PASS(MIXED_SOLVER, "sim/mixed", STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
-PASS(FOLLOW, "sim/follow", SOLVER_FEATURES, "HAIR_SOLVER=3 sim/rod.comp")
+PASS(FOLLOW, "sim/follow", STRAND_FEATURES, "sim/follow.comp")
 PASS(REDBLACK, "sim/redblack", SIZES | WITH(SKINNED), "sim/redblack.comp")
 // Redblack by transform feedback, in the order of HAIR_PHASE.
 PASS(FEEDBACK_INTEGRATE, "sim/feedback_integrate", 0, "HAIR_PHASE=0 sim/feedback.vert")
@@ -135,7 +133,7 @@ PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
 #undef DRAW_STAGES
 #undef STAGE_FEATURES
 #undef DRAW_FEATURES
-#undef SOLVER_FEATURES
+#undef STRAND_FEATURES
 #undef WITH
 #undef SIZES
 #undef PASS

@@ -41,7 +41,6 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     if (any) features |= HAIR_GL_WITH(ANY);
     if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
-    if (hair_sim_is_curved(sim)) features |= HAIR_GL_WITH(CURVED);
     if (by_thread) features |= HAIR_GL_WITH(THREAD);
     if (hair_crowd_is_on(sim)) features |= HAIR_GL_WITH(CROWD);
     if (sim->ties.count > 0) features |= HAIR_GL_WITH(TIED);

@@ -186,7 +186,6 @@ static void write_guide(const struct hair_rod_shape* s, double tautness, const h
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
-    write_ties(s, out);
 }
 
 void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
@@ -220,6 +219,22 @@ static void find_borne(const struct hair_guide* guide, const struct hair_rest* r
     hair_rod_bear(out, borne + guide->first);
 }
 
+// Write a guide for the scheme that solves it. The shape is changed.
+static void write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver, int mixed,
+                        double substep, struct hair_rod* out)
+{
+    if (mixed) {
+        write_mixed(s, substep, out);
+    } else if (solver == HAIR_SOLVER_FOLLOW) {
+        hair_follow_write(s, out);
+    } else {
+        double tautness = hair_rod_tautness(s);
+        hair_rod_add_inertia(s, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
+        write_guide(s, tautness, physics, solver, substep, out);
+    }
+    write_ties(s, out);
+}
+
 void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
                      const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
                      hair_solver solver, int mixed, double substep, struct hair_rod* out)
@@ -227,13 +242,7 @@ void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* re
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         find_borne(guides + i, rest, borne, physics, &shape);
-        if (mixed) {
-            write_mixed(&shape, substep, out + guides[i].first);
-            continue;
-        }
-        double tautness = hair_rod_tautness(&shape);
-        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
-        write_guide(&shape, tautness, physics, solver, substep, out + guides[i].first);
+        write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
     }
 }
 
@@ -248,14 +257,7 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
         find_borne(guide, rest, borne, physics, &shape);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.tied[knot[i].vertex] = i + 1;
-        double tautness = hair_rod_tautness(&shape);
-        if (mixed) {
-            write_mixed(&shape, substep, out + guide->first);
-            write_ties(&shape, out + guide->first);
-            continue;
-        }
-        hair_rod_add_inertia(&shape, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
-        write_guide(&shape, tautness, physics, solver, substep, out + guide->first);
+        write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
     }
 }
 

@@ -92,6 +92,10 @@ double hair_rod_longest_taut(const struct hair_rod_shape* shape);    // b that i
 void   hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
 double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
 
+// follow.c: write one hair_rod per vertex as glsl/sim/follow.comp reads it. Its factors have another
+// meaning there.
+void hair_follow_write(const struct hair_rod_shape* shape, struct hair_rod* out);
+
 // hold.c. Set stress and rest_real of a new shape so that it holds its groom, and multiply its
 // bending stiffness for that by 1 to 3, vertex by vertex. With more than that the groom would still be
 // unstable, or a rest strain further than 1 from the groom's own: then the guide is three times as

@@ -9,17 +9,13 @@ struct hair_rods {
     struct hair_rod_borne*  borne;
     hair_physics            made_for, borne_for;
     struct hair_rods_report report;
-    int                     held; // whether `borne` is of borne_for
-    int                     curved;
+    int                     held;   // whether `borne` is of borne_for
     int                     mixed;  // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
     int                     stiff;  // for SHAKE, some
     int                     struck; // made for: sim->struck,
     uint32_t                tied;   // and sim->ties.which;
     uint32_t                longer; // and substeps so many times as long as the solver wants them
 };
-
-// Below this, radians at a vertex, a strand is straight: what rounding leaves of one in any direction.
-#define STRAIGHT 5e-5f
 
 #define LONGEST                                                                                              \
     (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
@@ -31,16 +27,6 @@ struct hair_rods {
 
 #define CONTACT_MARGIN                                                                                       \
     1.6 // of substeps. Measured: from 1.5 on nothing falls back in a head's shake over solids
-
-static int is_curved(const struct hair_rod* rod, uint32_t vertices, const hair_physics* physics)
-{
-    if (physics->flatness < 1) return 1;
-    for (uint32_t i = 0; i < vertices; ++i) {
-        hair_vec3 strain = {rod[i].strain.x, rod[i].strain.y, rod[i].strain.z};
-        if (hair_dot(strain, strain) > STRAIGHT * STRAIGHT) return 1;
-    }
-    return 0;
-}
 
 static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {
@@ -55,9 +41,11 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
                                   GLuint* buffer, uint32_t* rounds)
 {
-    const hair_host* host  = &sim->gl->host;
-    int              there = 0;
-    for (uint32_t i = 0; i < sim->guides && !there; ++i) there = rod[sim->rods->guides[i].first].factor.x > 0;
+    const hair_host* host      = &sim->gl->host;
+    int              there     = 0;
+    int              no_system = sim->solver == HAIR_SOLVER_FOLLOW;
+    for (uint32_t i = 0; i < sim->guides && !there && !no_system; ++i)
+        there = rod[sim->rods->guides[i].first].factor.x > 0;
     if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
     uint32_t    most = hair_rods_rounds(sim->most_vertices), vertices = sim->guide_vertices;
     size_t      count = (size_t)most * vertices;
@@ -158,7 +146,6 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->tied     = sim->ties.which;
         rods->longer   = longer;
         sim->longer    = longer;
-        rods->curved   = is_curved(rod, sim->guide_vertices, &sim->physics);
         rods->stiff    = is_stiff(sim, rod);
         sim->substep   = substep;
     }
@@ -267,11 +254,6 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->rescale  = (float)(h / sim->last_substep);
     params->vertices = sim->guide_vertices;
     params->rounds   = sim->rounds;
-}
-
-int hair_sim_is_curved(const struct hair_sim* sim)
-{
-    return sim->rods && sim->rods->curved;
 }
 
 int hair_sim_is_mixed(const struct hair_sim* sim)

@@ -12,6 +12,7 @@
 #define STEPS 8u // between these: MOST_STEPS of glsl/sim/lengths.glsl
 #define HEAVY_SWEEPS                                                                                         \
     13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
+#define DRAWN_AGAIN 3u // by follow, after contact: CONTACT_ROUNDS of glsl/sim/follow.comp
 #define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
 #define TIED_ENDS 30   // and what begins and ends these, for each tie
 #define CACHED 16 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
@@ -40,8 +41,7 @@ static uint32_t lesser(uint32_t a, uint32_t b)
 // STIFFLY of glsl/sim/lengths.glsl.
 static uint32_t stiff_steps(const struct hair_sim* sim)
 {
-    if (sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_stiff(sim)) return 0;
-    return hair_sim_is_curved(sim) ? 4 : sim->solver == HAIR_SOLVER_ACCURATE ? 3 : 1;
+    return sim->solver == HAIR_SOLVER_DIRECT ? 1 : hair_sim_is_stiff(sim) ? 3 : 0;
 }
 
 // Return how many Newton steps the mixed scheme may take in a substep: MAX_ROUNDS_IN_ALL of glsl/sim/mixed_step.glsl.
@@ -62,18 +62,24 @@ static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
     return loops;
 }
 
+// Return the loops of follow-the-leader, but for its drawing: what predicts, meets solids and accepts.
+static struct loops loops_of_follow(const struct hair_sim* sim)
+{
+    uint32_t met = hair_sim_contacts(sim) > 0, tied = sim->ties.count > 0;
+    return (struct loops){.over = 4 + tied + met * (2 + DRAWN_AGAIN * 4)};
+}
+
 // From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be found.
 static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t     tried = sim->solver == HAIR_SOLVER_FOLLOW ? 0 : TRIED, predicted = tried + 1;
-    uint32_t     curved = hair_sim_is_curved(sim) ? 1 : 0, tied = sim->ties.count > 0;
+    if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
+    if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
+    uint32_t     tried = TRIED, predicted = tried + 1, tied = sim->ties.count > 0;
     uint32_t     met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
-    if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
-    loops.over         = predicted * (8 + tied + 3 * met + (curved ? 7 : 2));
-    loops.rows         = predicted * curved;
+    loops.over         = predicted * (10 + tied + 3 * met);
     loops.along        = predicted * 2;
-    loops.over += tried * (LOOKS * (3 + tied + met) + STEPS * 4 + stiff * (curved ? 6 : 3));
+    loops.over += tried * (LOOKS * (3 + tied + met) + STEPS * 4 + stiff * 3);
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
     return loops;
@@ -82,7 +88,8 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread)
 // What leader.glsl adds. A strand that solids have a hand in is led twice.
 static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* loops)
 {
-    uint32_t led     = (sim->solver == HAIR_SOLVER_FOLLOW ? 1 : TRIED) * (hair_sim_contacts(sim) > 0 ? 2 : 1);
+    uint32_t met     = hair_sim_contacts(sim) > 0;
+    uint32_t led     = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
     uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Their spans are where they like.
     loops->over += led * 3;
     if (sim->ties.count) {

@@ -96,7 +96,6 @@ hair_result hair_sim_need_crowd(struct hair_sim* sim);          // what physics 
 void        hair_sim_free_rods(struct hair_sim* sim);
 void        hair_sim_bind_rods(struct hair_sim* sim);
 void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
-int         hair_sim_is_curved(const struct hair_sim* sim); // 1: strands are, or their sections are flat
 int         hair_sim_is_mixed(const struct hair_sim* sim);  // Return whether the mixed scheme solves the guides.
 int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim); // how guides hold their groom

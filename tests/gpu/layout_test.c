@@ -512,7 +512,6 @@ static void no_member_is_forgotten(void** state)
     }
 }
 
-#define CURVED HAIR_GL_WITH(CURVED)
 #define SOLIDS HAIR_GL_WITH(SOLIDS)
 #define THREAD HAIR_GL_WITH(THREAD)
 
@@ -541,7 +540,6 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(pass, "state_buffer", STATE, sizeof(struct hair_state)),                                     \
         STORAGE(pass, "rod_buffer", ROD, sizeof(struct hair_rod)),                                           \
         STORAGE(pass, "history_buffer", HISTORY, sizeof(struct hair_history)),                               \
-        STORAGE(pass, "material_buffer", MATERIAL, sizeof(hair_vec4)),                                       \
         STORAGE(pass, "health_buffer", HEALTH, sizeof(hair_uint))
         STEP(HAIR_GL_REDBLACK),
         STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(1)),
@@ -554,11 +552,13 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(HAIR_GL_RIDE, "seat_buffer", SEAT, sizeof(struct hair_seat)),
         STORAGE(HAIR_GL_SEAT, "follower_buffer", FOLLOWER, sizeof(struct hair_follower)),
         STEP(HAIR_GL_SEAT),
-        ROD(HAIR_GL_DIRECT | CURVED),
-        ROD(HAIR_GL_DIRECT | CURVED | SOLIDS | HAIR_GL_SIZE(3)),
-        STORAGE(HAIR_GL_DIRECT | CURVED, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
-        ROD(HAIR_GL_DIRECT | THREAD | CURVED | HAIR_GL_SIZE(1)),
-        ROD(HAIR_GL_FOLLOW | CURVED | HAIR_GL_SIZE(2)),
+        ROD(HAIR_GL_DIRECT),
+        ROD(HAIR_GL_DIRECT | SOLIDS | HAIR_GL_SIZE(3)),
+        STORAGE(HAIR_GL_DIRECT, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
+        ROD(HAIR_GL_MIXED_SOLVER | THREAD | HAIR_GL_SIZE(1)),
+        STORAGE(HAIR_GL_MIXED_SOLVER | SOLIDS, "material_buffer", MATERIAL, sizeof(hair_vec4)),
+        STORAGE(HAIR_GL_FOLLOW | SOLIDS | HAIR_GL_SIZE(2), "rod_buffer", ROD, sizeof(struct hair_rod)),
+        STORAGE(HAIR_GL_FOLLOW | SOLIDS | HAIR_GL_SIZE(2), "material_buffer", MATERIAL, sizeof(hair_vec4)),
         STEP(HAIR_GL_ACCURATE),
         STEP(HAIR_GL_ACCURATE | THREAD | SOLIDS),
         STEP(HAIR_GL_SMOOTH),
@@ -617,8 +617,8 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,        HAIR_GL_SMOOTH,
-                                          HAIR_GL_DIRECT,          HAIR_GL_ACCURATE | CURVED,
-                                          HAIR_GL_FOLLOW | SOLIDS, HAIR_GL_DIRECT | CURVED | SOLIDS};
+                                          HAIR_GL_DIRECT,          HAIR_GL_ACCURATE,
+                                          HAIR_GL_FOLLOW | SOLIDS, HAIR_GL_MIXED_SOLVER | SOLIDS};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (uint32_t vertices = 2; vertices <= HAIR_MAX_GUIDE_VERTICES; ++vertices) {
             hair_gl_pass pass = hair_gl_pass_for(groups[i], vertices);
@@ -630,9 +630,9 @@ static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 // As many in a work group as sim.c counts on, whatever their length.
 static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
 {
-    static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD | CURVED,
+    static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | SOLIDS,
-                                          HAIR_GL_DIRECT | THREAD | CURVED | SOLIDS};
+                                          HAIR_GL_MIXED_SOLVER | THREAD | SOLIDS};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (int size = 0; size < 4; ++size)
             assert_int_equal(threads_of(*state, groups[i] | HAIR_GL_SIZE(size)), 8);

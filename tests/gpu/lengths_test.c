@@ -119,20 +119,18 @@ static void followers_at_rest_are_where_they_were_fitted(void** state)
     }
 }
 
-#define CURVED HAIR_GL_WITH(CURVED)
 #define THREAD HAIR_GL_WITH(THREAD)
 
 // Of the solver and of smoothing only the size that the longest guide needs is compiled and run; of a guide that a thread
 // would have too much to do with a work group's.
 static void check_sizes(void** state, hair_context* context, int way)
 {
-    static const hair_gl_pass solvers[HAIR_TEST_WAYS] = {
-        HAIR_GL_MIXED_SOLVER,      HAIR_GL_MIXED_SOLVER | THREAD,
-        HAIR_GL_MIXED_SOLVER,      HAIR_GL_MIXED_SOLVER | THREAD,
-        HAIR_GL_FOLLOW | CURVED,   HAIR_GL_FOLLOW | THREAD | CURVED,
-        HAIR_GL_REDBLACK};
-    const struct hair_gl* gl         = &context->gl;
-    uint32_t              runs[2][4] = {{0}}, smoothed[4] = {0};
+    static const hair_gl_pass solvers[HAIR_TEST_WAYS] = {HAIR_GL_MIXED_SOLVER, HAIR_GL_MIXED_SOLVER | THREAD,
+                                                         HAIR_GL_MIXED_SOLVER, HAIR_GL_MIXED_SOLVER | THREAD,
+                                                         HAIR_GL_FOLLOW,       HAIR_GL_FOLLOW | THREAD,
+                                                         HAIR_GL_REDBLACK};
+    const struct hair_gl*     gl                      = &context->gl;
+    uint32_t                  runs[2][4] = {{0}}, smoothed[4] = {0};
     for (size_t i = 0; i < LENGTHS; ++i) {
         if (!is_tried(way, lengths[i])) continue;
         struct fixture f = start_in(state, context, lengths[i], way);

@@ -98,13 +98,19 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
             deepest = fmax(deepest, hair_test_depth(&living, &solid) + MARGIN);
         }
         double touching = hair_test_depth(&living, &solid) + MARGIN;
+        // Follow-the-leader knows no tension that would keep a strand on a ball: it slides off, and hangs.
+        int slides = solver == HAIR_SOLVER_FOLLOW;
+        if (slides) {
+            hair_test_wait(&living, 600);
+            hair_test_read_guides(&living);
+        }
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
         print_message(
             "    form %d: up to %.2g m deep in the margin, at last %.2g m, in the last half second %.2g m\n",
             n, deepest, touching, hair_test_moved(&living));
-        assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 4e-3 : 1e-3));
-        assert_true(touching > -1e-3);
+        assert_true(deepest < 1e-3);
+        assert_true(slides || touching > -1e-3);
         assert_true(hair_test_moved(&living) < 1e-4);
         hair_test_die(&living);
         hair_form_destroy((hair_form*)(uintptr_t)solid.form);

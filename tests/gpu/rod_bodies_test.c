@@ -53,6 +53,13 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
                 n, solver, deepest, hair_test_stretch(&living), 60 * hair_test_moved(&living));
             assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 4e-3 : 1e-3) &&
                         hair_test_stretch(&living) < 2e-3);
+            // Follow-the-leader knows no tension that would keep a strand on an edge: it slides off first.
+            if (solver == HAIR_SOLVER_FOLLOW) {
+                hair_test_wait(&living, 600);
+                hair_test_read_guides(&living);
+                hair_test_wait(&living, 1);
+                hair_test_read_guides(&living);
+            }
             assert_true(60 * hair_test_moved(&living) < 0.05);
             hair_test_die(&living);
             hair_test_strands_free(&strands);
@@ -83,7 +90,8 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
             }
         }
         print_message("    solver %d: up to %.2g m deep\n", solver, deepest);
-        assert_true(deepest < 12e-3); // At the edge that holds it.
+        // At the edge that holds it. Follow-the-leader lets it come in by half of the plate.
+        assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 15e-3 : 12e-3));
         hair_test_die(&living);
         hair_test_strands_free(&strands);
     }

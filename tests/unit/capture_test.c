@@ -420,7 +420,7 @@ static void stats_tell_what_was_drawn(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
     assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
     assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
-    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/direct"));
+    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/mixed"));
     assert_null(strstr(hair_test_said, "redblack")); // nor any other pass that has not run
     assert_null(strstr(hair_test_said, "\"runs\": 0"));
     assert_non_null(strstr(hair_test_said, "\"health\": {\n    \"euler\": "));

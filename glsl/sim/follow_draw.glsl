@@ -1,0 +1,108 @@
+// follow_draw.glsl - a strand drawn after its root, segment by segment: see follow.comp.
+bool is_direction(vec3 to, float len)
+{
+    float l = length(to);
+    return bits_of(l) < 0x7f800000u && l > 1e-3 * len;
+}
+
+// Compute where vertices go by inertia, air, the pull to the rest pose and the hair around.
+void predict()
+{
+    float h   = params.gravity.w;
+    clamp_way = rotate(turn_now, clamp_at_rest);
+#ifdef HAIR_WIND
+    EACH(guide_count) { PUT(moved, vec3(0.0)); }
+    find_edges();
+    MEET;
+#endif
+    EACH(guide_count) {
+        vec3 d = own(displacement), force = vec3(0.0);
+#ifdef HAIR_CROWD
+        force = own(push);
+#endif
+#ifdef HAIR_WIND
+        vec3 before = BEFORE_VEC3(edge);
+        feel_air(i, before, 1.0, d);
+        d += dragged_on(d, force);
+#else
+        d = params.keep * d + params.kick * force;
+#endif
+        float k = own(aim).w * h * h;
+        d += k / (1.0 + k) * (rotate(turn_now, own(aim).xyz) + root_moved - GET(place) - d);
+        PUT(lever, d);
+        PUT(edge, own(plane));
+        PUT(handed, root_moved);
+        own(touch) = vec4(0.0);
+        PUT(moved, own(slack) > 0.0 ? d + params.kick * params.gravity.xyz : held_move(i));
+    }
+    MEET;
+}
+
+// Keep a vertex that goes to d above its plane: where contact has put it, or else straight above.
+vec3 kept_above(uint k, vec3 d, bool met)
+{
+    vec3  normal = GET_AT(edge, k), on = GET_AT(handed, k);
+    float depth  = dot(on - d, normal);
+    if (!SOLIDS || depth <= 0.0) return d;
+    return met ? on : d + depth * normal;
+}
+
+// Return the direction near `way` in which vertex k, at its length from its leader, is not below its plane.
+vec3 direction_above(uint k, vec3 leader, vec3 between, vec3 way, float len, bool met)
+{
+    vec3 normal = GET_AT(edge, k), d = leader + len * way - between, to = between + kept_above(k, d, met) - leader;
+    PUT_AT(handed, k, d);
+    if (!SOLIDS) return way;
+    float up = dot(to, normal), across = length(to - up * normal);
+    if (dot(normal, normal) > 0.0 && abs(up) < len && across > 1e-3 * len)
+        to = up * normal + sqrt(len * len - up * up) / across * (to - up * normal);
+    return is_direction(to, len) ? normalize(to) : way;
+}
+
+// Draw every segment after the one before it.
+void draw_strand_after_root(bool met)
+{
+    vec4 turn   = turn_now;
+    vec3 last   = rotate(turn, rod[guide_first].factor_euler.xyz);
+    vec3 root   = root_is_free ? GET_AT(lever, 0u) + params.kick * params.gravity.xyz : GET_AT(moved, 0u);
+    vec3 leader = kept_above(0u, root, met);
+    PUT_AT(handed, 0u, root);
+    PUT_AT(moved, 0u, leader);
+    for (uint k = 0u; k + 1u < guide_count; ++k) {
+        hair_rod f       = rod[guide_first + k];
+        float    len     = f.segment.x;
+        vec3     between = GET_AT(place, k + 1u) - GET_AT(place, k), way = rotate(turn, f.factor_euler.xyz);
+        if (dot(f.strain.xyz, f.strain.xyz) == 0.0) { // Nothing holds its angle.
+            turn = quat_multiply(quat_between(way, normalize(between)), turn);
+            way  = normalize(between);
+        }
+        vec3 inertial = GET_AT(lever, k), relative = GET_AT(lever, k + 1u) - inertial;
+        vec3 felt = params.kick * params.gravity.xyz + inertial - leader;
+        vec3 pull = params.kick * rotate(turn, f.strain.xyz) + f.strain.w * felt - dot(felt, way) * rotate(turn, f.factor.xyz);
+        vec3 to   = between + relative / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;
+        last      = is_direction(to, len) ? normalize(to) : last;
+        last      = direction_above(k + 1u, leader, between, last, len, met);
+        turn      = quat_multiply(quat_between(way, last), turn);
+        leader += len * last - between;
+        PUT_AT(moved, k + 1u, leader);
+    }
+}
+
+void draw(bool met)
+{
+    MEET;
+    ONCE { draw_strand_after_root(met); }
+    MEET;
+    RENEW(moved)
+    RENEW(handed)
+#ifdef HAIR_TIED
+    EACH(guide_count) {
+        if (own(slack) == 0.0) PUT(moved, held_move(i));
+    }
+    MEET;
+    give_length();
+    ONCE { draw_strand(); }
+    MEET;
+    RENEW(moved)
+#endif
+}

@@ -1,0 +1,69 @@
+// follow_state.glsl - a guide of follow.comp between substeps: loaded, accepted, stored.
+#define IS_PLANE 2.0 // w of a plane in material[], which no quaternion has that a reset or a teleport leaves
+
+OWN(vec3, plane); // of the contact at the end of the last substep: normal; 0: none
+
+void load()
+{
+    bool pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
+    root_is_free = rod[guide_first].segment.y > 0.0;
+    EACH(guide_count) {
+        uint       at      = guide_first + min(i, guide_count - 1u);
+        hair_state was     = state[at];
+        vec4       segment = i < guide_count ? rod[at].segment : vec4(0.0);
+        // A root that is held is where the scalp has it, wherever it was when it was not.
+        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
+        own(displacement) = was.displacement.xyz * params.rescale;
+        vec4 contact      = SOLIDS ? material[at] : vec4(0.0);
+        own(plane)        = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
+        own(rest_length)  = segment.x;
+        own(slack)        = segment.y;
+        own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
+#ifdef HAIR_TIED
+        load_tie(i);
+#endif
+#ifdef HAIR_CROWD
+        own(push) = texelFetch(push_texture, int(at)).xyz;
+#endif
+    }
+}
+
+void store()
+{
+    EACH(guide_count) {
+        if (i < guide_count) {
+            state[guide_first + i].position     = vec4(root_now + GET(place), 1.0);
+            state[guide_first + i].displacement = vec4(own(displacement), 0.0);
+            material[guide_first + i]           = vec4(own(plane), IS_PLANE);
+        }
+    }
+}
+
+// Accept `moved`. A strand that is not finite, or beyond any hair, goes back to its rest pose, and along with the head.
+void finish(vec3 head_moved)
+{
+    bool  lost    = false;
+    float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+    vec3  root_d  = GET_AT(moved, 0u);
+    EACH(guide_count) {
+        vec3  d = GET(moved), from_head = rounded(root_now + (GET(place) + (d - root_moved)));
+        if (SOLIDS) {
+            vec3 n = own(touch).xyz;
+            own(plane) = GET(edge);
+            if (own(touch).w == SLIDES || own(touch).w == STICKS) d -= max(dot(d - root_moved, n), 0.0) * n;
+        }
+        float speed = length(d - root_d);
+        PUT(place, from_head - root_now);
+        own(displacement) = root_d + (d - root_d) * (speed > fastest ? fastest / speed : 1.0);
+        if (i < guide_count)
+            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
+    }
+    if (!any_of(bvec2(lost, false)).x) return;
+    vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
+    EACH(guide_count) {
+        PUT(place, rotate(turn_now, rest_from_root(i)));
+        own(displacement) = still;
+        own(plane)        = vec3(0.0);
+    }
+    count_in(HAIR_HEALTH_RESET);
+}
