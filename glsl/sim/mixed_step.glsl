@@ -194,13 +194,15 @@ bool attempt(int method, vec3 head_moved)
     find_solids(head_moved);
     list_reaching();
     touching = TIED || is_touching();
-    bool  exact = true, done = false, fits = false;
+    bool  exact = true, done = false, fits = false, frozen = false, verifies = false;
     bvec2 judged = bvec2(true);
     for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
         if (!IS_LEADER(method)) find_wanted();
-        if (!SOLIDS || n < FREEZE_FROM) try_wanted(head_moved, false);
-        else try_frozen(n == FREEZE_FROM);
+        bool freezes = SOLIDS && n >= FREEZE_FROM && !verifies; // What fits frozen contacts is tried once more with those there are.
+        if (freezes) try_frozen(!frozen);
+        else try_wanted(head_moved, false);
+        frozen = freezes;
         MEET;
         if (IS_LEADER(method)) { // What is led into a solid is turned out of it, once.
             follow_leader();
@@ -209,7 +211,8 @@ bool attempt(int method, vec3 head_moved)
         }
         bool loose = put_rows(exact, LENGTH_ERROR);
         fits = done && (!touching || !any_of(bvec2(loose, false)).x);
-        if (fits || (done && !has_rounds())) break;
+        verifies = fits && frozen;
+        if ((fits && !frozen) || (done && !has_rounds())) break;
         solve_system(exact);
         judged = judge_solution();
         if (judged.x && exact) {

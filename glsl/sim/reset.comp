@@ -30,7 +30,7 @@ void main()
     material[i] = quat_multiply(turn, rest[i].frame);
     if (i < history.length()) history[i] = hair_history(vec4(0.0), vec4(0.0));
 #endif
-#ifdef HAIR_MIXED
+#if defined(HAIR_ROD) && defined(HAIR_MIXED)
     for (uint k = 0u; k < 3u; ++k) bend[3u * i + k] = vec4(0.0);
 #endif
 }

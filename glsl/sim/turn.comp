@@ -16,7 +16,7 @@ void main()
     state[i].displacement.xyz = rotate(turn, state[i].displacement.xyz);
 #ifdef HAIR_ROD
     material[i] = normalize(quat_multiply(turn, material[i]));
-#ifdef HAIR_MIXED
+#if defined(HAIR_ROD) && defined(HAIR_MIXED)
     for (uint k = 0u; k < 3u; ++k) bend[3u * i + k].xyz = rotate(turn, bend[3u * i + k].xyz);
 #endif
     if (i < history.length()) {

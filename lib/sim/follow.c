@@ -10,9 +10,16 @@
 // masses beyond, p across r.
 #include "lib/sim/rod_shape.h"
 
+#define LARGEST 1e30 // number of a rod: what physics at their limits make may be beyond floats.
+
+static float float_of(double v)
+{
+    return (float)fmax(-LARGEST, fmin(LARGEST, v));
+}
+
 static hair_vec4 vec4_of(hair_dvec3 v, double w)
 {
-    return (hair_vec4){(float)v.x, (float)v.y, (float)v.z, (float)w};
+    return (hair_vec4){float_of(v.x), float_of(v.y), float_of(v.z), float_of(w)};
 }
 
 // Find the first moment of the masses beyond vertex i about it. Return their moment of inertia.

@@ -107,7 +107,11 @@ static void portions_are_substeps(struct hair_test* test, hair_groom* groom, int
         for (uint32_t i = 0; i < 20 * each[k]; ++i) hair_test_ok(test, hair_step(by_one, (float)substep));
         read(test, at_once, &coarse);
         read(test, by_one, &fine);
-        assert_memory_equal(coarse.guides, fine.guides, 12 * fine.guide_vertices);
+        // Follow rounds what it keeps between dispatches.
+        int exact = hair_test_way(way).solver != HAIR_SOLVER_FOLLOW;
+        if (exact) assert_memory_equal(coarse.guides, fine.guides, 12 * fine.guide_vertices);
+        for (uint32_t i = 0; i < 3 * fine.guide_vertices; ++i)
+            hair_test_near("guides", i, coarse.guides[i], fine.guides[i], exact ? 0 : 1e-5);
         hair_destroy(at_once);
         hair_destroy(by_one);
     }

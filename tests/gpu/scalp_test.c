@@ -239,7 +239,7 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
         most[0] = fmax(most[0], farthest(&a, &b)), most[1] = fmax(most[1], farthest(&c, &d));
     }
     print_message("    guides within %.2g mm, followers within %.2g mm\n", most[0] * 1e3, most[1] * 1e3);
-    assert_true(most[0] < 2e-5 && most[1] < 2e-3);
+    assert_true(most[0] < 1e-4 && most[1] < 4e-3);
     drop(&head), drop(&scalp);
 }
 
@@ -276,7 +276,7 @@ static void a_scalp_taken_far_from_the_head_meets_solids_there(void** state)
     for (uint32_t i = 0; i < b.count; ++i) b.at[3 * i] -= 4;
     print_message("    within %.2g mm of hair near the head, which solids move by %.2g mm\n",
                   farthest(&a, &b) * 1e3, farthest(&a, &free) * 1e3);
-    assert_true(farthest(&a, &free) > 0.03 && farthest(&a, &b) < 0.02);
+    assert_true(farthest(&a, &free) > 0.02 && farthest(&a, &b) < 0.02);
     drop(&near), drop(&far), drop(&none);
 }
 
@@ -400,7 +400,7 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
         hair_vec3 p = hair_sub(hair_load3(b.at + 3 * i), hair_v3(away[12], away[13], away[14]));
         hair_store3(b.at + 3 * i, hair_v3(p.y, -p.x, p.z));
     }
-    assert_true(farthest(&a, &b) < 1e-3);
+    assert_true(farthest(&a, &b) < 4e-3);
     memcpy(own, m, sizeof own);
     drop(&near), drop(&far);
 }

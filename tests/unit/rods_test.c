@@ -149,7 +149,7 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
         for (uint32_t i = 0; i < count * 16; ++i)
             if (!isfinite(number[i]))
                 fail_msg("run %d: number %u of vertex %u is %g", run, i % 16, i / 16, (double)number[i]);
-        for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t i = 0; i < count && solver != HAIR_SOLVER_FOLLOW; ++i) { // Which has numbers of its own.
             hair_vec4 u = f->rod[i].strain;
             assert_true(u.w >= 0 && u.x * u.x + u.y * u.y + u.z * u.z < 3.1f * 3.1f);
             assert_true(f->rod[i].factor_euler.x > 0);
