@@ -949,7 +949,7 @@ HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* 
 /// What went wrong since the instance was created, and how it was borne.
 typedef struct hair_health {
     hair_made made;
-    uint32_t  euler;     ///< Times that a guide's substep was redone by implicit Euler.
+    uint32_t  euler;     ///< Times that a substep was redone: in parts, or by implicit Euler.
     uint32_t  follow;    ///< Times that it was redone by follow-the-leader after that.
     uint32_t  reset;     ///< Times that a guide was put back in its rest pose: it was not finite.
     uint32_t  stiffened; ///< Guides made stiffer to hold their groom against gravity, as `hold` asks.
