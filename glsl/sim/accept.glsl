@@ -8,7 +8,7 @@
 // the method of its solver fails again, for ever.
 #define LEADER_KEEPS 0.5
 
-// What is known of the past after a substep without an impact.
+// Return how much is known of the past after a substep without an impact.
 float known_after(int method)
 {
 #ifdef HAIR_MIXED

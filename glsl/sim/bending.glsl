@@ -2,7 +2,7 @@
 // vertex between segments of directions t_a, t_b, with k the bending stiffness over its length. No frame is needed.
 OWN(vec4, strain); // w: k
 
-// What bending does to each vertex, handed to its neighbours.
+// Find the forces of bending on each vertex, and hand them to its neighbours.
 void find_bending()
 {
     EACH(guide_count) {

@@ -11,7 +11,7 @@ void meet_solids(uint i, vec3 head_moved, bool keep)
     own(slip)  = made.slip;
 }
 
-// Which displacement is allowed of what is wanted.
+// Find the displacements that solids allow.
 void try_wanted(vec3 head_moved, bool keep)
 {
     EACH(guide_count) {

@@ -28,7 +28,7 @@ vec3  part;    // of the way to the next, per axis
 // crowd: others must not feel it, and its guide goes back to its rest pose.
 bool is_sound(vec3 v) { return (floatBitsToUint(dot(v, v)) & 0x7fffffffu) < floatBitsToUint(1e8); }
 
-// Of a vertex whose past is known no better its displacement.
+// A vertex whose past is known no better has its displacement.
 vec3 rate_of(uint i)
 {
     return state[i].position.w < 2.0 ? state[i].displacement.xyz : history[i].rate.xyz;

@@ -52,7 +52,7 @@ vec3 pressed()
         vec3  s      = shares_of(corner);
         uint  node   = node_of(corner);
         if (crowd[node] <= 0) continue;
-        float volume = float(crowd[node + HAIR_CROWD_VOLUME]); // What rounding left may be below 0.
+        float volume = float(crowd[node + HAIR_CROWD_VOLUME]); // Rounding may leave less than 0.
         float over   = 1.0 - min(limit[node / NODE_NUMBERS] / max(volume, 1.0), 1.0);
         vec3  centre = numbers_at(node + HAIR_CROWD_MOMENT) / float(crowd[node]);
         sum += s.x * s.y * s.z * over * (part - vec3(corner) - centre);

@@ -37,7 +37,7 @@ void find_own(uint i)
     for (j = i + 1u; j < share[i].end && add_own(j); ++j) {}
 }
 
-// What cohesion takes of each node. A software rasteriser runs both sides of a branch, but no loop without rounds.
+// Values that cohesion takes of each node. A software rasteriser runs both sides of a branch, but no loop without rounds.
 void add_motion(uint i, vec3 speed)
 {
     for (uint n = 0u, end = params.cohesion > 0.0 ? 1u : 0u; n < end; ++n) find_own(i);

@@ -4,7 +4,7 @@
 #define EULER 2  // implicit Euler: first order, more stable still
 #define LEADER 3 // the same, then follow the leader
 
-// Of a method, constants where the program never has it: software rasterisers run both sides of a branch.
+// These tests are constants where a program never has the method: software rasterisers run both sides of a branch.
 #define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
 #define IS_BACK(method) (HAS_BACK && (method) == BACK)
 #define IS_LEADER(method) ((method) == LEADER)

@@ -37,7 +37,7 @@
 // (turns and forces as unknowns). Here both are unknowns of one implicit substep of second order.
 #define MAX_TURN 0.5 // rad: a Newton step that turns a segment by more is not trusted.
 #define ASTRAY 1e-4   // One less the cosine of the angle between a segment and its frame, from where on it is turned.
-#define CALM (1.0 / 16.0) // What `known` gains in a substep that its prediction served.
+#define CALM (1.0 / 16.0) // Gain of `known` in a substep that its prediction served.
 #define MAX_CALM 2.5      // From here on turns are extrapolated linearly.
 
 OWN(vec4, strain);     // xyz: rest strain u0; w: stiffness k

@@ -1,6 +1,6 @@
 // mixed_back.glsl - the substitution that follows the elimination of mixed_solve.glsl, from the middle to the ends.
 //
-// Of row j, whose neighbour across vertex i is row n, with X the inverse of the block of its turn and F that of its force:
+// Row j has the neighbour n across vertex i. X is the inverse of the block of its turn, and F that of its force:
 //
 //   theta_j -= X (B theta_n + Y W f_n),   f_j -= Y^T X (B theta_n + Y W f_n) - F W f_n
 

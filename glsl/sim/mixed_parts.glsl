@@ -67,7 +67,8 @@ void attempt_all(vec3 head_moved)
             continue;
         }
         if (!fits) count_in(HAIR_HEALTH_FOLLOW);
-        if (!fits && (touching || any_of(bvec2(!finite, false)).x)) { // What contact makes of forces that are wrong may be anything.
+        // Contact may make anything of wrong forces.
+        if (!fits && (touching || any_of(bvec2(!finite, false)).x)) {
             leads = true;
             continue;
         }

@@ -22,7 +22,7 @@
 #define FIELD(name, n) shared vec3 name[HAIR_GUIDE_THREADS + 1]
 #define ROW(name, k) name[k]
 #define PUT_ROW(name, k, v) name[k] = v
-#else // So many would not fit into the memory of a work group.
+#else // A work group has no memory for so many rows.
 #define ROWS_MEET memoryBarrierBuffer(), synchronise()
 #define ROW_VECTORS 14u // lib/sim/rods.c has room for as many.
 #define FIELD(name, n) const uint name = uint(n)
@@ -30,7 +30,7 @@
 #define PUT_ROW(name, k, v) ROW(name, k) = v
 #endif
 
-// Of symmetric matrices the diagonal, and yz, zx, xy.
+// A symmetric matrix is its diagonal, and yz, zx, xy.
 FIELD(hinge_diagonal, 0);    // Second derivative of the energy of the hinge at vertex k by the turn of one segment
 FIELD(hinge_beside, 1);
 FIELD(hinge_moment, 2);      // Its moment

@@ -14,9 +14,9 @@
 #define FREEZE_FROM 3u   // Newton steps after which contacts stay as they are: see try_frozen().
 
 OWN(float, pressure_now); // pressure at the end of the substep
-OWN(vec4, plane);      // Of a contact as it stays, touch
-OWN(vec4, plane_slip); // and slip,
-OWN(vec3, plane_move); // and the displacement that it allowed.
+OWN(vec4, plane);      // `touch` of a contact that stays
+OWN(vec4, plane_slip); // its `slip`
+OWN(vec3, plane_move); // the displacement that it allowed
 bool guarded;  // A Newton step was not trusted in this substep.
 uint rounds_in_all;
 #define FEWEST_ROUNDS 4u // of every attempt
@@ -90,7 +90,7 @@ void try_frozen(bool first)
     }
 }
 
-// Whether the solution turns a segment too far, or is not finite; and by more than what Newton's method makes little.
+// Return whether the solution turns a segment too far or is not finite, and whether it turns one by more than CLOSE_TURN.
 bvec2 judge_solution()
 {
     uint most = 0u;

@@ -1,5 +1,4 @@
-// mixed_system.glsl - the rows of Newton's system of a guide: one for each segment, with what hinges it to the next.
-//
+// mixed_system.glsl - the rows of Newton's system of a guide: one for each segment, with the hinge to the next.
 #include "sim/mixed_rows.glsl"
 
 #define TWIST_HELD 1e-5 // See twist_hold().
@@ -8,7 +7,7 @@
 #define MOBILITY_IS_MATRIX
 #endif
 
-// What the contact of a vertex lets pass of a displacement, taken to be symmetric.
+// Return the part of a displacement that the contact of a vertex lets pass, taken to be symmetric.
 mat3 freedom_of(vec4 freedom, vec4 slip)
 {
     mat3 n = outerProduct(freedom.xyz, freedom.xyz), one = mat3(1.0);
