@@ -61,7 +61,7 @@ bool accept(int method, bool waits, vec3 head_moved)
 #ifdef HAIR_MIXED
         seen(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
         own(force) = own(turned) = own(turned_before) = vec3(0.0);
-        own(pressure) = 0.0;
+        own(reaction) = vec3(0.0);
 #endif
 #ifdef KEEPS_RATES
         own(rate) = parked(rate_before) = still;

@@ -24,6 +24,9 @@ OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction
 #else
 #define BITS uint // or for each there is
 #endif
+#ifdef HAIR_MIXED
+OWN(vec3, surface); // displacement of the surface that vertex i touched last
+#endif
 OWN(BITS, reachable); // solids,
 OWN(BITS, met);       // and those met in this substep
 float sunk;                  // how deep in solids the root is held. m
@@ -125,18 +128,14 @@ float root_depth_in(uint k, bool is_body)
 struct outcome {
     vec3  d;
     vec4  freedom, slip; // as touch and slip have them
+#ifdef HAIR_MIXED
+    vec3  grip, surface; // displacement that friction took, and that of the surface which was left last
+#endif
 };
 
-// Return by how much friction takes a vertex to be pressed against a solid that it is so deep in. Under the mixed scheme that is what
-// it was at the end of the last substep, where it touched: so Newton's method has a symmetric system, and from substep to
-// substep friction over a round body builds up as fast as Picard's iteration of T' = friction T.
 #ifdef HAIR_MIXED
-OWN(float, pressure); // of vertex i against solids, at the end of the last substep, m/s^2
-float pressing;       // that of the vertex which is looked at, as a displacement
-float grip_depth(float depth) { return depth > 0.0 && pressing > 0.0 ? pressing : max(depth, 0.0); }
+#include "sim/friction.glsl"
 #else
-float grip_depth(float depth) { return max(depth, 0.0); }
-#endif
 
 // Out of one solid by the depth, and held by its friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
@@ -144,12 +143,14 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
     float friction = params.friction * factor;
     vec3  way      = made.d - surface;
     way -= dot(way, normal) * normal;
-    float far = length(way), grip = friction * grip_depth(depth);
+    float far = length(way), grip = friction * max(depth, 0.0);
     bool  stuck = far <= grip;
     made.d += depth * normal - (stuck ? way : way * (grip / far));
     made.slip    = depth <= 0.0 ? vec4(0.0) : stuck ? vec4(0.0, 0.0, 0.0, friction) : vec4(way * (friction / far), grip / far);
     made.freedom = stuck ? vec4(normal, STICKS) : left_of(made.freedom, normal);
 }
+
+#endif
 
 #ifdef HAIR_ANY
 #include "sim/contact_any.glsl"
@@ -161,9 +162,12 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 // would have to pull.
 outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
 {
-    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
 #ifdef HAIR_MIXED
-    pressing = own(pressure) * of_force;
+    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0), vec3(0.0), vec3(0.0));
+    last_found   = of_force * own(reaction_found);
+    last_held    = of_force * own(reaction);
+#else
+    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
 #endif
     get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);
     return made;

@@ -10,7 +10,7 @@ void accept_turns(bool led)
     MEET;
     if (led) align_frames();
     EACH(guide_count) {
-        own(pressure)      = led ? 0.0 : own(pressure_now);
+        own(reaction)      = led ? vec3(0.0) : own(reaction_found);
         own(turned_before) = own(turned);
         own(turned)        = led ? vec3(0.0) : 2.0 * own(turn).xyz / own(turn).w;
         own(force)         = led ? vec3(0.0) : GET(handed);

@@ -13,9 +13,8 @@
 
 #define FREEZE_FROM 3u   // Newton steps after which contacts stay as they are: see try_frozen().
 
-OWN(float, pressure_now); // pressure at the end of the substep
 OWN(vec4, plane);      // `touch` of a contact that stays
-OWN(vec4, plane_slip); // its `slip`
+OWN(float, plane_friction);
 OWN(vec3, plane_move); // the displacement that it allowed
 bool guarded;  // A Newton step was not trusted in this substep.
 uint rounds_in_all;
@@ -64,28 +63,29 @@ void try_frozen(bool first)
 {
     EACH(guide_count) {
         if (first) {
-            own(plane)      = own(touch);
-            own(plane_move) = GET(moved);
-            own(plane_slip) = own(slip);
+            own(plane)          = own(touch);
+            own(plane_move)     = GET(moved);
+            own(plane_friction) = own(touch).w == STICKS ? own(slip).w : length(own(slip).xyz);
         }
         vec3  to = own(plane_move), n = own(plane).xyz, d = own(wanted);
         float depth = dot(n, to - d), kind = own(plane).w;
         own(touch) = own(plane);
-        own(slip)  = own(plane_slip);
+        own(slip)  = vec4(0.0);
         if (kind == GLIDES) d = to + dot(n, d - to) * n;
-        pressing = own(pressure) * of_force;
         if (kind == SLIDES || kind == STICKS) {
-            vec3  on = d + depth * n, way = on - to;
-            float pressed = grip_depth(depth), grip = own(slip).w * pressed, far = length(way);
-            if (depth <= 0.0) own(touch) = own(slip) = vec4(0.0);
-            else if (kind == SLIDES) d = on - pressed * own(slip).xyz;
-            else if (far <= grip) d = to;
-            else { // It slips after all.
-                d          = on - way * (grip / far);
-                own(touch) = vec4(n, SLIDES);
-                own(slip)  = vec4(way * (own(slip).w / far), grip / far);
+            vec3 way = d - own(surface);
+            bool sticks;
+            last_found = of_force * own(reaction_found);
+            last_held  = of_force * own(reaction);
+            vec3 grip  = gripped(own(plane_friction), n, way - dot(way, n) * n, sticks, own(slip));
+            own(touch) = vec4(n, sticks ? STICKS : SLIDES);
+            d += depth * n - grip;
+            if (depth <= 0.0) {
+                d          = own(wanted);
+                own(touch) = own(slip) = vec4(0.0);
             }
         }
+        own(reaction_found) = (d - own(wanted)) / of_force;
         PUT(moved, d);
     }
 }
@@ -159,9 +159,6 @@ void close_spans()
 void place_vertices()
 {
     EACH(guide_count) {
-        vec3 by_solids = GET(moved) - own(wanted);
-        bool normal_known = own(touch).w == SLIDES || own(touch).w == STICKS;
-        own(pressure_now) = SOLIDS && own(touch).w != FREE ? (normal_known ? dot(by_solids, own(touch).xyz) : length(by_solids)) / of_force : 0.0;
         // Without the forces of segments, which cancel, and would leave what rounding makes of stiff ones.
         PUT(lever, own(reached) + (GET(moved) - own(wanted)));
         vec3 then   = along_of(seen(section));
@@ -194,6 +191,7 @@ bool attempt(int method, vec3 head_moved)
     find_solids(head_moved);
     list_reaching();
     touching = TIED || is_touching();
+    EACH(guide_count) { own(reaction_found) = own(reaction); }
     bool  exact = true, done = false, fits = false, frozen = false, verifies = false;
     bvec2 judged = bvec2(true);
     for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {

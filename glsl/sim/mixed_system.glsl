@@ -14,7 +14,7 @@ mat3 freedom_of(vec4 freedom, vec4 slip)
     if (freedom.w == FREE) return one;
     mat3 m = one - n;
     if (freedom.w == GLIDES) m = n;
-    if (freedom.w == STICKS) m = mat3(0.0);
+    if (freedom.w == STICKS) m /= 1.0 + GRIP;
     float square = dot(slip.xyz, slip.xyz);
     if (freedom.w == SLIDES && square > 0.0) m = (1.0 - slip.w) * m + (slip.w / square) * outerProduct(slip.xyz, slip.xyz);
     return m;

@@ -30,7 +30,7 @@ void load()
         seen(section)       = material[at];
         own(rest_real)      = segment.w;
         own(force)          = bend[3u * at].xyz;
-        own(pressure)       = bend[3u * at].w;
+        own(reaction)       = vec3(bend[3u * at].w, bend[3u * at + 1u].w, bend[3u * at + 2u].w);
         own(turned)         = bend[3u * at + 1u].xyz * rescale;
         own(turned_before)  = bend[3u * at + 2u].xyz;
         PUT(moved, vec3(0.0));
@@ -72,9 +72,9 @@ void store()
 #endif
 #ifdef HAIR_MIXED
             material[at]       = seen(section);
-            bend[3u * at]      = vec4(own(force), own(pressure));
-            bend[3u * at + 1u] = vec4(own(turned), 0.0);
-            bend[3u * at + 2u] = vec4(own(turned_before), 0.0);
+            bend[3u * at]      = vec4(own(force), own(reaction).x);
+            bend[3u * at + 1u] = vec4(own(turned), own(reaction).y);
+            bend[3u * at + 2u] = vec4(own(turned_before), own(reaction).z);
 #endif
         }
     }
