@@ -102,12 +102,21 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     find_turns(out, guide, rest);
 }
 
-// At the clamp: far from it a chain under the tension T that leaves it at an angle straightens by the factor r a
-// segment, where r + 1/r = 2 + p^2, p = l sqrt(T / B). Equating its moment there to a continuous rod's, sqrt(B T)
-// times the angle, gives this multiple of B / l; 2, as for half a segment, when nothing hangs on it. With that 2
-// throughout, a long soft strand (rho A g L^3 / E I = 1000) of 32 vertices, clamped level, hangs 10.8 % too steeply;
-// so, 0.7 % too flat. By the energy of the mixed scheme it hangs 7.3 % too steeply, and 3.0 % too flat. The tension is
-// taken to be all the weight, whichever way the strand hangs, and the factor that of the round section.
+// Return the stiffness of the hinge at the clamp over B / l, from the weight that hangs on it. It is 2 without weight:
+// the hinge then stands for half a segment. Far from the clamp a chain under the tension T that leaves it at a small
+// angle straightens by the factor r a segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). Its moment at the clamp
+// is made that of a continuous rod, sqrt(B T) times the angle. The tension is taken to be all the weight, whichever way
+// the strand hangs, and the factor that of the round section.
+//
+// Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns by the moment
+// 2 sqrt(B T) sin(a / 2), and its curvature k has integral k^2 ds = 4 sqrt(T / B) (1 - cos(a / 2)). Segments are as
+// long as the arcs they stand for, and the chords of those are shorter by the fraction l^2 k^2 / 24. A chain thus hangs
+// too low by
+//
+//   l^2 / 6 sqrt(T / B) (1 - cos(a / 2))
+//
+// and is off by 0.3 to 1.3 times that with this factor and the energy of the mixed scheme. Neither another stiffness of
+// the clamp nor another part of the second term of its energy comes much nearer: see tests/unit/rod_rest_test.c.
 static double clamp_factor(double length, double weight, double bend)
 {
     double p = length * sqrt(weight / bend);

@@ -57,6 +57,20 @@ void hair_test_shell_expect(int code, const char* command, const char* words)
                  words);
 }
 
+json_t* hair_test_shell_json(const char* name)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    json_t* root = json_load_file(path, 0, NULL);
+    assert_non_null(root);
+    return root;
+}
+
+double hair_test_json_number(const json_t* object, const char* key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
 void hair_test_shell_expect_full(const char* arguments)
 {
     char command[256];

@@ -11,29 +11,14 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include <jansson.h>
-
 #define TOOL HAIR_BUILD_DIR "/hair-bench"
 #define expect hair_test_shell_expect
+#define number hair_test_json_number
 
 static int make_folder(void** state)
 {
     (void)state;
     return hair_test_shell_start(TOOL);
-}
-
-static double number(const json_t* row, const char* key)
-{
-    return json_number_value(json_object_get(row, key));
-}
-
-static json_t* read_json(const char* name)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    json_t* root = json_load_file(path, 0, NULL);
-    assert_non_null(root);
-    return root;
 }
 
 // A wave that is curved at rest: the solver of higher cost is nearer to the reference, and one row is
@@ -42,7 +27,7 @@ static void curved_hair_is_compared_with_the_reference(void** state)
 {
     (void)state;
     expect(0, "$T accuracy --quick --case wave --strands 4 --json $D/w.json --csv /dev/null", "");
-    json_t* root = read_json("w.json");
+    json_t* root = hair_test_shell_json("w.json");
     json_t* rows = json_object_get(root, "rows");
     json_t* row;
     size_t  i, defaults = 0;
@@ -64,7 +49,7 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
     (void)state;
     // Accurate solves a coil of 6 mm; an idle haircut sleeps, and then its fastest vertex stands still.
     expect(0, "$T stability --quick --case 'rest *' --method accurate --json $D/s.json --csv /dev/null", "");
-    json_t* root = read_json("s.json");
+    json_t* root = hair_test_shell_json("s.json");
     json_t* rows = json_object_get(root, "rows");
     json_t* row;
     size_t  i;
@@ -87,13 +72,13 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
 static void physics_cases_are_measured_against_what_is_known(void** state)
 {
     (void)state;
-    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin"};
+    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin", "cantilever_arc"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char command[256];
         snprintf(command, sizeof command,
                  "$T physics --quick --case %s --method accurate --json $D/p.json --csv /dev/null", names[i]);
         expect(0, command, "");
-        json_t*       root = read_json("p.json");
+        json_t*       root = hair_test_shell_json("p.json");
         const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
         if (!json_is_true(json_object_get(row, "pass"))) fail_msg("%s", names[i]);
         assert_true(number(row, "relative_error") > 0);

@@ -54,7 +54,7 @@ static void wrong_use_exits_with_2(void** state)
         {"accuracy --json - --csv -", "standard output"},
         {"accuracy --json", "--help"},
         {"--dance", "--help"},
-        {"physics --quick --case energy", "under --quick are cantilever, catenary, pendulum"},
+        {"physics --quick --case energy", "under --quick are cantilever, cantilever_arc, catenary, pendulum"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[256];
@@ -94,15 +94,6 @@ static void an_interrupted_run_exits_with_1_and_leaves_nothing(void** state)
 
 // Rows ------------------------------------------------------------------------------------------------------
 
-static json_t* read_json(const char* name)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    json_t* root = json_load_file(path, 0, NULL);
-    assert_non_null(root);
-    return root;
-}
-
 // The next field of CSV, unquoted, into `field`. False after the last of a line.
 static int next_field(FILE* file, char* field)
 {
@@ -123,7 +114,7 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
     expect(0, "$T " SMALL " --json $D/a.json --csv $D/a.csv", "redblack");
     char path[256], field[256], text[MOST_TEXT], keys[64][256];
     snprintf(path, sizeof path, "%s/a.csv", hair_test_folder());
-    json_t* root = read_json("a.json");
+    json_t* root = hair_test_shell_json("a.json");
     json_t* rows = json_object_get(root, "rows");
     FILE*   csv  = fopen(path, "r");
     assert_non_null(csv);
@@ -168,7 +159,7 @@ static void a_row_says_what_was_measured_and_how(void** state)
     expect(0,
            "$T accuracy --quick --method accurate --case shake --strands 4 --json $D/r.json --csv /dev/null",
            "");
-    json_t*       root = read_json("r.json");
+    json_t*       root = hair_test_shell_json("r.json");
     const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
     assert_string_equal(json_string_value(json_object_get(row, "solver")), "accurate");
     assert_true(json_number_value(json_object_get(row, "young")) == 3e9);
@@ -223,7 +214,7 @@ static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** st
            "$T render --quick --case long --method tessellation --size 64 --strands 400 --json $D/r.json "
            "--csv /dev/null",
            "");
-    json_t* root = read_json("r.json");
+    json_t* root = hair_test_shell_json("r.json");
     json_t* rows = json_object_get(root, "rows");
     json_t *one = find_row(rows, "ribbons", 32, 1), *many = find_row(rows, "ribbons", 32, 4);
     json_t *lines  = find_row(rows, "lines", 32, 4), *row;

@@ -1,10 +1,11 @@
-// physics_rest.c - hair at rest: the heavy cantilever; the catenary; rods that leave their plane.
+// physics_rest.c - hair at rest: the heavy cantilever, straight and curved; the catenary; rods that leave their plane.
 #include "lib/reference/continuum.h"
 #include "tools/bench/physics.h"
 
 #include <math.h>
 
 #define ARRAY_SIZE(a) (sizeof(a) / sizeof *(a))
+#define FINE_SEGMENTS 254u // of the chain that an arc is compared with, which has at most BENCH_MOST_VERTICES
 
 static const double nowhere[3] = {0, 0, 0};
 
@@ -13,7 +14,20 @@ static double degrees(double angle)
     return angle * BENCH_PI / 180;
 }
 
-// Clamped at an angle, degrees from the horizontal, upwards positive: how far it hangs, over how far it reaches.
+// Add how far the tip is from where it belongs, over the length.
+static void add_tip_row(struct bench_living* living, const char* name, const double* positions, double across,
+                        double down, double gamma, double angle, const char* reference)
+{
+    const double* tip   = positions + 3 * (living->scene->vertices - 1);
+    double        off   = hypot(hypot(tip[0] - across, tip[1] + down), tip[2]) / living->length;
+    double        limit = living->scene->vertices == 32 ? 0.005 : 0.001;
+    json_t*       row   = bench_physics_row(living, name, 0, off, limit, reference);
+    bench_set_number(row, "gamma", gamma);
+    bench_set_number(row, "angle", angle);
+}
+
+// Clamped at an angle, degrees from the horizontal, upwards positive: how far it hangs, over how far it reaches. A limp
+// strand reaches little, and the ratio is then off by much more than the strand is by its length.
 static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma,
                                double angle)
 {
@@ -42,8 +56,59 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
                                         limit, "elastica, H/W");
         bench_set_number(row, "gamma", gamma);
         bench_set_number(row, "angle", angle);
+        add_tip_row(&living, "cantilever", positions, length * rest.across, length * rest.down, gamma, angle,
+                    "elastica, off by over L");
     } else
         bench_refuse(bench, "cantilever", method);
+    bench_die(&living);
+}
+
+// Find where the tip of the scene's arc rests, as the limit of two chains whose errors are as the squares of their
+// segments: one of twice as many vertices as the other.
+static bool find_arc_at_rest(const struct bench_scene* scene, double length, double turn, double tip[2])
+{
+    const double       along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
+    struct bench_scene fine = *scene;
+    double             positions[3 * BENCH_MOST_VERTICES], found[2][2];
+    for (uint32_t k = 0; k < 2; ++k) {
+        uint32_t vertices = (FINE_SEGMENTS >> k) + 1;
+        bench_scene_arc(&fine, vertices, length, turn, along, across);
+        struct hair_reference_rod* rod  = bench_reference(&fine);
+        bool                       rest = rod && hair_reference_rod_rest(rod).converged;
+        if (rest) hair_reference_rod_positions(rod, positions);
+        hair_reference_rod_destroy(rod);
+        if (!rest) return false;
+        for (uint32_t c = 0; c < 2; ++c) found[k][c] = positions[3 * (vertices - 1) + c];
+    }
+    for (uint32_t c = 0; c < 2; ++c) tip[c] = found[0][c] + (found[0][c] - found[1][c]) / 3;
+    return true;
+}
+
+// A strand that is a circle at rest leaves its clamp level and curls down. `turn` is in degrees.
+static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma, double turn)
+{
+    const char* method = bench_solver_name(solver);
+    if (!bench_begin(bench, "cantilever_arc", method)) return;
+    const double        length = 0.1, along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
+    double              positions[3 * BENCH_MOST_VERTICES], tip[2];
+    struct bench_living living;
+    struct bench_scene  scene = bench_scene_default();
+    bench_scene_arc(&scene, vertices, length, degrees(turn), along, across);
+    scene.solver               = solver;
+    scene.mapping              = bench->options.mapping;
+    scene.physics.fiber_radius = 1e-4f;
+    scene.physics.damping      = 20;
+    bench_scene_set_gamma(&scene, length, gamma);
+    snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
+    if (!find_arc_at_rest(&scene, length, degrees(turn), tip) || !bench_live(bench, &scene, &living)) {
+        bench_refuse(bench, "cantilever_arc", method);
+        return;
+    }
+    if (bench_settle(&living, positions))
+        add_tip_row(&living, "cantilever_arc", positions, tip[0], -tip[1], gamma, turn,
+                    "rod in double precision, off by over L");
+    else
+        bench_refuse(bench, "cantilever_arc", method);
     bench_die(&living);
 }
 
@@ -51,13 +116,16 @@ void bench_cantilever(struct bench* bench)
 {
     static const double horizontal[] = {0.1, 0.3, 1, 3, 5, 10, 30, 50, 100, 200, 300, 1000};
     static const double inclined[] = {7, 42, 150, 700}, angles[] = {-40, 35};
-    bool                quick = bench->options.quick;
+    static const double arcs[] = {1000, 100, 10, 1};
+    bool                quick  = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s)
         for (uint32_t vertices = 32; vertices <= (quick ? 32 : 64); vertices *= 2) {
             for (size_t i = quick ? 5 : 0; i < (quick ? 6 : ARRAY_SIZE(horizontal)); ++i)
                 measure_cantilever(bench, bench_rod_solvers[s], vertices, horizontal[i], 0);
             for (size_t i = 0; i < (quick ? 0 : ARRAY_SIZE(inclined) * ARRAY_SIZE(angles)); ++i)
                 measure_cantilever(bench, bench_rod_solvers[s], vertices, inclined[i / 2], angles[i % 2]);
+            for (size_t i = 0; i < (quick ? 1 : ARRAY_SIZE(arcs)); ++i)
+                measure_arc(bench, bench_rod_solvers[s], vertices, arcs[i], 360);
         }
 }
 
