@@ -128,6 +128,8 @@ typedef uint32_t hair_uint;
 #define HAIR_SHADOW_MAPS 4 // of all of its lights
 #define HAIR_MOST_LIGHT 64000.0 // of a colour that is drawn: formats of half floats hold it
 
+#define HAIR_MIXED_ROW_VECTORS 14u // Vectors in a row of the mixed scheme: see glsl/sim/mixed_rows.glsl.
+
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2

@@ -1,5 +1,6 @@
 // follow_state.glsl - a guide of follow.comp between substeps: loaded, accepted, stored.
 #define IS_PLANE 2.0 // w of a plane in material[], which no quaternion has that a reset or a teleport leaves
+#include "sim/load_vertex.glsl"
 
 OWN(vec3, plane); // of the contact at the end of the last substep: normal; 0: none
 
@@ -10,21 +11,9 @@ void load()
     EACH(guide_count) {
         uint       at      = guide_first + min(i, guide_count - 1u);
         hair_state was     = state[at];
-        vec4       segment = i < guide_count ? rod[at].segment : vec4(0.0);
-        // A root that is held is where the scalp has it, wherever it was when it was not.
-        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
-        own(displacement) = was.displacement.xyz * params.rescale;
-        vec4 contact      = SOLIDS ? material[at] : vec4(0.0);
-        own(plane)        = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
-        own(rest_length)  = segment.x;
-        own(slack)        = segment.y;
-        own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
-#ifdef HAIR_TIED
-        load_tie(i);
-#endif
-#ifdef HAIR_CROWD
-        own(push) = texelFetch(push_texture, int(at)).xyz;
-#endif
+        vec4       segment = rod[at].segment, contact = SOLIDS ? material[at] : vec4(0.0);
+        own(plane) = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
+        load_vertex(i, was, segment, pulled);
     }
 }
 

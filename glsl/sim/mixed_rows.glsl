@@ -24,9 +24,8 @@
 #define PUT_ROW(name, k, v) name[k] = v
 #else // A work group has no memory for so many rows.
 #define ROWS_MEET memoryBarrierBuffer(), synchronise()
-#define ROW_VECTORS 14u // lib/sim/rods.c has room for as many.
 #define FIELD(name, n) const uint name = uint(n)
-#define ROW(name, k) bend[3u * params.vertices + ROW_VECTORS * (guide_first + (k)) + name].xyz
+#define ROW(name, k) bend[3u * params.vertices + HAIR_MIXED_ROW_VECTORS * (guide_first + (k)) + name].xyz
 #define PUT_ROW(name, k, v) ROW(name, k) = v
 #endif
 

@@ -1,4 +1,6 @@
 // stored.glsl - what there is of a guide between dispatches.
+#include "sim/load_vertex.glsl"
+
 void load()
 {
     float rescale = params.rescale;
@@ -35,19 +37,7 @@ void load()
         own(turned_before)  = bend[3u * at + 2u].xyz;
         PUT(moved, vec3(0.0));
 #endif
-        segment *= i < guide_count ? 1.0 : 0.0;
-        // A root that is held is where the scalp has it, wherever it was when it was not.
-        PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
-        own(displacement) = was.displacement.xyz * rescale;
-        own(rest_length)  = segment.x;
-        own(slack)        = segment.y;
-        own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
-#ifdef HAIR_TIED
-        load_tie(i);
-#endif
-#ifdef HAIR_CROWD
-        own(push) = texelFetch(push_texture, int(at)).xyz;
-#endif
+        load_vertex(i, was, segment, pulled);
     }
 #ifdef HAIR_MIXED
     root_is_clamped = rod[guide_first].strain.w > 0.0;

@@ -20,8 +20,7 @@ struct hair_rods {
 #define LONGEST                                                                                              \
     (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
 
-#define ROWS_IN_GROUP 64 // vertices, and
-#define ROW_VECTORS 14   // vectors of a row, as glsl/sim/mixed_rows.glsl has them
+#define ROWS_IN_GROUP 64 // vertices whose rows a work group has memory for: see glsl/sim/mixed_rows.glsl
 
 #define UNSEEN 0.25 // s: for so long hair is taken to be seen any moment
 
@@ -87,7 +86,7 @@ static int are_mixed(const struct hair_sim* sim)
 // Return the bytes of forces and turns, and of the rows of a work group that has no room for them.
 static size_t bend_size(const struct hair_sim* sim)
 {
-    size_t each = sim->most_vertices > ROWS_IN_GROUP ? 3 + ROW_VECTORS : 3;
+    size_t each = sim->most_vertices > ROWS_IN_GROUP ? 3 + HAIR_MIXED_ROW_VECTORS : 3;
     return each * sim->guide_vertices * sizeof(hair_vec4);
 }
 

@@ -39,6 +39,28 @@ bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double d
     return bench_live(bench, scene, out);
 }
 
+struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
+                                     double root, double length)
+{
+    const double       at[3] = {root, 0, 0}, along[3] = {1, 0, 0};
+    struct bench_scene scene = bench_scene_default();
+    bench_scene_straight(&scene, vertices, length, at, along);
+    scene.solver          = solver;
+    scene.mapping         = bench->options.mapping;
+    scene.physics.damping = 4;
+    return scene;
+}
+
+double bench_farthest(const double* a, const double* b, uint32_t vertices)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < 3 * vertices; i += 3) {
+        double off = hypot(hypot(a[i] - b[i], a[i + 1] - b[i + 1]), a[i + 2] - b[i + 2]);
+        if (off > most || isnan(off)) most = off;
+    }
+    return most;
+}
+
 static void run_suite(struct bench* bench)
 {
     bench_cantilever(bench);

@@ -19,6 +19,13 @@ json_t* bench_physics_row(struct bench_living* living, const char* name, double 
 // are read where the last substep left them. Return false when the library refused.
 bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out);
 
+// Return a level straight strand of `length` whose root is at x = `root`, with a damping of 4/s.
+struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
+                                     double root, double length);
+
+// Return the greatest distance between vertices of the same number, or NaN where a position is.
+double bench_farthest(const double* a, const double* b, uint32_t vertices);
+
 // physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c, physics_body.c, physics_spin.c,
 // physics_capstan.c, physics_fine.c: the cases.
 void bench_cantilever(struct bench* bench);

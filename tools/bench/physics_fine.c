@@ -5,18 +5,6 @@
 
 #include <math.h>
 
-static struct bench_scene make_level(const struct bench* bench, hair_solver solver, uint32_t vertices,
-                                     double length)
-{
-    const double       root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_scene scene = bench_scene_default();
-    bench_scene_straight(&scene, vertices, length, root, along);
-    scene.solver          = solver;
-    scene.mapping         = bench->options.mapping;
-    scene.physics.damping = 4;
-    return scene;
-}
-
 // Short segments --------------------------------------------------------------------------------------------
 
 static void add_fine_row(struct bench_living* living, const char* name, double gamma, const double* positions)
@@ -37,7 +25,7 @@ static void measure_fine(struct bench* bench, hair_solver solver, uint32_t verti
     if (!bench_begin(bench, name, method)) return;
     double               positions[3 * BENCH_MOST_VERTICES];
     struct bench_living  living;
-    struct bench_scene   scene   = make_level(bench, solver, vertices, length);
+    struct bench_scene   scene   = bench_level_scene(bench, solver, vertices, 0, length);
     struct bench_section section = bench_section_of(&scene.physics);
     double               gamma   = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
     if (!bench_live(bench, &scene, &living)) {
@@ -72,16 +60,13 @@ static bool run_tip(struct bench_living* living, const double* truth, double gam
 {
     struct bench_rest_desc desc     = {14, 0.5, 14, bench_was_interrupted};
     uint32_t               vertices = living->scene->vertices;
-    double                 now[3 * BENCH_MOST_VERTICES], most = 0;
+    double                 now[3 * BENCH_MOST_VERTICES];
     struct bench_rest      rest;
     if (!bench_measure_rest(living->hair, 1, vertices, &desc, &rest) || !bench_read(living, now))
         return false;
-    for (uint32_t i = 0; i < 3 * vertices; i += 3) {
-        double off = hypot(hypot(now[i] - truth[i], now[i + 1] - truth[i + 1]), now[i + 2] - truth[i + 2]);
-        if (!(off <= most)) most = off;
-    }
-    json_t* row = bench_physics_row(living, "tip_mass", 0, most / living->length, 0.001,
-                                    "statics of the same chain, farthest over the length");
+    json_t* row =
+        bench_physics_row(living, "tip_mass", 0, bench_farthest(now, truth, vertices) / living->length, 0.001,
+                          "statics of the same chain, farthest over the length");
     bench_set_number(row, "gamma", gamma);
     bench_set_number(row, "speed", rest.max_speed);
     if (rest.max_speed > 0.001) bench_set_flag(row, "pass", false);
@@ -94,7 +79,7 @@ static void measure_tip(struct bench* bench, hair_solver solver, uint32_t vertic
     if (!bench_begin(bench, "tip_mass", method)) return;
     double              truth[3 * BENCH_MOST_VERTICES];
     struct bench_living living;
-    struct bench_scene  scene = make_level(bench, solver, vertices, TIP_LENGTH);
+    struct bench_scene  scene = bench_level_scene(bench, solver, vertices, 0, TIP_LENGTH);
     bench_scene_set_gamma(&scene, TIP_LENGTH, gamma);
     scene.physics.tip_mass           = TIP_MASS;
     struct hair_reference_rod* rod   = bench_reference(&scene);

@@ -16,17 +16,6 @@ static double find_angle(double rate, double time)
     return 2 * BENCH_PI * rate * (time < RISE ? time * time / (2 * RISE) : time - RISE / 2);
 }
 
-static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, uint32_t vertices)
-{
-    const double       root[3] = {ROOT, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_scene scene = bench_scene_default();
-    bench_scene_straight(&scene, vertices, LENGTH, root, along);
-    scene.solver          = solver;
-    scene.mapping         = bench->options.mapping;
-    scene.physics.damping = 4;
-    return scene;
-}
-
 static bool turn(struct bench_living* living, struct hair_reference_rod* rod, double rate, double from,
                  double to, uint32_t substeps)
 {
@@ -82,8 +71,8 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "head_spin", method)) return;
-    double              truth[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES], most = 0;
-    struct bench_scene  scene = make_scene(bench, solver, vertices);
+    double              truth[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES];
+    struct bench_scene  scene = bench_level_scene(bench, solver, vertices, ROOT, LENGTH);
     struct bench_living living;
     if (!bench_live_in_step(bench, &scene, STEP, &living)) {
         bench_refuse(bench, "head_spin", method);
@@ -91,12 +80,7 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
     }
     if (find_truth(&scene, rate, truth) && turn(&living, NULL, rate, 0, RISE + STEADY, 0) &&
         bench_read(&living, now)) {
-        for (uint32_t i = 0; i < 3 * vertices; i += 3) {
-            double off =
-                hypot(hypot(now[i] - truth[i], now[i + 1] - truth[i + 1]), now[i + 2] - truth[i + 2]);
-            if (!(off <= most)) most = off;
-        }
-        add_row(&living, rate, most / LENGTH);
+        add_row(&living, rate, bench_farthest(now, truth, vertices) / LENGTH);
     } else
         bench_refuse(bench, "head_spin", method);
     bench_die(&living);
