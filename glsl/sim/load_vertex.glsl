@@ -1,12 +1,13 @@
 // load_vertex.glsl - what every solver of rods loads of a vertex.
 
-// Set vertex i from its state and its numbers. The displacement is rescaled to the length of this step's substeps. `pulled`
-// means that the pose at rest pulls.
+// Set vertex i from its state and its numbers. The displacement is rescaled to the length of this step's
+// substeps. `pulled` means that the pose at rest pulls.
 void load_vertex(uint i, hair_state was, vec4 segment, bool pulled)
 {
     segment *= i < guide_count ? 1.0 : 0.0;
     // A root that is held is where the scalp has it, wherever it was when it was not.
-    PUT(place, segment.y > 0.0 || (TIED && i > 0u && i < guide_count) ? was.position.xyz - root_then : vec3(0.0));
+    bool moves = segment.y > 0.0 || (TIED && i > 0u && i < guide_count);
+    PUT(place, moves ? was.position.xyz - root_then : vec3(0.0));
     own(displacement) = was.displacement.xyz * params.rescale;
     own(rest_length)  = segment.x;
     own(slack)        = segment.y;

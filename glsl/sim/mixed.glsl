@@ -1,7 +1,8 @@
 // mixed.glsl - rods by the turns of their segments and the forces in them. Derivation:
 //
-// Vertices i = 0..n-1, segments j = 0..n-2 of frames q_j, whose y axes are the unit tangents t_j. f_j is the force in
-// segment j, theta_j a small turn of the segment about the world's axes. Everything is divided by the line density.
+// Vertices i = 0..n-1, segments j = 0..n-2 of frames q_j, whose y axes are the unit tangents t_j. f_j is the
+// force in segment j, theta_j a small turn of the segment about the world's axes. Everything is divided by
+// the line density.
 //
 // Time. Implicit Euler (b = 1) and BDF2 (b = 2/3) both move vertex i over a substep h by
 //
@@ -13,30 +14,30 @@
 //
 //   E = k/2 (u - u0) . R (u - u0) + k R_z/2 (2 w - 2 w0)^2,   (s, w) = conj(a) b with w >= 0,   u = 2 s
 //
-// The second term makes the energy grow with the turn from the rest shape up to half a turn. By the first alone, a hinge that is
-// bent by most of half a turn at rest is soft, and its energy jumps where the turn passes half a turn. With
-// g = k R (u - u0) and e = k R_z (2 w - 2 w0) the moment in the world is M_i = a (w g + s x g - e s) a*. The second derivative by the
-// turns of both segments has
+// The second term makes the energy grow with the turn from the rest shape up to half a turn. By the first
+// alone, a hinge that is bent by most of half a turn at rest is soft, and its energy jumps where the turn
+// passes half a turn. The moment in the world and the second derivative by the turns of both segments are
 //
+//   g = k R (u - u0),   e = k R_z (2 w - 2 w0),   M_i = a (w g + s x g - e s) a*
 //   H_aa = H_bb = C - (g.s + e w)/2 1,   H_ab = -H_bb + [M_i]x / 2
 //   C = k R_z 1 + sum_k k (R_k - R_z) j_k j_k^T,   j_k = a (w e_k + s x e_k) a*
 //
-// The term [M]x / 2 is what couples bending and twist of a strand that is curved. Without it the one Newton step of a
-// substep diverges: twist has no inertia.
+// The term [M]x / 2 is what couples bending and twist of a strand that is curved. Without it the one Newton
+// step of a substep diverges: twist has no inertia.
 //
 // Balance. Segment j of length l_j turns no further, and connects its vertices, where both residuals vanish:
 //
 //   r_j = M_(j+1) - M_j + l_j t_j x f_j
 //   e_j = l_j t_j - (x_(j+1)' - x_j')
 //
-// Newton's method on both is a symmetric system, block tridiagonal with blocks of 6 x 6: see mixed_solve.glsl. Positions
-// follow from the turns by sums of l_j t_j, so that lengths are exact whatever is left of e_j.
+// Newton's method on both is a symmetric system of tridiagonal 6 x 6 blocks: see mixed_solve.glsl.
+// Positions are sums of l_j t_j, so that lengths are exact whatever is left of e_j.
 //
-// Sources: M. Bergou et al., Discrete Elastic Rods, 2008 (the energy); T. Kugelstadt and E. Schoemer, Position and
-// Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct Position-Based Solver for Stiff Rods, 2018
-// (turns and forces as unknowns). Here both are unknowns of one implicit substep of second order.
+// Sources: M. Bergou et al., Discrete Elastic Rods, 2008 (the energy); T. Kugelstadt and E. Schoemer,
+// Position and Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct Position-Based Solver for
+// Stiff Rods, 2018 (turns and forces as unknowns). Here both are unknowns of one implicit substep of second
+// order.
 #define MAX_TURN 0.5 // rad: a Newton step that turns a segment by more is not trusted.
-#define ASTRAY 1e-4   // One less the cosine of the angle between a segment and its frame, from where on it is turned.
 #define CALM (1.0 / 16.0) // Gain of `known` in a substep that its prediction served.
 #define MAX_CALM 2.5      // From here on turns are extrapolated linearly.
 
@@ -82,8 +83,10 @@ void move_freely(uint i, int method, vec3 before)
 {
     float h = SUBSTEP, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
     vec3  on = IS_BACK(method) ? own(displacement) / 3.0 : vec3(0.0), pull = vec3(0.0);
-    vec3  hv = known < 2.0 ? own(displacement) : IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
-    if (own(aim).w > 0.0) pull = own(aim).w * (rotate(turn_now, own(aim).xyz) + root_moved - on - GET(place));
+    vec3  hv = own(displacement);
+    if (known >= 2.0) hv = IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
+    if (own(aim).w > 0.0)
+        pull = own(aim).w * (rotate(turn_now, own(aim).xyz) + root_moved - on - GET(place));
     vec3 acceleration = params.gravity.xyz + pull;
 #ifdef HAIR_CROWD
     acceleration += own(push);
@@ -144,30 +147,4 @@ void predict(int method)
     find_wanted();
 }
 
-// Return whether frames are unit and along their segments.
-bool are_aligned()
-{
-    bool astray = false;
-    EACH(guide_count - 1u) {
-        vec3  to = AFTER_VEC3(place) - GET(place);
-        vec4  q  = seen(section);
-        float off = dot(q, q) - dot(along_of(q), to) / max(length(to), 1e-30);
-        astray = astray || (i + 1u < guide_count && bits_of(off) > floatBitsToUint(ASTRAY));
-    }
-    return !any_of(bvec2(astray, false)).x;
-}
-
-// Turn frames onto their segments by the least rotation, where they are not: after another method, or none before.
-void align_frames()
-{
-    EACH(guide_count) {
-        vec3 to = (AFTER_VEC3(place) - GET(place)) + (AFTER_VEC3(moved) - GET(moved));
-        vec4 q  = seen(section);
-        if (!(bits_of(dot(q, q) - 1.0) < floatBitsToUint(0.1)))
-            q = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
-        float l = length(to);
-        if (i + 1u < guide_count && l > 0.0 && bits_of(l) < 0x7f800000u) q = quat_multiply(quat_between(along_of(q), to / l), q);
-        seen(section) = normalize(q);
-    }
-    MEET;
-}
+#include "sim/mixed_frames.glsl"

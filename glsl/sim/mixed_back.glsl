@@ -1,25 +1,32 @@
-// mixed_back.glsl - the substitution that follows the elimination of mixed_solve.glsl, from the middle to the ends.
+// mixed_back.glsl - the substitution that follows the elimination of mixed_solve.glsl, from the middle to
+// the ends.
 //
-// Row j has the neighbour n across vertex i. X is the inverse of the block of its turn, and F that of its force:
+// Row j has the neighbour n across vertex i. X is the inverse of the block of its turn, and F that of its
+// force:
 //
 //   theta_j -= X (B theta_n + Y W f_n),   f_j -= Y^T X (B theta_n + Y W f_n) - F W f_n
 
 #ifdef ROWS_IN_REGISTERS
 
-// Every thread makes the matrix of its own row first, all at once. What is left to be done in turn is to multiply by it.
+// Every thread makes the matrix of its own row first, all at once. What is left to be done in turn is to
+// multiply by it.
 void substitute_rows(bool exact, bool up, uint rows, uint most, uint last)
 {
     uint      vertex = up ? lane + 1u : lane, next = up ? lane + 1u : lane - 1u;
     symmetric c = hinge_at(vertex);
     vec3      moment = ROW(hinge_moment, vertex);
     MOBILITY  w = MOBILITY_AT(vertex);
-    mat3      y = mat3(between_x, between_y, between_z), of_turn = full(symmetric(turn_diagonal, turn_beside));
-    mat3      turn_by_turn = of_turn * hinge_between(c, moment, exact, up), turn_by_force = BY_MOBILITY(of_turn * y, w);
+    symmetric of_force = symmetric(force_diagonal, force_beside);
+    mat3      y = mat3(between_x, between_y, between_z);
+    mat3      of_turn = full(symmetric(turn_diagonal, turn_beside));
+    mat3      turn_by_turn = of_turn * hinge_between(c, moment, exact, up);
+    mat3      turn_by_force = BY_MOBILITY(of_turn * y, w);
     mat3      y_across = transpose(y), force_by_turn = y_across * turn_by_turn;
-    mat3      force_by_force = y_across * turn_by_force - BY_MOBILITY(full(symmetric(force_diagonal, force_beside)), w);
+    mat3      force_by_force = y_across * turn_by_force - BY_MOBILITY(full(of_force), w);
     for (uint n = most; n-- > 0u;) {
         vec3 theta = ROW(right_turn, next), f = ROW(right_force, next);
-        vec3 turns = turn_by_turn * theta + turn_by_force * f, forces = force_by_turn * theta + force_by_force * f;
+        vec3 turns = turn_by_turn * theta + turn_by_force * f;
+        vec3 forces = force_by_turn * theta + force_by_force * f;
         bool is_its_turn = n < rows && lane == (up ? n : last - n);
         right_turn -= is_its_turn ? turns : vec3(0.0);
         right_force -= is_its_turn ? forces : vec3(0.0);

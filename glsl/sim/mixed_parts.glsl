@@ -1,7 +1,9 @@
-// mixed_parts.glsl - a substep of the mixed scheme in parts: as a whole, or where that fails in quarters, and so on.
+// mixed_parts.glsl - a substep of the mixed scheme in parts: as a whole, or where that fails in quarters,
+// and so on.
 //
-// A whip or an impact may turn a segment by more in a substep than Newton's method can follow. Parts keep the momentum, which
-// follow-the-leader does not. The first part after a change of length is one of implicit Euler, as is the next substep.
+// A whip or an impact may turn a segment by more in a substep than Newton's method can follow. Parts keep
+// the momentum, which follow-the-leader does not. The first part after a change of length is one of implicit
+// Euler, as is the next substep.
 #define SMALLEST_PART (1.0 / 64.0)
 
 // Take over the frames and forces that the substep ended with.
@@ -32,13 +34,15 @@ void rescale_past(float ratio)
 // Place head and root where the part of the substep from one fraction of it to another begins and ends.
 void place_part(float from, float to, vec3 head_moved)
 {
-    float share_from = mix(share_start_of, share_end_of, from), share_to = mix(share_start_of, share_end_of, to);
-    vec4  head_from = normalize(mix(head_start_of, head_end_of, from)), head_to = normalize(mix(head_start_of, head_end_of, to));
-    place_root(head_from, share_from);
+    float fraction_from = mix(fraction_at_start, fraction_at_end, from);
+    float fraction_to   = mix(fraction_at_start, fraction_at_end, to);
+    vec4  head_from = normalize(mix(head_at_start, head_at_end, from));
+    vec4  head_to   = normalize(mix(head_at_start, head_at_end, to));
+    place_root(head_from, fraction_from);
     turn_then  = turn_now;
     root_then  = root_now;
-    share_then = share_from;
-    place_root(head_to, share_to);
+    share_then = fraction_from;
+    place_root(head_to, fraction_to);
     root_moved = root_now - root_then + (to - from) * head_moved;
 #ifdef HAIR_TIED
     head_then = head_from;
@@ -58,7 +62,8 @@ void attempt_all(vec3 head_moved)
     while (done < 1.0) {
         int  method = leads ? LEADER : known < 2.0 ? EULER : BACK;
         vec3 moves  = part * head_moved;
-        bool fits = attempt(method, moves), last = part <= SMALLEST_PART || rounds_in_all >= MAX_ROUNDS_IN_ALL;
+        bool fits = attempt(method, moves);
+        bool last = part <= SMALLEST_PART || rounds_in_all >= MAX_ROUNDS_IN_ALL;
         if (!fits && !last) {
             if (part == 1.0) count_in(HAIR_HEALTH_EULER);
             rescale_past(0.25);
@@ -72,7 +77,7 @@ void attempt_all(vec3 head_moved)
             leads = true;
             continue;
         }
-        if (!leads) place_vertices(); // Also what Newton's method had not finished: it goes on in the next substep.
+        if (!leads) place_vertices(); // The next substep goes on with what is left of e_j.
         accept_turns(leads);
         accept(fits ? method : LEADER, false, moves);
         done += part;

@@ -1,7 +1,8 @@
-// mixed_rows.glsl - the rows of Newton's system of a guide, one for each segment and vertex, as vectors by name.
+// mixed_rows.glsl - the rows of Newton's system of a guide, one for each segment and vertex, as vectors by
+// name.
 //
 //   FIELD(name, n)        declares the vector n of all rows
-//   ROW(name, k)          reads it of row k: all threads together, outside of conditions that differ between them
+//   ROW(name, k)          reads it of row k: all threads together, in no condition that differs between them
 //   PUT_ROW(name, k, v)   writes it
 //
 // A guide that fits into a subgroup has them in registers, of which threads read each other's.
@@ -10,7 +11,7 @@
 #define ROWS_MEET
 #define FIELD(name, n) vec3 name
 #define ROW(name, k) subgroupShuffle(name, k)
-#define PUT_ROW(name, k, v)                                                                                  \
+#define PUT_ROW(name, k, v) \
     if ((k) == lane) name = v
 #elif defined(HAIR_THREAD_PER_GUIDE)
 #define ROWS_MEET
@@ -30,14 +31,14 @@
 #endif
 
 // A symmetric matrix is its diagonal, and yz, zx, xy.
-FIELD(hinge_diagonal, 0);    // Second derivative of the energy of the hinge at vertex k by the turn of one segment
+FIELD(hinge_diagonal, 0);    // Second derivative of the hinge's energy at vertex k by one segment's turn
 FIELD(hinge_beside, 1);
 FIELD(hinge_moment, 2);      // Its moment
 FIELD(mobility_diagonal, 3); // W of vertex k. Without solids and wind only x, for W is a multiple of one.
 FIELD(mobility_beside, 4);
-FIELD(turn_diagonal, 5);     // Block of the turn of segment k; then the inverse of what elimination makes of it
+FIELD(turn_diagonal, 5);     // Block of the turn of segment k; then its inverse after elimination
 FIELD(turn_beside, 6);
-FIELD(force_diagonal, 7);    // Inverse of the block of its force, once eliminated; at first its tangent, times its length
+FIELD(force_diagonal, 7);    // At first its length along its tangent; then the inverse of its force's block
 FIELD(force_beside, 8);
 FIELD(between_x, 9);         // Columns of the block between turn and force, times that
 FIELD(between_y, 10);
@@ -54,7 +55,10 @@ mat3 full(symmetric s)
     vec3 d = s.diagonal, o = s.beside;
     return mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z);
 }
-symmetric half_of(mat3 m) { return symmetric(vec3(m[0][0], m[1][1], m[2][2]), vec3(m[1][2], m[2][0], m[0][1])); }
+symmetric half_of(mat3 m)
+{
+    return symmetric(vec3(m[0][0], m[1][1], m[2][2]), vec3(m[1][2], m[2][0], m[0][1]));
+}
 symmetric multiple_of_one(float v) { return symmetric(vec3(v), vec3(0.0)); }
 symmetric plus(symmetric a, symmetric b) { return symmetric(a.diagonal + b.diagonal, a.beside + b.beside); }
 symmetric minus(symmetric a, symmetric b) { return symmetric(a.diagonal - b.diagonal, a.beside - b.beside); }
@@ -71,7 +75,8 @@ symmetric outer(vec3 v) { return symmetric(v * v, v.yzx * v.zxy); }
 // a b^T, where that is known to be symmetric
 symmetric times_transposed(mat3 a, mat3 b)
 {
-    return symmetric(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], a[0].yzx * b[0].zxy + a[1].yzx * b[1].zxy + a[2].yzx * b[2].zxy);
+    return symmetric(a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
+                     a[0].yzx * b[0].zxy + a[1].yzx * b[1].zxy + a[2].yzx * b[2].zxy);
 }
 
 // a^T b, likewise

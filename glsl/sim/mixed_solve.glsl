@@ -1,12 +1,13 @@
-// mixed_solve.glsl - Newton's system of a guide, solved by block elimination (L D L^T, blocks of 6 x 6). With the hinge of
-// segment j to the next one, B = H_ab and W the mobility of the vertex between, the rows are
+// mixed_solve.glsl - Newton's system of a guide, solved by block elimination (L D L^T, blocks of 6 x 6).
+// With the hinge of segment j to the next one, B = H_ab and W the mobility of the vertex between, the rows
+// are
 //
 //   |  P_j   Q_j | theta_j   | B 0 |                          Q_j = -l [t]x at first
 //   | Q_j^T -R_j |  f_j    + | 0 W | (theta, f)_(j+1) + the same of j-1, transposed = (r, e)_j
 //
-// Of a block the force goes first, Y = Q R^-1: P + Y Q^T is stiffness with inertia, and must be positive. A work group
-// eliminates from both ends at once and meets in the middle: by two threads, or in a subgroup by half of the threads each, all of
-// which do the same.
+// The force of a block is eliminated first, with Y = Q R^-1. P + Y Q^T is stiffness with inertia, and must
+// be positive. A work group eliminates from both ends at once and meets in the middle. Two threads do that,
+// or in a subgroup half of the threads each, all of which do the same.
 struct carried { // What elimination subtracts from the next row.
     symmetric turn, force;
     mat3 between;
@@ -52,10 +53,12 @@ mat3 hinge_between(symmetric c, vec3 moment, bool exact, bool up)
 
 symmetric hinge_at(uint i) { return symmetric(ROW(hinge_diagonal, i), ROW(hinge_beside, i)); }
 
-// Eliminate row j, and replace what is carried to it by what it carries on across vertex i. `counts`: else nothing is done.
+// Eliminate row j, and replace what is carried to it by what it carries on across vertex i. `counts`: else
+// nothing is done.
 void eliminate_row(uint j, uint i, bool exact, bool up, bool counts, inout carried s)
 {
-    vec3 t = ROW(force_diagonal, j), right = ROW(right_turn, j) - s.right_turn, right_f = ROW(right_force, j) - s.right_force;
+    vec3 t = ROW(force_diagonal, j);
+    vec3 right = ROW(right_turn, j) - s.right_turn, right_f = ROW(right_force, j) - s.right_force;
     symmetric p = minus(symmetric(ROW(turn_diagonal, j), ROW(turn_beside, j)), s.turn);
     MOBILITY  w_other = MOBILITY_AT(up ? j : j + 1u), w = MOBILITY_AT(i); // Of both its ends.
     symmetric r = plus(plus(mobility_of(w_other), mobility_of(w)), s.force), c = hinge_at(i);
@@ -66,7 +69,8 @@ void eliminate_row(uint j, uint i, bool exact, bool up, bool counts, inout carri
     mat3      y = q * full(of_force);
     p           = plus(p, times_transposed(y, q));
     symmetric of_turn = inverse_of(p, of_p);
-    bool positive = p.diagonal.x > 0.0 && p.diagonal.x * p.diagonal.y > p.beside.z * p.beside.z && of_p > 0.0 && r.diagonal.x > 0.0;
+    bool positive = p.diagonal.x > 0.0 && p.diagonal.x * p.diagonal.y > p.beside.z * p.beside.z &&
+                    of_p > 0.0 && r.diagonal.x > 0.0;
     convex  = convex && (positive || !counts);
     vec3 turns = times(of_turn, right + y * right_f), forces = turns * y - times(of_force, right_f);
     mat3 xy = full(of_turn) * y, bt = transpose(b), bx = bt * full(of_turn);
@@ -91,12 +95,12 @@ void eliminate_row(uint j, uint i, bool exact, bool up, bool counts, inout carri
 // Solve the rows. The solution is in right_turn and right_force.
 void solve_system(bool exact)
 {
-    uint segments = guide_count - 1u, middle = BOTH_ENDS ? segments / 2u : segments - 1u, last = segments - 1u;
+    uint segments = guide_count - 1u, last = segments - 1u, middle = BOTH_ENDS ? segments / 2u : last;
     bool up       = GOES_UP(middle);
     uint rows     = up ? middle : last - middle, most = BOTH_ENDS ? max(middle, last - middle) : middle;
     convex        = true;
     carried s     = nothing_carried();
-    for (uint n = 0u; n <= most; ++n) { // The middle row is in the same loop, for programs to be half as long.
+    for (uint n = 0u; n <= most; ++n) { // The loop includes the middle row: programs are half as long.
         bool meets = n == most;
         uint j     = meets ? middle : up ? n : last - min(n, last);
         if (meets) add_other_end(up, s);

@@ -13,8 +13,8 @@ void place_root(vec4 head, float share)
 }
 
 #ifdef HAIR_MIXED // Where the head is when a substep starts and ends, and what of the step is done then.
-vec4  head_start_of, head_end_of;
-float share_start_of, share_end_of;
+vec4  head_at_start, head_at_end;
+float fraction_at_start, fraction_at_end;
 #endif
 
 void attempt_all(vec3 head_moved); // Do a substep, by the method of the program.
@@ -53,10 +53,10 @@ bool solve()
         place_root(params.substep[s].rotation, params.substep[s].displacement.w);
         root_moved = root_now - root_then + head_moved;
 #ifdef HAIR_MIXED
-        head_start_of  = s == 0u ? params.rotation_start : params.substep[s - 1u].rotation;
-        head_end_of    = params.substep[s].rotation;
-        share_start_of = share_then;
-        share_end_of   = share_now;
+        head_at_start  = s == 0u ? params.rotation_start : params.substep[s - 1u].rotation;
+        head_at_end    = params.substep[s].rotation;
+        fraction_at_start = share_then;
+        fraction_at_end   = share_now;
 #endif
 
         grant_rounds();
