@@ -35,8 +35,7 @@
 //
 // Sources: M. Bergou et al., Discrete Elastic Rods, 2008 (the energy); T. Kugelstadt and E. Schoemer,
 // Position and Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct Position-Based Solver for
-// Stiff Rods, 2018 (turns and forces as unknowns). Here both are unknowns of one implicit substep of second
-// order.
+// Stiff Rods, 2018 (turns and forces as unknowns). Both are unknowns of one implicit substep here.
 #define MAX_TURN 0.5 // rad: a Newton step that turns a segment by more is not trusted.
 #define CALM (1.0 / 16.0) // Gain of `known` in a substep that its prediction served.
 #define MAX_CALM 2.5      // From here on turns are extrapolated linearly.
