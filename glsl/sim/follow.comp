@@ -14,9 +14,9 @@
 // A solid keeps a vertex above the plane of its contact: the direction is turned until the vertex lies on it, where
 // friction holds it if it can. The planes of a substep are the first guess of the next.
 //
-// Not handled: what moves the tip does not move the root. A segment carries all beyond it, though a solid may bear
-// it: a strand whose root is beside a box slides off its top, while one whose root is above it stays. Twist follows
-// the rest shape. Bending is that of a round section.
+// Not handled: what moves the tip does not move the root. A segment carries all beyond it, though a solid
+// may bear it: a strand whose root is beside a box slides off its top, while one whose root is above it
+// stays. Twist follows the rest shape. Bending is that of a round section.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require

@@ -102,21 +102,23 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     find_turns(out, guide, rest);
 }
 
-// Return the stiffness of the hinge at the clamp over B / l, from the weight that hangs on it. It is 2 without weight:
-// the hinge then stands for half a segment. Far from the clamp a chain under the tension T that leaves it at a small
-// angle straightens by the factor r a segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). Its moment at the clamp
-// is made that of a continuous rod, sqrt(B T) times the angle. The tension is taken to be all the weight, whichever way
-// the strand hangs, and the factor that of the round section.
+// Return the stiffness of the hinge at the clamp over B / l, from the weight that hangs on it. It is 2
+// without weight: the hinge then stands for half a segment. Far from the clamp a chain under the tension T
+// that leaves it at a small angle straightens by the factor r a segment, where r + 1/r = 2 + p^2 and p = l
+// sqrt(T / B). Its moment at the clamp is made that of a continuous rod, sqrt(B T) times the angle. The
+// tension is taken to be all the weight, whichever way the strand hangs, and the factor that of the round
+// section.
 //
-// Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns by the moment
-// 2 sqrt(B T) sin(a / 2), and its curvature k has integral k^2 ds = 4 sqrt(T / B) (1 - cos(a / 2)). Segments are as
-// long as the arcs they stand for, and the chords of those are shorter by the fraction l^2 k^2 / 24. A chain thus hangs
-// too low by
+// Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns by the
+// moment 2 sqrt(B T) sin(a / 2), and its curvature k has integral k^2 ds = 4 sqrt(T / B) (1 - cos(a / 2)).
+// Segments are as long as the arcs they stand for, and the chords of those are shorter by the fraction l^2
+// k^2 / 24. A chain thus hangs too low by
 //
 //   l^2 / 6 sqrt(T / B) (1 - cos(a / 2))
 //
-// and is off by 0.3 to 1.3 times that with this factor and the energy of the mixed scheme. Neither another stiffness of
-// the clamp nor another part of the second term of its energy comes much nearer: see tests/unit/rod_rest_test.c.
+// Limp strands from a level or rising clamp are off by at most 1.3 times that, with this factor and the
+// energy of the mixed scheme: see tests/unit/rod_rest_test.c. Neither another stiffness of the clamp nor
+// another part of the second term of its energy comes much nearer.
 static double clamp_factor(double length, double weight, double bend)
 {
     double p = length * sqrt(weight / bend);

@@ -102,14 +102,15 @@ static double distance_from_elastica(uint32_t segments, double gamma, double up,
     return hypot(tip[0] - e.across, tip[1] + e.down);
 }
 
-// Return by how much a chain that turns by `up` and a right angle at its clamp hangs too low: see lib/sim/rod_shape.c.
+// Return by how much a chain that turns by `up` and a right angle at its clamp hangs too low: see
+// lib/sim/rod_shape.c.
 static double polygon_error(uint32_t segments, double gamma, double up)
 {
     return sqrt(gamma) * (1 - cos((PI / 2 + up) / 2)) / (6.0 * segments * segments);
 }
 
-// Measured: 1.31 times the error of the polygon at most. Without the second term of the clamp's energy it is 2.8 times
-// with 31 segments, a weight of 3000 and 1.3 rad.
+// Measured: 1.31 times the error of the polygon at most. Without the second term of the clamp's energy it is
+// 2.8 times with 31 segments, a weight of 3000 and 1.3 rad.
 static void the_clamp_adds_little_to_the_error_of_the_polygon(void** state)
 {
     (void)state;

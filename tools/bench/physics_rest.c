@@ -1,4 +1,5 @@
-// physics_rest.c - hair at rest: the heavy cantilever, straight and curved; the catenary; rods that leave their plane.
+// physics_rest.c - hair at rest: the heavy cantilever, straight and curved; the catenary; rods that leave
+// their plane.
 #include "lib/reference/continuum.h"
 #include "tools/bench/physics.h"
 
@@ -26,8 +27,9 @@ static void add_tip_row(struct bench_living* living, const char* name, const dou
     bench_set_number(row, "angle", angle);
 }
 
-// Clamped at an angle, degrees from the horizontal, upwards positive: how far it hangs, over how far it reaches. A limp
-// strand reaches little, and the ratio is then off by much more than the strand is by its length.
+// Clamped at an angle, degrees from the horizontal, upwards positive: how far it hangs, over how far it
+// reaches. A limp strand reaches little, and the ratio is then off by much more than the strand is by its
+// length.
 static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma,
                                double angle)
 {
@@ -63,8 +65,8 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
     bench_die(&living);
 }
 
-// Find where the tip of the scene's arc rests, as the limit of two chains whose errors are as the squares of their
-// segments: one of twice as many vertices as the other.
+// Find where the tip of the scene's arc rests, as the limit of two chains whose errors are as the squares of
+// their segments: one of twice as many vertices as the other.
 static bool find_arc_at_rest(const struct bench_scene* scene, double length, double turn, double tip[2])
 {
     const double       along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
