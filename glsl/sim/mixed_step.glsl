@@ -5,9 +5,9 @@
 #define CLOSE_TURN 0.03  // rad: what a Newton step this small leaves is about its square.
 #define MAX_ROUNDS 10u   // Newton steps of an attempt, those that are not trusted counted; and of all in a substep
 #ifdef HAIR_THREAD_PER_GUIDE // A software rasteriser leaves loops that go round too often: see lib/sim/rounds.c.
-#define MAX_ROUNDS_IN_ALL (HAIR_GUIDE_THREADS <= 32 ? 16u : HAIR_GUIDE_THREADS <= 64 ? 12u : HAIR_GUIDE_THREADS <= 128 ? 8u : 6u)
+#define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS_BY_THREAD(HAIR_GUIDE_THREADS)
 #else
-#define MAX_ROUNDS_IN_ALL 32u
+#define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS
 #endif
 #define LENGTH_ERROR 2e-4 // What contact may leave of a segment's length, relative.
 

@@ -44,11 +44,10 @@ static uint32_t stiff_steps(const struct hair_sim* sim)
     return sim->solver == HAIR_SOLVER_DIRECT ? 1 : hair_sim_is_stiff(sim) ? 3 : 0;
 }
 
-// Return how many Newton steps the mixed scheme may take in a substep: MAX_ROUNDS_IN_ALL of glsl/sim/mixed_step.glsl.
+// Return how many Newton steps the mixed scheme may take in a substep.
 static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
 {
-    if (!by_thread) return 32;
-    return sim->most_vertices <= 32 ? 16 : sim->most_vertices <= 64 ? 12 : sim->most_vertices <= 128 ? 8 : 6;
+    return by_thread ? HAIR_MIXED_STEPS_BY_THREAD(sim->most_vertices) : HAIR_MIXED_STEPS;
 }
 
 // Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep takes one Newton step. Where a
