@@ -139,7 +139,10 @@ typedef uint32_t hair_uint;
 #define HAIR_HEALTH_TAUT 3
 #define HAIR_HEALTH_COUNT 4
 #define HAIR_FIRST_GUIDES 28 // of a work group of subgroups, in programs that many guides go through first
-#define HAIR_HEALTH_LISTS (HAIR_HEALTH_COUNT + 2) // after how many guides there are on each of two lists, the one of this dispatch
+// Two lists of guides follow in turn, at HAIR_HEALTH_COUNT: the work groups of an indirect dispatch over each, x, y and z, and its
+// length. The guides of the list of this dispatch are at HAIR_HEALTH_LISTS.
+#define HAIR_HEALTH_LIST 4 // of one of the two
+#define HAIR_HEALTH_LISTS (HAIR_HEALTH_COUNT + 2 * HAIR_HEALTH_LIST)
 
 // Uniform buffers.
 #define HAIR_BIND_STEP 0         // hair_step_params
@@ -416,7 +419,9 @@ struct hair_step_params {
     hair_uint bodies; // a bit for each solid that is no capsule, of HAIR_FEW_SOLIDS
     hair_uint rounds; // of implicit.glsl's reduction, before its last
     hair_uint list;   // 0 or 1: which of health[]'s is this dispatch's
-    hair_uint unused0, unused1, unused2;
+    hair_uint substep_first; // of `substep`, the one that this dispatch begins with
+    hair_uint part_rounds;   // of loops, that parts of a substep may take: see leap_parts.glsl
+    hair_uint unused0;
     // Of the grid in which any number of solids are looked up, from the head's origin.
     hair_vec4 cells_lower; // xyz: its corner, m; w: 1 / side of a cell, 1/m
     hair_uint cells_x, cells_y, cells_z;

@@ -21,9 +21,14 @@ float known_after(int method)
 // finite then, or beyond any hair, goes back to its rest pose, and along with the head; or false, where another program does that.
 bool accept(int method, bool waits, vec3 head_moved)
 {
-    bool lost = false, struck = false;
+    bool lost = false, struck = false, turns = false;
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
+#if defined(HAIR_FIRST) && defined(WATCHES_TURNS)
+        turns  = turns || turns_at(i, MIN_COSINE); // The second program splits the substep, unless something is touched.
+        struck = struck || (SOLIDS && own(met) != BITS(0u));
+        lost   = lost || (!SOLIDS && turns);
+#endif
         if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
             float fastest  = length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
             vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
@@ -42,14 +47,15 @@ bool accept(int method, bool waits, vec3 head_moved)
         bool slacks  = IS_LEADER(method) || i + 1u >= guide_count || bits_of(own(tension)) >= 0x7f800000u;
         own(tension) = slacks ? 0.0 : own(tension);
 #endif
-        own(displacement) = kept;
+        own(displacement) = kept / leap_part;
         if (i < guide_count)
             lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
     }
     bvec2 found = any_of(bvec2(lost, struck));
-    if (own_method == SHAKE) known = IS_SHAKE(method) ? 1.0 : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
+    if (own_method == SHAKE) known = IS_SHAKE(method) ? leap_part : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
 #ifdef HAIR_FIRST
+    if (HAIR_SOLVER == SHAKE && SOLIDS && !found.y) return !any_of(bvec2(turns || found.x, false)).x;
     return !found.x;
 #else
     if (!found.x) return true;

@@ -103,6 +103,7 @@ void correct_lengths(int method, uint n)
 bool fit_lengths(int method, float tolerance, vec3 head_moved)
 {
     for (uint n = 0u;; ++n) {
+        length_steps = n;
         try_wanted(head_moved, n >= KEEP_FROM);
         if (IS_LEADER(method)) { // What that draws into solids is turned out of them, once.
             follow_leader();

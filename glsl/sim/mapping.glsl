@@ -32,11 +32,18 @@
 #define TIED false
 #endif
 
+// Programs that many guides go through first have few registers to a guide. The program of SHAKE has enough.
+#ifdef HAIR_FIRST
+#if HAIR_SOLVER != 0
+#define SHARES_GROUPS
+#endif
+#endif
+
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 
 // Of so many guides a work group has several, since it takes as long to launch whatever it has. What they vote on they agree on:
 // barriers of subgroups NVIDIA makes barriers of the whole GPU, which take 0.1 ms of a step of 102,400 guides.
-#ifdef HAIR_FIRST
+#ifdef SHARES_GROUPS
 #define GROUP_GUIDES uint(HAIR_FIRST_GUIDES)
 #define guide_of_group gl_SubgroupID
 #define MEET_TO_VOTE subgroupMemoryBarrierShared()
@@ -45,6 +52,7 @@
 #define guide_of_group 0u
 #define MEET_TO_VOTE synchronise()
 #endif
+#define GUIDES_IN_GROUP GROUP_GUIDES
 #define GROUP_THREADS (32u * GROUP_GUIDES)
 #define EACH(n) for (uint i = lane, goes = 1u; goes > 0u; goes = 0u)
 #define ONCE
@@ -96,6 +104,7 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 
 #ifdef HAIR_THREAD_PER_GUIDE
 
+#define GUIDES_IN_GROUP uint(GROUP_THREADS)
 #define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
 #define EACH(n) for (uint i = 0u; i < (n); ++i)
 #define ONCE
@@ -120,6 +129,7 @@ float most_of(float v) { return v; }
 
 #else
 
+#define GUIDES_IN_GROUP 1u
 #define GROUP_THREADS HAIR_GUIDE_THREADS
 #define EACH(n) for (uint i = lane; i < (n); i = 0xffffffffu)
 #define ONCE if (lane == 0u)

@@ -41,5 +41,5 @@ int own_method; // of the guide
 #else
 const int own_method = HAIR_SOLVER;
 #endif
-float     known;     // of the past: 0: nothing, at rest; 1: displacement; 2: rates too; between: of SHAKE, it waits; else it leaps
-float     of_force;  // what a force does in the substep, displacement times mass: s^2
+float of_force; // what a force does in the substep, displacement times mass: s^2
+#include "sim/parts.glsl"

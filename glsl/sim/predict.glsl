@@ -23,12 +23,12 @@ vec3 offset_of(uint i, int method, vec3 last)
 // SHAKE: d' = keep d + kick (g + f/m), forces of the start.
 void leap(uint i, vec3 force, vec3 bending)
 {
-    float part = known == 0.0 ? 0.5 : 1.0; // The first leap is half a step.
-    vec3  d    = own(displacement), push = force + own(slack) * bending;
+    float span = leap_span();
+    vec3  d    = leap_part * own(displacement), push = force + own(slack) * bending;
 #ifdef HAIR_WIND
-    own(wanted) = d + part * dragged_on(d, push);
+    own(wanted) = d + span * dragged_on(d, push);
 #else
-    own(wanted) = d + part * ((params.keep - 1.0) * d + params.kick * push);
+    own(wanted) = d + span * ((part_keep - 1.0) * d + part_kick * push);
 #endif
 }
 
@@ -105,8 +105,12 @@ void predict(int method)
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     clamp_way    = KEEPS_CLAMP ? rotate(turn, clamp_at_rest) : rotate(scalp, vec3(0.0, 1.0, 0.0));
-    EACH(guide_count) { PUT(moved, offset_of(i, method, own(displacement))); }
+    EACH(guide_count) {
+        PUT(moved, offset_of(i, method, own(displacement)));
+        PUT_SPREAD;
+    }
     find_edges();
+    KEEP_SPREAD
     MEET;
     find_bending();
     of_force = params.gravity.w * params.gravity.w * (IS_BACK(method) && at_end ? 4.0 / 9.0 : 1.0);
@@ -120,7 +124,7 @@ void predict(int method)
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
-        feel_air(i, before, share, IS_SHAKE(method) ? own(displacement) : rate_from(i, method));
+        feel_air(i, before, share, IS_SHAKE(method) ? leap_part * own(displacement) : rate_from(i, method));
 #endif
         own(wanted)  = held_move(i);
         vec3 bending = by_segments(i);

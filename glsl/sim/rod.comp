@@ -3,7 +3,7 @@
 // HAIR_SOLVER names the method that is tried first; of guides whose bending SHAKE cannot bear at that substep BDF2, in
 // the programs that have HAIR_STIFF. A substep that it leaves stretched or not finite is done again by implicit Euler,
 // and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes back to its rest pose.
-// What this takes is counted in health[].
+// What this takes is counted in health[]. SHAKE takes a substep in parts where a whip turns segments: see parts.glsl.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
@@ -21,22 +21,44 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/stored.glsl"
 #include "sim/accept.glsl"
 
+#ifdef SPLITS
+void place_part(float size, float end, vec3 head_moved);
+bool may_split(float smaller);
+bool turns_far(int method);
+#endif
+
 // The substep by `method`. False: it failed.
 bool attempt(int method, vec3 head_moved)
 {
     predict(method);
     find_solids(head_moved);
     list_reaching();
-    return fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved);
+    bool fits = fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved);
+#ifdef SPLITS
+    fits = !turns_far(method) && fits;
+#endif
+    return fits;
 }
 
-// The substep by one method after the other, until one can.
+// The substep, or a part of it, by one method after the other, until one can.
 void attempt_all(vec3 head_moved)
 {
     bool waits = own_method == SHAKE && known > 1.0;
     int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
     for (;; ++method) { // As a condition the attempt takes a tenth longer by one compiler.
-        if (attempt(method, head_moved)) break;
+        vec3 moves = head_moved;
+#ifdef SPLITS
+        moves *= min(leap_part, 1.0 - done);
+#endif
+        if (attempt(method, moves)) break;
+#ifdef SPLITS
+        if (IS_SHAKE(method) && may_split(0.5 * leap_part)) {
+            place_part(0.5 * leap_part, done + 0.5 * leap_part, head_moved);
+            --method;
+            continue;
+        }
+        place_part(1.0, 1.0, head_moved); // All that is left, by a method that does not leap.
+#endif
 #ifdef KEEPS_RATES
         EACH(guide_count) { own(tension) = 0.0; } // This one was led to nothing.
 #endif
@@ -50,22 +72,23 @@ void attempt_all(vec3 head_moved)
 }
 
 #include "sim/substeps.glsl"
+#include "sim/guide_list.glsl"
 
 // Many guides go through two programs: one that knows no method but the solver's own, and for those that it leaves one that
 // knows all. So the first takes fewer registers, and instructions that a GPU has at hand.
 void main()
 {
-    uint first = hair_guide_number(), groups = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    uint first = hair_guide_number(), guides_at_once = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GUIDES_IN_GROUP;
 #if defined(HAIR_FIRST)
-    if (first == 0u && lane == 0u) health[HAIR_HEALTH_COUNT + 1u - params.list] = 0u;
-    for (guide_number = first; guide_number < params.guides; guide_number += groups * GROUP_GUIDES) {
+    if (first == 0u && lane == 0u) clear_list(1u - params.list);
+    for (guide_number = first; guide_number < params.guides; guide_number += guides_at_once) {
         bool done = solve();
-        if (!done && lane == 0u) health[HAIR_HEALTH_LISTS + atomicAdd(health[HAIR_HEALTH_COUNT + params.list], 1u)] = guide_number;
+        if (!done && lane == 0u) add_to_list(guide_number);
         MEET;
     }
 #elif defined(HAIR_LISTED)
-    uint count = health[HAIR_HEALTH_COUNT + params.list];
-    for (uint n = first; n < count; n += groups) {
+    uint count = health[length_of_list(params.list)];
+    for (uint n = first; n < count; n += guides_at_once) {
         guide_number = health[HAIR_HEALTH_LISTS + n];
         solve();
         MEET;

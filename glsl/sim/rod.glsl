@@ -41,10 +41,12 @@ bool loose, broken; // what measure() finds
 
 vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
 
-// Seconds that the motion under way takes: a substep, or under the mixed scheme a part of one.
+// Seconds that the motion under way takes: a substep, or a part of one.
 #ifdef HAIR_MIXED
 float part_length;
 #define SUBSTEP part_length
+#elif defined(HAIR_LISTED)
+#define SUBSTEP (leap_part * params.gravity.w)
 #else
 #define SUBSTEP params.gravity.w
 #endif
@@ -65,7 +67,7 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 
 // From vertex i to the next, at the start of the substep. Work groups of several guides have so few registers each that some are in
 // memory; other programs have none to spare for what is quickly found again.
-#ifdef HAIR_FIRST
+#ifdef SHARES_GROUPS
 OWN(vec3, kept_between);
 #define KEEP_BETWEEN own(kept_between) = AFTER_VEC3(place) - GET(place)
 #define BETWEEN own(kept_between)

@@ -3,9 +3,9 @@
 
 void load()
 {
-    float rescale = params.rescale;
+    float rescale = params.substep_first == 0u ? params.rescale : 1.0;
     bool  pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
-    known         = params.rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
+    known         = rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
     root_is_free  = rod[guide_first].segment.y > 0.0;
     float tip     = rod[guide_first + guide_count - 1u].segment.y;
     heavy         = tip > 0.0 && tip * guide_length < 1.0;

@@ -12,12 +12,16 @@ void place_root(vec4 head, float share)
 #endif
 }
 
-#ifdef HAIR_MIXED // Where the head is when a substep starts and ends, and what of the step is done then.
+#if defined(HAIR_MIXED) || defined(SPLITS) // Where the head is when a substep starts and ends, and what of the step is done then.
 vec4  head_at_start, head_at_end;
 float fraction_at_start, fraction_at_end;
 #endif
 
 void attempt_all(vec3 head_moved); // Do a substep, by the method of the program.
+
+#ifdef SPLITS
+#include "sim/leap_parts.glsl"
+#endif
 
 // All substeps. False: the solver's own method cannot, and nothing has been done.
 bool solve()
@@ -27,18 +31,25 @@ bool solve()
     guide_length = guide[guide_number].arc_length;
     root_at_rest = rest[guide_first].position.xyz;
     clamp_at_rest = rotate(guide[guide_number].root_frame, vec3(0.0, 1.0, 0.0));
-    place_root(params.rotation_start, params.share_start);
+    uint begin = params.substep_first;
+    vec4 head  = params.rotation_start;
+    float share = params.share_start;
+    if (begin > 0u) {
+        head  = params.substep[begin - 1u].rotation;
+        share = params.substep[begin - 1u].displacement.w;
+    }
+    place_root(head, share);
     root_then = root_now;
 #ifdef HAIR_TIED
-    head_now  = params.rotation_start;
+    head_now  = head;
 #endif
     load();
     if (SOLIDS) begin_solids();
 #ifdef HAIR_FIRST
-    if (known < LEAPS_NEXT) return false;
+    if (HAIR_SOLVER == SHAKE ? known != 0.0 && known != 1.0 : known < LEAPS_NEXT) return false;
 #endif
 
-    for (uint s = 0u; s < params.substeps; ++s) {
+    for (uint s = begin; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
 #ifdef HAIR_WIND
         substep_number  = s;
@@ -52,7 +63,7 @@ bool solve()
 #endif
         place_root(params.substep[s].rotation, params.substep[s].displacement.w);
         root_moved = root_now - root_then + head_moved;
-#ifdef HAIR_MIXED
+#if defined(HAIR_MIXED) || defined(SPLITS)
         head_at_start  = s == 0u ? params.rotation_start : params.substep[s - 1u].rotation;
         head_at_end    = params.substep[s].rotation;
         fraction_at_start = share_then;
@@ -63,6 +74,8 @@ bool solve()
         if (SOLIDS) next_solids();
 #ifdef HAIR_FIRST
         if (!attempt(HAIR_SOLVER, head_moved) || !accept(HAIR_SOLVER, false, head_moved)) return false;
+#elif defined(SPLITS)
+        do_substep(head_moved);
 #else
         attempt_all(head_moved);
 #endif

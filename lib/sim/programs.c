@@ -6,6 +6,8 @@
 #define MOST_IN_THREAD 64  // vertices of a guide under the mixed scheme
 #define GROUPS_OF_LIST 16  // of a unit of a GPU, which has as many under way
 #define MOST_ROUNDS 65000  // that a software rasteriser may go in one thread: see rounds.c
+#define PART_ROUNDS_OF_THREAD 30000 // of these, for parts of a substep: 21 of 32 vertices
+#define PART_ROUNDS_OF_GROUP 9000   // and 71
 
 // Where a thread would have too much to do, it is a work group's.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
@@ -15,11 +17,42 @@ int hair_sim_is_by_thread(const struct hair_sim* sim)
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 
-uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
+// Return how many substeps that take so many rounds fit into a dispatch.
+static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    uint32_t most = MOST_ROUNDS / hair_sim_rounds_of_substep(sim, hair_sim_is_by_thread(sim));
+    uint32_t most = MOST_ROUNDS / rounds;
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
+}
+
+// Return whether guides go through two programs. The first knows SHAKE only, and the second does what it leaves.
+static int goes_in_two_by_shake(const struct hair_sim* sim)
+{
+    return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
+}
+
+// Return whether the second program may split substeps: see glsl/sim/parts.glsl.
+static int has_parts(const struct hair_sim* sim)
+{
+    return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->ties.count;
+}
+
+uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
+{
+    int      by_thread = hair_sim_is_by_thread(sim);
+    uint32_t most      = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
+    if (!has_parts(sim)) return 0;
+    if (!sim->gl->software) return most;
+    uint32_t whole = hair_sim_rounds_of_substep(sim, by_thread);
+    return whole >= MOST_ROUNDS ? 0 : most < MOST_ROUNDS - whole ? most : MOST_ROUNDS - whole;
+}
+
+// Without parts both programs take as many substeps. With parts the second takes the substeps of a dispatch in several.
+uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
+{
+    int by_thread = hair_sim_is_by_thread(sim);
+    return substeps_of(sim, has_parts(sim) ? hair_sim_rounds_of_first(sim, by_thread)
+                                           : hair_sim_rounds_of_substep(sim, by_thread));
 }
 
 // Guides whose work groups wait for the solids that they look up, and so keep them at hand and read several at once: of 1,024
@@ -58,6 +91,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
 // What they need for it must be there from the start. Two rounds of guides fill a GPU well enough.
 int hair_sim_may_go_in_two(const struct hair_sim* sim)
 {
+    if (sim->solver == HAIR_SOLVER_ACCURATE) return 1;
     return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->most_vertices <= 32 &&
            sim->gl->units > 0 && sim->guides > 2 * HAIR_FIRST_GUIDES * (uint32_t)sim->gl->units;
 }
@@ -78,6 +112,7 @@ static hair_gl_pass pass_now(const struct hair_sim* sim)
 // 10,240 guides took 1.09 times as long by two; with all else programs need registers that so many guides leave them not.
 static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
 {
+    if (goes_in_two_by_shake(sim)) return 1;
     return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(SOLIDS), 1);
 }
 
@@ -100,17 +135,43 @@ uint32_t hair_sim_next_list(struct hair_sim* sim)
     return sim->list;
 }
 
-void hair_sim_run_solver(struct hair_sim* sim)
+// Run the second program over its list, in as many dispatches as its loops need.
+static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
-    hair_gl_pass pass = pass_now(sim);
+    uint32_t     count     = params->substeps;
+    int          by_thread = hair_sim_is_by_thread(sim);
+    uint32_t     rounds    = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
+    uint32_t     most      = substeps_of(sim, rounds);
+    hair_gl_pass listed    = pass | HAIR_GL_WITH(LISTED);
+    GLuint       program   = hair_gl_find(sim->gl, listed)->program;
+    size_t       at        = (HAIR_HEALTH_COUNT + params->list * HAIR_HEALTH_LIST) * sizeof(uint32_t);
+    for (uint32_t done = 0; done < count; done += most) {
+        params->substep_first = done;
+        params->substeps      = count - done < most ? count : done + most;
+        if (count > most) hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
+        hair_gl_run_indirect(sim->gl, listed, program, sim->health, at);
+    }
+    params->substep_first = 0;
+    params->substeps      = count;
+}
+
+void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
+{
+    hair_gl_pass pass      = pass_now(sim);
+    uint32_t     by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
+    uint32_t     groups    = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
+    if (goes_in_two_by_shake(sim)) {
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), groups);
+        run_listed(sim, pass, params);
+        return;
+    }
     if (goes_in_two(sim, pass)) {
         uint32_t units = (uint32_t)sim->gl->units, listed = GROUPS_OF_LIST * units;
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), units);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(LISTED), sim->guides < listed ? sim->guides : listed);
         return;
     }
-    uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
-    hair_gl_run(sim->gl, pass, hair_sim_is_by_thread(sim) ? by_thread : sim->guides);
+    hair_gl_run(sim->gl, pass, groups);
 }
 
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)

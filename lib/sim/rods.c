@@ -79,8 +79,8 @@ static int are_mixed(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
-    return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
-                               sim->solver, sim->asked_substep);
+    return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver,
+                               sim->asked_substep);
 }
 
 // Return the bytes of forces and turns, and of the rows of a work group that has no room for them.
@@ -246,13 +246,14 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     double              h = sim->substep, c = (double)physics->damping;
     double              ratio[3];
     hair_rods_ratios(physics, ratio);
-    params->ratio    = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
-    params->kick     = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
-    params->damping  = physics->damping;
-    params->friction = physics->friction;
-    params->rescale  = (float)(h / sim->last_substep);
-    params->vertices = sim->guide_vertices;
-    params->rounds   = sim->rounds;
+    params->ratio       = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
+    params->kick        = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
+    params->damping     = physics->damping;
+    params->friction    = physics->friction;
+    params->rescale     = (float)(h / sim->last_substep);
+    params->vertices    = sim->guide_vertices;
+    params->rounds      = sim->rounds;
+    params->part_rounds = hair_sim_part_rounds(sim);
 }
 
 int hair_sim_is_mixed(const struct hair_sim* sim)

@@ -69,11 +69,11 @@ static struct loops loops_of_follow(const struct hair_sim* sim)
 }
 
 // From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be found.
-static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread)
+static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, int first)
 {
     if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
     if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
-    uint32_t     tried = TRIED, predicted = tried + 1, tied = sim->ties.count > 0;
+    uint32_t     tried = first ? 1 : TRIED, predicted = first ? 1 : tried + 1, tied = sim->ties.count > 0;
     uint32_t     met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
     loops.over         = predicted * (10 + tied + 3 * met);
@@ -118,15 +118,15 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
     return solids ? looks * (solids + 10 + 12 * others) : 0;
 }
 
-static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
+static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int first)
 {
     uint32_t around    = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
     uint32_t each      = rounds_of_contact(sim, by_thread);
     uint32_t at_root   = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
     uint32_t look      = (TRIED + 1) * at_root; // Of few solids also by guide.
     uint32_t spare     = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
-    struct loops loops = loops_of_methods(sim, by_thread);
-    add_leader(sim, by_thread, &loops);
+    struct loops loops = loops_of_methods(sim, by_thread, first);
+    if (!first) add_leader(sim, by_thread, &loops);
     loops.over += 4; // It is loaded, taken for true or put back, and stored.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)
@@ -138,6 +138,11 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread)
 uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = hair_sim_contacts(sim);
-    if (sim->rods) return rounds_of_rod(sim, by_thread);
+    if (sim->rods) return rounds_of_rod(sim, by_thread, 0);
     return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
+}
+
+uint32_t hair_sim_rounds_of_first(const struct hair_sim* sim, int by_thread)
+{
+    return rounds_of_rod(sim, by_thread, 1);
 }

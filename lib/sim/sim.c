@@ -250,7 +250,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (sim->feedback.wanted && !hair_skin_is_on(sim))
             hair_feedback_run(sim, &params);
         else
-            hair_sim_run_solver(sim);
+            hair_sim_run_solver(sim, &params);
         if (crowd) hair_crowd_count(sim, count);
         if (blown) hair_blow_count(sim, count);
         done += count;

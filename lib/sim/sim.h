@@ -105,15 +105,18 @@ void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // 
 int          hair_sim_may_go_in_two(const struct hair_sim* sim); // programs: see main() of glsl/sim/rod.comp
 hair_result  hair_sim_need_solver(struct hair_sim* sim);
 uint32_t     hair_sim_next_list(struct hair_sim* sim); // of the dispatch that comes, which empties the other
-void         hair_sim_run_solver(struct hair_sim* sim);
+void         hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params); // uploaded already
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
 hair_result  hair_sim_need_programs(struct hair_sim* sim);
 int          hair_sim_is_by_thread(const struct hair_sim* sim);
 uint32_t     hair_sim_substeps_at_once(const struct hair_sim* sim);
+uint32_t     hair_sim_part_rounds(const struct hair_sim* sim); // of loops, for parts of a substep
 
 // rounds.c: how often a software rasteriser goes round loops in a substep, at most; with a thread per guide or a work group.
 uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread);
+// The same of a program that leaves to another what the solver's own method cannot do.
+uint32_t hair_sim_rounds_of_first(const struct hair_sim* sim, int by_thread);
 
 // save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
 size_t hair_sim_save_size(struct hair_sim* sim);
