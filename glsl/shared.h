@@ -59,6 +59,10 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_ANCHOR 3 // hair_vec4[]  per guide vertex: where it was, from the head's origin
 #define HAIR_BIND_STIR 4   // uint[4]      two in turn of: farthest from there, m, and fastest, m/s, as bits of floats
 
+// The passes that diagnose hair have the buffers of the solvers of rods; and:
+#define HAIR_BIND_FOUND 3  // uint[HAIR_FOUND_COUNT], of motion.comp
+#define HAIR_BIND_ENERGY 7 // hair_energy[] per guide, of energy.comp
+
 // The passes that let roots ride on a skinned scalp have guides, the rest shape, and:
 #define HAIR_BIND_GIVEN 2      // float[]     what holds the scalp's positions, as it is given
 #define HAIR_BIND_RIDE 3       // hair_ride[]     per guide
@@ -137,7 +141,14 @@ typedef uint32_t hair_uint;
 #define HAIR_HEALTH_FOLLOW 1
 #define HAIR_HEALTH_RESET 2
 #define HAIR_HEALTH_TAUT 3
-#define HAIR_HEALTH_COUNT 4
+#define HAIR_HEALTH_PARTS 4
+#define HAIR_HEALTH_GAINING 5
+#define HAIR_HEALTH_COUNT 6
+#define HAIR_FOUND_RESTLESS 0 // what motion.comp finds, as in hair_health
+#define HAIR_FOUND_OVERSTRETCHED 1
+#define HAIR_FOUND_FASTEST 2 // m/s, as bits of a float
+#define HAIR_FOUND_STRETCH 3 // the same
+#define HAIR_FOUND_COUNT 4
 #define HAIR_FIRST_GUIDES 28 // of a work group of subgroups, in programs that many guides go through first
 // Two lists of guides follow in turn, at HAIR_HEALTH_COUNT: the work groups of an indirect dispatch over each, x, y and z, and its
 // length. The guides of the list of this dispatch are at HAIR_HEALTH_LISTS.
@@ -154,6 +165,8 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the passes of the fluid,
 #define HAIR_BIND_LEVEL 1        // and hair_fluid_level
 #define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, likewise
+#define HAIR_BIND_ENERGY_PARAMS 1 // hair_energy_params, likewise
+#define HAIR_BIND_MOTION_PARAMS 1 // hair_motion_params, likewise
 #define HAIR_BIND_SHOWN 0        // hair_shown_params, of the passes that draw solids, the field and air
 #define HAIR_BIND_HIDE 0         // hair_hide_params, of the passes that find what is hidden
 #define HAIR_BIND_RASTER 0       // hair_raster_params, of the passes that make pixels of segments
@@ -516,6 +529,35 @@ struct hair_stir_params {
     float     rate;     // speed per displacement, 1/s
 };
 HAIR_SIZE(hair_stir_params, 16)
+
+// How motion.comp measures guides after the last substep.
+struct hair_motion_params {
+    hair_vec4 turn;  // rotation of the head over the last substep, unit quaternion
+    hair_vec4 moved; // xyz: displacement of the head over it, m; w: speed per displacement, 1/s
+    hair_uint guides;
+    float     calm;  // time for which nothing has driven the guides, s; below 0: no guide is restless
+    float     wait;  // time that damping needs to calm any guide, s,
+    float     creep; // and for each metre of its length, s/m
+};
+HAIR_SIZE(hair_motion_params, 48)
+
+// How energy.comp watches the guides after a step.
+struct hair_energy_params {
+    hair_uint begins; // 1: what was watched before counts no more.
+    hair_uint ends;   // 1: the window ends with this step.
+    float     time;   // length of the step's substeps, s
+    float     rate;   // speed per displacement, 1/s
+};
+HAIR_SIZE(hair_energy_params, 16)
+
+// The mechanical energy of a guide, all divided by its mass per metre: m^3/s^2.
+struct hair_energy {
+    hair_vec4 now; // x: kinetic; y: of gravity, 0 at the root; z: of bending and twist; w: of the pull to the rest pose
+    // x: the most that energy and loss may be; y: the most that they were in this window; z: half of what damping has
+    // taken in it; w: the greatest kinetic energy, of which windows before count half, a quarter, and so on
+    hair_vec4 window;
+};
+HAIR_SIZE(hair_energy, 32)
 
 // A strand that is made while drawing. With t from 0 at its root to 1 at its tip, u = t length_ratio,
 // g_k(u) and F_k(u) position and frame of guide k, o(t) the cubic Bezier curve of `offset`:

@@ -65,7 +65,7 @@ void attempt_all(vec3 head_moved)
         bool fits = attempt(method, moves);
         bool last = part <= SMALLEST_PART || rounds_in_all >= MAX_ROUNDS_IN_ALL;
         if (!fits && !last) {
-            if (part == 1.0) count_in(HAIR_HEALTH_EULER);
+            if (part == 1.0) count_in(HAIR_HEALTH_PARTS);
             rescale_past(0.25);
             part *= 0.25;
             place_part(done, done + part, head_moved);

@@ -35,6 +35,22 @@ static void tell_held(hair_instance* hair)
                  hair->label, held.sagging, hair->sim.guides, (double)held.farthest_sag);
 }
 
+// Log how guides are softened, when that is not as it was logged last.
+static void tell_softened(hair_instance* hair)
+{
+    struct hair_rods_softened now = hair_sim_held(&hair->sim).softened, *told = &hair->told;
+    if (now.guides == told->guides && now.worst == told->worst && now.factor == told->factor) return;
+    *told = now;
+    if (!now.guides) {
+        hair_log(&hair->context->host, HAIR_LOG_INFO, "%s: no guide is softened any more", hair->label);
+        return;
+    }
+    hair_log(&hair->context->host, HAIR_LOG_INFO,
+             "%s: %u of %u guides are softened to what single precision can solve in substeps of %.3g s; "
+             "guide %u most, to %.3g of its stiffness",
+             hair->label, now.guides, hair->sim.guides, hair->sim.substep, now.worst, (double)now.factor);
+}
+
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
                         const hair_desc* desc)
 {
@@ -48,6 +64,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
+    hair->sim.diagnosis.wanted = desc->diagnose != 0;
     hair->sim.feedback.wanted = desc->mapping == HAIR_MAPPING_FEEDBACK;
     hair->sim.wind            = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
@@ -72,7 +89,9 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.blow.field = &hair->field;
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
+    hair->told = hair_rods_report_none().softened;
     if (!result) tell_held(hair);
+    if (!result) tell_softened(hair);
     if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
     if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
     if (!result) hair_sim_reset(&hair->sim);
@@ -199,6 +218,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) {
+        tell_softened(hair);
         hair->smooth.done = 0;
         hair_draw_tidy(&hair->draw, hair->ledger.number);
     }

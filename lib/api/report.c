@@ -87,6 +87,7 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
     case HAIR_GL_WORK_RIDE: return why_not_simulated(asked, skin);
     case HAIR_GL_WORK_WIND: return why_not_simulated(asked, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_WORK_CROWD: return why_not_simulated(asked, hair_crowd_is_on(sim));
+    case HAIR_GL_WORK_DIAGNOSE: return why_not_simulated(asked, sim->diagnosis.wanted);
     case HAIR_GL_WORK_STIR: return why_not_simulated(asked, sim->physics.sleep > 0);
     case HAIR_GL_WORK_SOLVE: return why_not_simulated(asked, 1);
     case HAIR_GL_WORK_SMOOTH: return shown;
@@ -128,6 +129,8 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
                     [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
                                             sim->crowd.push},
                     [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
+                    [HAIR_GL_WORK_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params,
+                                               sim->diagnosis.found, sim->diagnosis.motion_params},
                     [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
                                             sim->history, sim->material, sim->reduction, sim->bend, sim->ties.buffer,
                                             sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},

@@ -339,6 +339,9 @@ hair_result hair_get_health(hair_instance* hair, hair_health* out)
     hair_result result = hair_check_current(hair->context);
     if (result) return result;
     hair_health own = hair_health_default();
-    hair_sim_health(&hair->sim, &own);
+    hair_gl_enter(&hair->context->gl);
+    result = hair_sim_health(&hair->sim, &own);
+    hair_gl_leave(&hair->context->gl);
+    if (result) return result;
     return HAIR_GIVE(&hair->context->host, hair_health, &own, out);
 }

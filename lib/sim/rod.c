@@ -142,17 +142,19 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }
 
-// What the mixed scheme needs: it has no factors, and no stiffness is too much for it.
-static void write_mixed(const struct hair_rod_shape* s, double h, struct hair_rod* out)
+// Write what the mixed scheme needs, which has no factors. Return the least factor by which a vertex is softened.
+static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_rod* out)
 {
-    double stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
+    double softest = 1, stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
     for (uint32_t i = 0; i < s->count; ++i) {
-        double k = hair_rod_stiffness(s, i), over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
+        double full = hair_rod_stiffness(s, i), k = full, over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
         if (i + 1 < s->count) k = fmin(k, stiffer * most_stiffness(s, i, h));
+        if (k < full) softest = fmin(softest, k / full);
         out[i] = (struct hair_rod){.strain  = rest_strain(s, i, k),
                                    .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i],
                                                 (float)s->rest_real[i]}};
     }
+    return softest;
 }
 
 static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
@@ -161,13 +163,17 @@ static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
         out[i].factor.w = (float)next;
 }
 
-static void write_guide(const struct hair_rod_shape* s, double tautness, const hair_physics* physics,
+// Write a guide of the scheme of straight rods. Return the least factor by which a vertex is softened.
+static double write_guide(const struct hair_rod_shape* s, double tautness, const hair_physics* physics,
                         hair_solver solver, double h, struct hair_rod* out)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
-    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        stiffness[i] = fmin(hair_rod_stiffness(s, i), most_stiffness(s, i, h));
+    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, softest = 1;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        double full  = hair_rod_stiffness(s, i);
+        stiffness[i] = fmin(full, most_stiffness(s, i, h));
+        if (stiffness[i] < full) softest = fmin(softest, stiffness[i] / full);
+    }
     find_bands(s, stiffness, k);
     int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
     if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
@@ -186,12 +192,13 @@ static void write_guide(const struct hair_rod_shape* s, double tautness, const h
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
+    return softest;
 }
 
 void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                     const hair_physics* physics, struct hair_rod_borne* out, struct hair_rods_report* report)
 {
-    *report = (struct hair_rods_report){.stiffest = 1};
+    *report = hair_rods_report_none();
     for (uint32_t k = 0; k < count; ++k) {
         struct hair_rod_shape  shape;
         struct hair_rod_borne* own = out + guides[k].first;
@@ -219,31 +226,39 @@ static void find_borne(const struct hair_guide* guide, const struct hair_rest* r
     hair_rod_bear(out, borne + guide->first);
 }
 
-// Write a guide for the scheme that solves it. The shape is changed.
-static void write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver, int mixed,
+// Write a guide for the scheme that solves it. The shape is changed. Return the least factor by which a vertex is softened.
+static double write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver, int mixed,
                         double substep, struct hair_rod* out)
 {
+    double softest = 1;
     if (mixed) {
-        write_mixed(s, substep, out);
+        softest = write_mixed(s, substep, out);
     } else if (solver == HAIR_SOLVER_FOLLOW) {
         hair_follow_write(s, out);
     } else {
         double tautness = hair_rod_tautness(s);
         hair_rod_add_inertia(s, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
-        write_guide(s, tautness, physics, solver, substep, out);
+        softest = write_guide(s, tautness, physics, solver, substep, out);
     }
     write_ties(s, out);
+    return softest;
 }
 
-void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
+struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
                      const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
                      hair_solver solver, int mixed, double substep, struct hair_rod* out)
 {
+    struct hair_rods_softened softened = {.factor = 1};
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         find_borne(guides + i, rest, borne, physics, &shape);
-        write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
+        double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
+        softened.guides += own < 1;
+        if (own >= (double)softened.factor) continue;
+        softened.worst  = i;
+        softened.factor = (float)own;
     }
+    return softened;
 }
 
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,

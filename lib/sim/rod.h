@@ -28,12 +28,25 @@ struct hair_rod_borne {
     double stiffen;   // multiple of the stiffness, 1 to 3
 };
 
+// Guides whose stiffness is reduced to what the solver can solve at its substep in single precision.
+struct hair_rods_softened {
+    uint32_t guides;
+    uint32_t worst;  // number of the guide that is softened most
+    float    factor; // of its stiffness, at the vertex that is softened most; 1 when none is
+};
+
 struct hair_rods_report {
     uint32_t stiffened;    // guides that any vertex of is stiffer
     float    stiffest;     // greatest multiple; 1 when there are none
     uint32_t sagging;      // guides that cannot hold their groom even so
     float    farthest_sag; // greatest distance of their vertices from the groom when they rest, m
+    struct hair_rods_softened softened;
 };
+
+static inline struct hair_rods_report hair_rods_report_none(void)
+{
+    return (struct hair_rods_report){.stiffest = 1, .softened = {.factor = 1}};
+}
 
 // Find out how guides are to hold their groom: hold.c. It depends on no solver and no substep.
 //
@@ -45,10 +58,11 @@ void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* res
                     const hair_physics* physics, struct hair_rod_borne* out, struct hair_rods_report* report);
 
 // Write one hair_rod per guide vertex, for substeps of that length. `borne` is of hair_rods_hold().
-// A rest strain that is further than 1 from the groom's own is cut to that.
-void hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
-                     const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                     hair_solver solver, int mixed, double substep, struct hair_rod* out);
+// A rest strain that is further than 1 from the groom's own is cut to that. Return how guides are softened.
+struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
+                                          const struct hair_rod_borne* borne, uint32_t count,
+                                          const hair_physics* physics, hair_solver solver, int mixed,
+                                          double substep, struct hair_rod* out);
 
 // Write again those guides that ties hold, whose knots are in the order of guides and their vertices.
 void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,

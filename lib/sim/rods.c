@@ -117,8 +117,8 @@ static hair_result make(struct hair_sim* sim, int struck)
     }
     uint32_t longer = times_longer(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
-    hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver, mixed,
-                    substep, rod);
+    struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
+                                                         &sim->physics, sim->solver, mixed, substep, rod);
     hair_rods_tie(rods->guides, rods->rest, rods->borne, sim->ties.knot, sim->ties.count, &sim->physics,
                   sim->solver, mixed, substep, rod);
     GLuint      buffer = 0, reduction = 0, bend = sim->bend;
@@ -141,6 +141,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         sim->reduction = reduction;
         sim->rounds    = rounds;
         rods->made_for = sim->physics;
+        rods->report.softened = softened;
         rods->struck   = struck;
         rods->tied     = sim->ties.which;
         rods->longer   = longer;
@@ -268,21 +269,5 @@ int hair_sim_is_stiff(const struct hair_sim* sim)
 
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim)
 {
-    return sim->rods ? sim->rods->report : (struct hair_rods_report){.stiffest = 1};
-}
-
-void hair_sim_health(struct hair_sim* sim, hair_health* health)
-{
-    uint32_t count[HAIR_HEALTH_COUNT] = {0};
-    sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
-    health->euler                = count[HAIR_HEALTH_EULER];
-    health->follow               = count[HAIR_HEALTH_FOLLOW];
-    health->reset                = count[HAIR_HEALTH_RESET];
-    health->taut                 = count[HAIR_HEALTH_TAUT];
-    health->substep              = (float)sim->substep;
-    struct hair_rods_report held = hair_sim_held(sim);
-    health->stiffened            = held.stiffened;
-    health->stiffest             = held.stiffest;
-    health->sagging              = held.sagging;
-    health->farthest_sag         = held.farthest_sag;
+    return sim->rods ? sim->rods->report : hair_rods_report_none();
 }

@@ -369,6 +369,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     sim->solids = solids;
     hair_ties_take(sim, loaded.knot, loaded.ties);
     sim->next_substep = 0;
+    hair_diagnosis_forget(sim);
     if (!sim->crowd.push) sim->crowd.beat = 0;
     if (sim->blow.fluid.gl) hair_fluid_show(&sim->blow.fluid);
     hair_sim_show(sim);

@@ -72,6 +72,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_sim_free_rods(sim);
     hair_skin_free(sim);
     hair_sleep_free(sim);
+    hair_diagnosis_free(sim);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
@@ -287,6 +288,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
     if (!result) result = need(sim, from, dt);
     if (!result) result = hair_sleep_need(sim, stirred, dt);
+    if (!result) result = hair_diagnosis_need(sim, stirred);
     if (result) return result;
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
@@ -301,6 +303,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     uint32_t total = count_substeps(sim, dt - from);
     sim->left      = fmax(dt - from - total * sim->substep, 0);
     advance(sim, again, total, from, dt);
+    hair_diagnosis_watch(sim, total);
     sim->at_step = sim->head;
     hair_solids_settle(&sim->solids);
     hair_sleep_watch(sim, stirred, dt);

@@ -10,6 +10,7 @@
 #include "lib/sim/blow.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/feedback.h"
+#include "lib/sim/health.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
 #include "lib/sim/sleep.h"
@@ -64,6 +65,7 @@ struct hair_sim {
     struct hair_sleep    sleep;
     struct hair_blow     blow;
     struct hair_feedback feedback;
+    struct hair_diagnosis diagnosis;
 };
 
 uint32_t    hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
@@ -99,7 +101,6 @@ void        hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_par
 int         hair_sim_is_mixed(const struct hair_sim* sim);  // Return whether the mixed scheme solves the guides.
 int         hair_sim_is_stiff(const struct hair_sim* sim);  // 1: some guides of the accurate solver take BDF2
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim); // how guides hold their groom
-void        hair_sim_health(struct hair_sim* sim, hair_health* health);      // waits
 
 // programs.c: passes compiled with what there is; all that a step with what is set now runs; and how many substeps a dispatch may have.
 int          hair_sim_may_go_in_two(const struct hair_sim* sim); // programs: see main() of glsl/sim/rod.comp

@@ -1,0 +1,168 @@
+// health.c - what went wrong in the simulation, and what goes wrong now.
+//
+// Two passes look at guides. motion.comp runs when hair_get_health is called: how fast guides move, and how much they are
+// stretched. energy.comp runs after steps in which nothing does work on them, if hair_desc.diagnose asks for it.
+//
+// A guide is restless that still moves at the speed v when damping must have calmed it. An oscillation decays at least by
+// exp(-c t / 2). An overdamped one creeps at some rate s, at L s exp(-s t) at most, which by any s is below v after
+// L / (e v). The sum of both times is longer than either, and is allowed.
+#include "lib/sim/sim.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RESTLESS_SPEED 0.02 // m/s, as in motion.comp
+#define FASTEST_SPEED 100.0 // m/s: no hair on a head is faster.
+#define EULERS_NUMBER 2.718281828
+#define NEVER 1e30f  // s
+#define WINDOW 0.25  // s: the lowest oscillations of hair, of 2 Hz, have a greatest energy in it.
+
+void hair_diagnosis_free(struct hair_sim* sim)
+{
+    struct hair_diagnosis* d         = &sim->diagnosis;
+    GLuint*                buffers[] = {&d->energy, &d->energy_params, &d->found, &d->motion_params};
+    for (int i = 0; i < 4; ++i) hair_gl_free_buffer(sim->gl, buffers[i]);
+}
+
+void hair_diagnosis_forget(struct hair_sim* sim)
+{
+    sim->diagnosis.goes_on = 0;
+}
+
+// Energy ----------------------------------------------------------------------------------------------------
+
+static hair_gl_pass energy_pass(const struct hair_sim* sim)
+{
+    return hair_sim_is_mixed(sim) ? HAIR_GL_ENERGY | HAIR_GL_WITH(MIXED) : HAIR_GL_ENERGY;
+}
+
+// Return whether work can be done on a guide from outside. A scalp that is skinned, and hair around, may do some.
+static int is_driven(const struct hair_sim* sim, int stirred)
+{
+    return stirred || memcmp(&sim->at_step, &sim->head, sizeof sim->head) != 0 ||
+           hair_wind_is_on(&sim->wind) || hair_crowd_is_on(sim) || hair_skin_is_on(sim);
+}
+
+// Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules that have none.
+static int has_energy(const struct hair_sim* sim)
+{
+    return sim->solver == HAIR_SOLVER_DIRECT || sim->solver == HAIR_SOLVER_ACCURATE;
+}
+
+hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred)
+{
+    struct hair_diagnosis* d  = &sim->diagnosis;
+    struct hair_gl*        gl = sim->gl;
+    d->watches                = d->wanted && has_energy(sim) && !is_driven(sim, stirred);
+    if (!d->watches) d->goes_on = 0;
+    if (!d->watches) return HAIR_OK;
+    hair_result result = hair_gl_need(gl, energy_pass(sim));
+    if (!result && !d->energy_params)
+        result = hair_gl_uniform(gl, "hair energy", sizeof(struct hair_energy_params), &d->energy_params);
+    if (!result && !d->energy)
+        result = hair_gl_storage(gl, "hair energies", sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
+    return result;
+}
+
+void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
+{
+    struct hair_diagnosis* d  = &sim->diagnosis;
+    struct hair_gl*        gl = sim->gl;
+    if (!d->watches || substeps == 0) return;
+    int begins = !d->goes_on || d->substep != sim->substep;
+    d->time    = (begins ? 0 : d->time) + substeps * sim->substep;
+    int ends   = d->time >= WINDOW;
+    struct hair_energy_params params = {.begins = (hair_uint)begins,
+                                        .ends   = (hair_uint)ends,
+                                        .time   = (float)(substeps * sim->substep),
+                                        .rate   = (float)(1 / sim->substep)};
+    hair_gl_write_uniform(gl, d->energy_params, sizeof params, &params);
+    hair_sim_bind(sim);
+    hair_sim_bind_rods(sim);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_ENERGY_PARAMS, 1, &d->energy_params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ENERGY, 1, &d->energy);
+    hair_gl_run(gl, energy_pass(sim), (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    d->goes_on = 1;
+    d->substep = sim->substep;
+    if (ends) d->time = 0;
+}
+
+// Motion ----------------------------------------------------------------------------------------------------
+
+// Return for how long nothing has driven hair that must come to rest; below 0: something drives it, or it need not.
+static float calm_of(const struct hair_sim* sim)
+{
+    int rests = sim->physics.root != HAIR_ROOT_FREE && !hair_wind_is_on(&sim->wind);
+    return rests && !sim->sleep.asleep ? (float)sim->sleep.calm : -1;
+}
+
+static struct hair_motion_params motion_params(const struct hair_sim* sim)
+{
+    hair_quat turn  = hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
+    hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    double    rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
+    double    wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
+    return (struct hair_motion_params){.turn   = {turn.x, turn.y, turn.z, turn.w},
+                                       .moved  = {moved.x, moved.y, moved.z, (float)rate},
+                                       .guides = sim->guides,
+                                       .calm   = calm_of(sim),
+                                       .wait   = fminf((float)wait, NEVER),
+                                       .creep  = (float)(1 / (EULERS_NUMBER * RESTLESS_SPEED))};
+}
+
+static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_COUNT])
+{
+    struct hair_diagnosis*    d      = &sim->diagnosis;
+    struct hair_gl*           gl     = sim->gl;
+    struct hair_motion_params params = motion_params(sim);
+    hair_result               result = hair_gl_need(gl, HAIR_GL_MOTION_OF_GUIDES);
+    if (!result && !d->motion_params)
+        result = hair_gl_uniform(gl, "hair motion", sizeof params, &d->motion_params);
+    if (!result && !d->found)
+        result = hair_gl_storage(gl, "hair motion found", HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found);
+    if (result) return result;
+    hair_gl_write_uniform(gl, d->motion_params, sizeof params, &params);
+    gl->ClearNamedBufferData(d->found, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    hair_sim_bind(sim);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_MOTION_PARAMS, 1, &d->motion_params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOUND, 1, &d->found);
+    hair_gl_run(gl, HAIR_GL_MOTION_OF_GUIDES, (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    gl->GetNamedBufferSubData(d->found, 0, HAIR_FOUND_COUNT * sizeof *found, found);
+    return HAIR_OK;
+}
+
+// All of it -------------------------------------------------------------------------------------------------
+
+static float float_of(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+hair_result hair_sim_health(struct hair_sim* sim, hair_health* health)
+{
+    uint32_t                count[HAIR_HEALTH_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
+    struct hair_rods_report held   = hair_sim_held(sim);
+    hair_result             result = find_motion(sim, found);
+    if (result) return result;
+    sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
+    health->euler         = count[HAIR_HEALTH_EULER];
+    health->follow        = count[HAIR_HEALTH_FOLLOW];
+    health->reset         = count[HAIR_HEALTH_RESET];
+    health->taut          = count[HAIR_HEALTH_TAUT];
+    health->parts         = count[HAIR_HEALTH_PARTS];
+    health->gaining       = count[HAIR_HEALTH_GAINING];
+    health->restless      = found[HAIR_FOUND_RESTLESS];
+    health->overstretched = found[HAIR_FOUND_OVERSTRETCHED];
+    health->fastest       = float_of(found[HAIR_FOUND_FASTEST]);
+    health->stretch       = float_of(found[HAIR_FOUND_STRETCH]);
+    health->substep       = (float)sim->substep;
+    health->stiffened     = held.stiffened;
+    health->stiffest      = held.stiffest;
+    health->sagging       = held.sagging;
+    health->farthest_sag  = held.farthest_sag;
+    health->softened      = held.softened.guides;
+    health->softest       = held.softened.factor;
+    return HAIR_OK;
+}
