@@ -104,6 +104,7 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
     hair_health health = hair_health_default();
     hair_test_ok(f->test, hair_get_health(hair, &health));
     assert_int_equal(health.euler, 0);
+    assert_int_equal(health.parts, 0);
     assert_int_equal(health.follow, 0);
     assert_int_equal(health.reset, 0);
     hair_destroy(hair);

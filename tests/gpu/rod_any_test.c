@@ -348,11 +348,11 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
         hair_health now = hair_test_health(&living);
-        fallbacks[kind] = now.euler + now.follow;
+        fallbacks[kind] = now.euler + now.parts + now.follow;
         print_message(
             "    %s: %.2g m deep 0.1 s later, %.2g m 1 s later; %u fallbacks, %u of them after 0.1 s\n",
             names[kind], soon, hair_test_depth(&living, &post), fallbacks[kind],
-            fallbacks[kind] - then.euler - then.follow);
+            fallbacks[kind] - then.euler - then.parts - then.follow);
         assert_true(soon < VOXEL);
         assert_true(hair_test_depth(&living, &post) < 1e-3);
         assert_true(hair_test_stretch(&living) < 0.02);

@@ -192,6 +192,8 @@ void hair_test_healthy(struct hair_test_living* living)
 {
     hair_health health = hair_test_health(living);
     assert_int_equal(health.euler, 0);
+    assert_int_equal(health.parts, 0);
+    assert_int_equal(health.overstretched, 0);
     assert_int_equal(health.follow, 0);
     assert_int_equal(health.reset, 0);
 }

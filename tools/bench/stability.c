@@ -18,6 +18,11 @@ static const char* const columns[] = {"case",
                                       "euler",
                                       "follow",
                                       "reset",
+                                      "parts",
+                                      "gaining",
+                                      "restless",
+                                      "overstretched",
+                                      "softest",
                                       "scenes",
                                       "worst_scene",
                                       "guides",
@@ -32,6 +37,18 @@ static const char* const columns[] = {"case",
                                       "pass",
                                       BENCH_MATERIAL_COLUMNS,
                                       NULL};
+
+void bench_set_health(json_t* row, const hair_health* health)
+{
+    bench_set_count(row, "euler", health->euler);
+    bench_set_count(row, "follow", health->follow);
+    bench_set_count(row, "reset", health->reset);
+    bench_set_count(row, "parts", health->parts);
+    bench_set_count(row, "gaining", health->gaining);
+    bench_set_count(row, "restless", health->restless);
+    bench_set_count(row, "overstretched", health->overstretched);
+    bench_set_number(row, "softest", (double)health->softest);
+}
 
 // Watching --------------------------------------------------------------------------------------------------
 
@@ -172,9 +189,7 @@ static void add_row(struct bench_watch* watch, const char* name, const double* r
     }
     json_t* row = bench_stability_row(living, name, watch);
     bench_set_count(row, "vertices", living->scene->vertices);
-    bench_set_count(row, "euler", health.euler);
-    bench_set_count(row, "follow", health.follow);
-    bench_set_count(row, "reset", health.reset);
+    bench_set_health(row, &health);
     if (!rest) return;
     bool recovered = seconds <= 3;
     bench_set_flag(row, "recovered", recovered);

@@ -38,6 +38,8 @@ void bench_rest_contacts(struct bench* bench);
 
 // Set how fast the hair moved and whether it fell asleep, and judge both.
 void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest);
+// Set what hair_get_health tells.
+void bench_set_health(json_t* row, const hair_health* health);
 // Return the fastest vertex that counts as rest, m/s.
 double bench_rest_limit(hair_solver solver);
 // Return whether hair of this solver must fall asleep.

@@ -103,9 +103,7 @@ static bool run(struct bench* bench, const char* name, hair_instance* hair, cons
     bench_set_count(row, "guides", STRANDS);
     bench_set_flag(row, "colliders", true);
     bench_set_rest(row, scene->solver, &rest);
-    bench_set_count(row, "euler", health.euler);
-    bench_set_count(row, "follow", health.follow);
-    bench_set_count(row, "reset", health.reset);
+    bench_set_health(row, &health);
     bench_set_material(row, &living);
     return true;
 }

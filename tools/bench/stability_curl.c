@@ -121,9 +121,7 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
     if (damped) pass = pass && curl->max_speed <= bench_rest_limit(scene->solver);
     bench_set_flag(row, "pass", pass);
     if (!hair_get_health(living->hair, &health)) {
-        bench_set_count(row, "euler", health.euler);
-        bench_set_count(row, "follow", health.follow);
-        bench_set_count(row, "reset", health.reset);
+        bench_set_health(row, &health);
     }
     bench_set_material(row, living);
 }

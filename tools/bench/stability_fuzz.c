@@ -238,6 +238,7 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
         all->stretch = fmax(all->stretch, watch.stretch);
         all->speed   = fmax(all->speed, watch.speed);
         health->euler += own.euler;
+        health->parts += own.parts;
         health->follow += own.follow;
         health->reset += own.reset;
     } else
@@ -266,6 +267,7 @@ static void fuzz(struct bench* bench, hair_solver solver)
     struct bench_living living = {.bench = bench, .scene = &scene, .substep = NAN};
     json_t*             row    = bench_stability_row(&living, "fuzz", &all);
     bench_set_count(row, "euler", health.euler);
+    bench_set_count(row, "parts", health.parts);
     bench_set_count(row, "follow", health.follow);
     bench_set_count(row, "reset", health.reset);
     bench_set_count(row, "scenes", lived);

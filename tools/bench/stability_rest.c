@@ -64,9 +64,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
     bench_set_count(row, "guides", info->guide_count);
     bench_set_flag(row, "colliders", collides);
     bench_set_rest(row, scene->solver, rest);
-    bench_set_count(row, "euler", health->euler);
-    bench_set_count(row, "follow", health->follow);
-    bench_set_count(row, "reset", health->reset);
+    bench_set_health(row, health);
     bench_set_material(row, &living);
 }
 
@@ -116,6 +114,7 @@ static void measure(struct bench* bench, hair_style style, uint32_t vertices, ha
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
     desc.solver   = solver;
     desc.mapping  = scene.mapping;
+    desc.diagnose = 1;
     if (make_groom(bench, style, guides, vertices, &groom) ||
         hair_create(bench->context, groom, &desc, &hair) || !run(bench, name, groom, hair, &scene, collides))
         bench_refuse(bench, name, method);
