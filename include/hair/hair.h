@@ -951,8 +951,8 @@ HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* 
 /// What went wrong since the instance was created, and how it was borne.
 typedef struct hair_health {
     hair_made made;
-    uint32_t  euler;     ///< Times that a substep of a straight guide was redone by implicit Euler.
-    uint32_t  follow;    ///< Times that a substep, or a part of one, was redone by follow-the-leader after that.
+    uint32_t  euler;  ///< Times that a substep of a straight guide was redone by implicit Euler.
+    uint32_t  follow; ///< Times that a substep, or a part of one, was redone by follow-the-leader after that.
     uint32_t  reset;     ///< Times that a guide was put back in its rest pose: it was not finite.
     uint32_t  stiffened; ///< Guides made stiffer to hold their groom against gravity, as `hold` asks.
     float     stiffest;  ///< Greatest multiple of the stiffness at any vertex of these guides. At most 3.
@@ -960,14 +960,18 @@ typedef struct hair_health {
     uint32_t  taut;      ///< Times that a guide was stretched in a substep: what holds it was too far apart.
     uint32_t  sagging;   ///< Guides that three times their stiffness does not hold: they sag from the groom.
     float     farthest_sag; ///< Greatest distance from the groom at which a vertex of these guides rests. m.
-    uint32_t  parts;    ///< Times that a substep of a guide that is curved, fine or heavy was redone in parts.
-    uint32_t  softened; ///< Guides whose stiffness is reduced to what single precision can solve at this substep.
-    float     softest;  ///< Least factor of the stiffness at any vertex of these guides. 1: none is softened.
-    uint32_t  restless; ///< Guides that still move at 2 cm/s though damping had the time to calm any hair: see below.
-    float     fastest;  ///< Greatest speed of a guide vertex relative to the head, over the last substep. m/s.
-    uint32_t  gaining;  ///< Times that the energy of a guide grew in 0.25 s, with hair_desc.diagnose: see below.
-    uint32_t  overstretched; ///< Guides with a segment whose length is off by more than 1 % after the last substep.
-    float     stretch; ///< Greatest relative error of a segment's length after the last substep.
+    uint32_t  parts; ///< Times that a substep of a guide that is curved, fine or heavy was redone in parts.
+    uint32_t
+          softened; ///< Guides whose stiffness is reduced to what single precision can solve at this substep.
+    float softest;  ///< Least factor of the stiffness at any vertex of these guides. 1: none is softened.
+    uint32_t
+        restless; ///< Guides that still move at 2 cm/s though damping had the time to calm any hair: see below.
+    float fastest; ///< Greatest speed of a guide vertex relative to the head, over the last substep. m/s.
+    uint32_t
+        gaining; ///< Times that the energy of a guide grew in 0.25 s, with hair_desc.diagnose: see below.
+    uint32_t
+        overstretched; ///< Guides with a segment whose length is off by more than 1 % after the last substep.
+    float stretch;     ///< Greatest relative error of a segment's length after the last substep.
 } hair_health;
 HAIR_DESC(hair_health)
 

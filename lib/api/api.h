@@ -32,7 +32,7 @@ struct hair_instance {
     char                    label[64];
     double                  max_dt;       // s
     int                     has_slowed;   // dt was beyond max_dt, and the log has said so
-    struct hair_rods_softened told;       // how guides are softened, as the log has it
+    struct hair_rods_softened told;         // how guides are softened, as the log has it
     int                     has_left_out; // guides pass through some solids, and the log has said so
     hair_vec3               reach[2];     // bounds of where hair can be, in the head's frame, but for ties
     float                   longest;      // strand, as far as it may stretch. m

@@ -14,8 +14,8 @@
 #define RESTLESS_SPEED 0.02 // m/s, as in motion.comp
 #define FASTEST_SPEED 100.0 // m/s: no hair on a head is faster.
 #define EULERS_NUMBER 2.718281828
-#define NEVER 1e30f  // s
-#define WINDOW 0.25  // s: the lowest oscillations of hair, of 2 Hz, have a greatest energy in it.
+#define NEVER 1e30f // s
+#define WINDOW 0.25 // s: the lowest oscillations of hair, of 2 Hz, have a greatest energy in it.
 
 void hair_diagnosis_free(struct hair_sim* sim)
 {
@@ -60,7 +60,8 @@ hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred)
     if (!result && !d->energy_params)
         result = hair_gl_uniform(gl, "hair energy", sizeof(struct hair_energy_params), &d->energy_params);
     if (!result && !d->energy)
-        result = hair_gl_storage(gl, "hair energies", sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
+        result =
+            hair_gl_storage(gl, "hair energies", sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
     return result;
 }
 
@@ -69,9 +70,9 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     struct hair_diagnosis* d  = &sim->diagnosis;
     struct hair_gl*        gl = sim->gl;
     if (!d->watches || substeps == 0) return;
-    int begins = !d->goes_on || d->substep != sim->substep;
-    d->time    = (begins ? 0 : d->time) + substeps * sim->substep;
-    int ends   = d->time >= WINDOW;
+    int begins                       = !d->goes_on || d->substep != sim->substep;
+    d->time                          = (begins ? 0 : d->time) + substeps * sim->substep;
+    int                       ends   = d->time >= WINDOW;
     struct hair_energy_params params = {.begins = (hair_uint)begins,
                                         .ends   = (hair_uint)ends,
                                         .time   = (float)(substeps * sim->substep),
@@ -98,7 +99,8 @@ static float calm_of(const struct hair_sim* sim)
 
 static struct hair_motion_params motion_params(const struct hair_sim* sim)
 {
-    hair_quat turn  = hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
+    hair_quat turn =
+        hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     double    rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
     double    wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;

@@ -165,7 +165,7 @@ static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
 
 // Write a guide of the scheme of straight rods. Return the least factor by which a vertex is softened.
 static double write_guide(const struct hair_rod_shape* s, double tautness, const hair_physics* physics,
-                        hair_solver solver, double h, struct hair_rod* out)
+                          hair_solver solver, double h, struct hair_rod* out)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
     double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, softest = 1;
@@ -227,8 +227,8 @@ static void find_borne(const struct hair_guide* guide, const struct hair_rest* r
 }
 
 // Write a guide for the scheme that solves it. The shape is changed. Return the least factor by which a vertex is softened.
-static double write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver, int mixed,
-                        double substep, struct hair_rod* out)
+static double write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver,
+                          int mixed, double substep, struct hair_rod* out)
 {
     double softest = 1;
     if (mixed) {
@@ -245,8 +245,9 @@ static double write_shape(struct hair_rod_shape* s, const hair_physics* physics,
 }
 
 struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
-                     const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                     hair_solver solver, int mixed, double substep, struct hair_rod* out)
+                                          const struct hair_rod_borne* borne, uint32_t count,
+                                          const hair_physics* physics, hair_solver solver, int mixed,
+                                          double substep, struct hair_rod* out)
 {
     struct hair_rods_softened softened = {.factor = 1};
     for (uint32_t i = 0; i < count; ++i) {

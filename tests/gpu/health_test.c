@@ -22,7 +22,8 @@ static void shake(struct hair_test* test, hair_instance* hair, uint32_t frames)
 {
     for (uint32_t i = 0; i < frames; ++i) {
         float angle    = i < SHAKE ? 0.4f * sinf(6.2831853f * (float)(i + 1) / SHAKE) : 0;
-        float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0, sinf(angle), 0, cosf(angle), 0, 0, 0, 0, 1};
+        float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
+                          sinf(angle), 0, cosf(angle),  0, 0, 0, 0, 1};
         hair_test_ok(test, hair_set_transform(hair, head));
         hair_test_ok(test, hair_step(hair, 1.0f / FPS));
     }
@@ -119,8 +120,8 @@ static void the_energy_is_that_of_the_reference(void** state)
         static float            at[3][3 * 64];
         double                  h = 1.0 / 960;
         uint32_t                count;
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, h, &physics);
-        desc.diagnose  = 1;
+        hair_desc               desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, h, &physics);
+        desc.diagnose                = 1;
         hair_test_live(*state, &strands, &desc, &living);
         struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
         for (int n = 0; n < 80; ++n) {
@@ -132,7 +133,8 @@ static void the_energy_is_that_of_the_reference(void** state)
         glGetNamedBufferSubData(living.hair->sim.diagnosis.energy, 0, sizeof energy, &energy);
         struct hair_reference_rod_energy exact = hair_reference_rod_energy(rod);
         double                           off   = energy_off(&energy, &exact);
-        print_message("    %u vertices: kinetic %.4g, gravity %.4g, elastic %.4g J by the reference, %.4g, %.4g, %.4g\n",
+        print_message("    %u vertices: kinetic %.4g, gravity %.4g, elastic %.4g J by the reference, %.4g, "
+                      "%.4g, %.4g\n",
                       vertices[k], exact.kinetic, exact.gravity, exact.elastic, (double)energy.now.x,
                       (double)energy.now.y, (double)energy.now.z);
         assert_true(exact.elastic > 0 && exact.kinetic > 0 && off < 2e-3);
@@ -181,18 +183,18 @@ static hair_health live_with(struct hair_test* test, const char* change, uint32_
 {
     struct hair_test_strands strands = hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.1f);
     hair_physics             physics = hair_test_bare();
-    hair_context*            own = make_context(test, change), *context = test->context;
-    physics.damping    = 20;
-    hair_desc     desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_context *           own = make_context(test, change), *context = test->context;
+    physics.damping              = 20;
+    hair_desc               desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     struct hair_test_living living;
     desc.diagnose = diagnose;
     test->context = own;
     hair_test_live(test, &strands, &desc, &living);
     hair_test_wait(&living, 210); // It falls, and damping needs 2.7 s.
     hair_health health = ask(test, living.hair);
-    print_message("    %u vertices, %s: %u gain, %u restless, fastest %.3g m/s, stretch %.2g, %u reset\n", vertices,
-                  change, health.gaining, health.restless, (double)health.fastest, (double)health.stretch,
-                  health.reset);
+    print_message("    %u vertices, %s: %u gain, %u restless, fastest %.3g m/s, stretch %.2g, %u reset\n",
+                  vertices, change, health.gaining, health.restless, (double)health.fastest,
+                  (double)health.stretch, health.reset);
     hair_test_die(&living);
     test->context = context;
     hair_context_destroy(own);

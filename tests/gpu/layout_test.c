@@ -399,16 +399,16 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),         STRUCT(hair_rest),         STRUCT(hair_rod),
-    STRUCT(hair_state),         STRUCT(hair_history),      STRUCT(hair_capsule),
-    STRUCT(hair_body),          STRUCT(hair_substep),      STRUCT(hair_step_params),
-    STRUCT(hair_follower),      STRUCT(hair_patch),        STRUCT(hair_draw_params),
-    STRUCT(hair_field_params),  STRUCT(hair_field_solid),  STRUCT(hair_field_brick),
-    STRUCT(hair_crowd_params),  STRUCT(hair_share),        STRUCT(hair_strand_look),
-    STRUCT(hair_strand),        STRUCT(hair_draw_command), STRUCT(hair_contact),
-    STRUCT(hair_seat),          STRUCT(hair_ride),         STRUCT(hair_scalp_params),
-    STRUCT(hair_fluid_params),  STRUCT(hair_fluid_level),  STRUCT(hair_fluid_motion),
-    STRUCT(hair_stir_params),   STRUCT(hair_hide_params),  STRUCT(hair_wind_params),
+    STRUCT(hair_guide),         STRUCT(hair_rest),          STRUCT(hair_rod),
+    STRUCT(hair_state),         STRUCT(hair_history),       STRUCT(hair_capsule),
+    STRUCT(hair_body),          STRUCT(hair_substep),       STRUCT(hair_step_params),
+    STRUCT(hair_follower),      STRUCT(hair_patch),         STRUCT(hair_draw_params),
+    STRUCT(hair_field_params),  STRUCT(hair_field_solid),   STRUCT(hair_field_brick),
+    STRUCT(hair_crowd_params),  STRUCT(hair_share),         STRUCT(hair_strand_look),
+    STRUCT(hair_strand),        STRUCT(hair_draw_command),  STRUCT(hair_contact),
+    STRUCT(hair_seat),          STRUCT(hair_ride),          STRUCT(hair_scalp_params),
+    STRUCT(hair_fluid_params),  STRUCT(hair_fluid_level),   STRUCT(hair_fluid_motion),
+    STRUCT(hair_stir_params),   STRUCT(hair_hide_params),   STRUCT(hair_wind_params),
     STRUCT(hair_raster_params), STRUCT(hair_motion_params), STRUCT(hair_energy_params),
     STRUCT(hair_energy),
 };

@@ -85,7 +85,8 @@ static void check(const struct fixture* f, const char* work, hair_why why, int m
 // No wind, solids, crowd, skinned scalp, list or written vertices: neither a pass nor memory of any.
 static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 {
-    static const char* const none[] = {"scalp", "ride", "wind", "crowd", "seat", "expand", "count", "list", "diagnose"};
+    static const char* const none[] = {"scalp",  "ride",  "wind", "crowd",   "seat",
+                                       "expand", "count", "list", "diagnose"};
     struct fixture           f      = start(state, NULL);
     hair_test_trace_clear();
     run_frame(&f);

@@ -120,9 +120,7 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
     if (damped) bench_set_number(row, "limit", bench_rest_limit(scene->solver));
     if (damped) pass = pass && curl->max_speed <= bench_rest_limit(scene->solver);
     bench_set_flag(row, "pass", pass);
-    if (!hair_get_health(living->hair, &health)) {
-        bench_set_health(row, &health);
-    }
+    if (!hair_get_health(living->hair, &health)) { bench_set_health(row, &health); }
     bench_set_material(row, living);
 }
 

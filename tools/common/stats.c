@@ -86,15 +86,14 @@ static json_t* report_of(hair_instance* hair)
 
 static json_t* health_of(const hair_health* health)
 {
-    return json_pack("{s:i, s:i, s:i, s:i, s:f, s:i, s:f, s:f, s:i, s:i, s:f, s:i, s:f, s:i, s:i, s:f, s:i}", "euler",
-                     health->euler, "follow",
-                     health->follow, "reset", health->reset, "stiffened", health->stiffened, "stiffest",
-                     (double)health->stiffest, "sagging", health->sagging, "farthest_sag",
-                     (double)health->farthest_sag, "substep", (double)health->substep, "parts", health->parts,
-                     "softened", health->softened, "softest", (double)health->softest, "restless",
-                     health->restless, "fastest", (double)health->fastest, "gaining", health->gaining,
-                     "overstretched", health->overstretched, "stretch", (double)health->stretch, "taut",
-                     health->taut);
+    return json_pack("{s:i, s:i, s:i, s:i, s:f, s:i, s:f, s:f, s:i, s:i, s:f, s:i, s:f, s:i, s:i, s:f, s:i}",
+                     "euler", health->euler, "follow", health->follow, "reset", health->reset, "stiffened",
+                     health->stiffened, "stiffest", (double)health->stiffest, "sagging", health->sagging,
+                     "farthest_sag", (double)health->farthest_sag, "substep", (double)health->substep,
+                     "parts", health->parts, "softened", health->softened, "softest", (double)health->softest,
+                     "restless", health->restless, "fastest", (double)health->fastest, "gaining",
+                     health->gaining, "overstretched", health->overstretched, "stretch",
+                     (double)health->stretch, "taut", health->taut);
 }
 
 static json_t* groom_of(const hair_groom_info* groom)
