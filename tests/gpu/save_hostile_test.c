@@ -149,7 +149,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_short, 27, HAIR_ERROR_FILE, "the 27 bytes are no saved state"},
         {load_short, 28, HAIR_ERROR_FILE, "ends at byte 28, not at byte "},
         {load_flipped, 3, HAIR_ERROR_FILE, "\"hairsave\" at byte 0"},
-        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 15, not 14"},
+        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 14, not 15"},
         {load_flipped, WHOLE, HAIR_ERROR_FILE, "as byte 12 says"},
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
