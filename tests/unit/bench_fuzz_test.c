@@ -9,7 +9,7 @@
 
 #define TOOL HAIR_BUILD_DIR "/hair-bench"
 #define FUZZ "$T stability --case fuzz --csv - "
-#define ROW " | tail -1 | cut -d, -f2,4,13,24" // method, finite, scenes, pass
+#define ROW " | tail -1 | cut -d, -f2,4,18,29" // method, finite, scenes, pass
 
 static int make_folder(void** state)
 {
