@@ -530,7 +530,7 @@ struct hair_stir_params {
 };
 HAIR_SIZE(hair_stir_params, 16)
 
-// How motion.comp measures guides after the last substep.
+// Parameters by which motion.comp measures guides after the last substep.
 struct hair_motion_params {
     hair_vec4 turn;  // rotation of the head over the last substep, unit quaternion
     hair_vec4 moved; // xyz: displacement of the head over it, m; w: speed per displacement, 1/s
@@ -541,7 +541,7 @@ struct hair_motion_params {
 };
 HAIR_SIZE(hair_motion_params, 48)
 
-// How energy.comp watches the guides after a step.
+// Parameters by which energy.comp watches the guides after a step.
 struct hair_energy_params {
     hair_uint begins; // 1: what was watched before counts no more.
     hair_uint ends;   // 1: the window ends with this step.

@@ -4,7 +4,7 @@
 // that is added up as loss: E + loss may not grow. So a guide is found out as well that gains what damping takes from it.
 //
 // Velocities of some methods are those of the middle of a substep. E of an oscillation at w then swings by w h / 2 of it.
-// So the greatest values of windows of time are compared, which an oscillation leaves alike. A thread goes over the
+// Therefore the greatest values of windows of time are compared, which an oscillation leaves alike. A thread goes over the
 // vertices of a guide.
 #version 450 core
 #include "buffers.glsl"

@@ -12,11 +12,11 @@
 // Along a chain over a round body it builds up as fast as Picard's iteration of T' = friction T.
 #define GRIP 3.0
 
-OWN(vec3, reaction);       // of solids on vertex i at the end of the last substep. m/s^2
-OWN(vec3, reaction_found); // the same in the last Newton step
-vec3 last_held, last_found; // both of the vertex that is looked at, as displacements
+OWN(vec3, reaction);       // Reaction of solids on vertex i at the end of the last substep. m/s^2
+OWN(vec3, reaction_found); // Reaction that the last Newton step found. m/s^2
+vec3 last_held, last_found; // Both reactions of one vertex, as displacements
 
-// Return what friction takes of a way over a surface. `slip` is as the variable of that name has it.
+// Return the displacement that friction takes of a way over a surface. `slip` is as the variable of that name has it.
 vec3 gripped(float friction, vec3 normal, vec3 way, out bool sticks, out vec4 slip)
 {
     vec3  spring = (GRIP * way - (last_held - dot(last_held, normal) * normal)) / (1.0 + GRIP);
@@ -28,7 +28,7 @@ vec3 gripped(float friction, vec3 normal, vec3 way, out bool sticks, out vec4 sl
     return spring * (bears / far);
 }
 
-// Out of one solid by the depth, and held by its friction.
+// Push a displacement out of one solid by the depth, and hold it by friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {
     bool sticks;

@@ -197,7 +197,8 @@ bool attempt(int method, vec3 head_moved)
     for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
         if (!IS_LEADER(method)) find_wanted();
-        bool freezes = SOLIDS && n >= FREEZE_FROM && !verifies; // What fits frozen contacts is tried once more with those there are.
+        // A step that fits frozen contacts is tried once more with those that there are.
+        bool freezes = SOLIDS && n >= FREEZE_FROM && !verifies;
         if (freezes) try_frozen(!frozen);
         else try_wanted(head_moved, false);
         frozen = freezes;

@@ -1,10 +1,10 @@
 // parts.glsl - leaps of SHAKE over a substep, or over parts of one.
 //
-// Where lengths fail, or a segment turns too far, half the time is tried, and so on. A leap of length h after one of
+// A part of half the time is tried if lengths fail or a segment turns too far, and so on. A leap of length h after one of
 // length g moves the velocity on by (g + h) / 2, which keeps leapfrog's second order. Displacements are stored as over a
 // whole substep.
 
-// How much of the past is known. 0: nothing, the strand is at rest. 1: its displacement. 2: rates too. Above 1 SHAKE
+// Extent to which the past is known. 0: nothing, the strand is at rest. 1: its displacement. 2: rates too. Above 1 SHAKE
 // waits, and BDF2 leaps. Below 1: the displacement, by a leap over a part of the substep; see known_part().
 float known;
 

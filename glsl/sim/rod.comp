@@ -3,7 +3,7 @@
 // HAIR_SOLVER names the method that is tried first; of guides whose bending SHAKE cannot bear at that substep BDF2, in
 // the programs that have HAIR_STIFF. A substep that it leaves stretched or not finite is done again by implicit Euler,
 // and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes back to its rest pose.
-// What this takes is counted in health[]. SHAKE takes a substep in parts where a whip turns segments: see parts.glsl.
+// Each such substep is counted in health[]. SHAKE takes a substep in parts where a whip turns segments: see parts.glsl.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require

@@ -108,7 +108,7 @@ void count_in(uint what)
     if (lane == 0u) atomicAdd(health[what], 1u);
 }
 
-// What no compiler takes for a sum whose parts it may take away again. `precise` says so too, but of all that leads there:
+// Return v rounded by a sum whose parts no compiler takes away again. `precise` says so too, but of all that leads there:
 // then nothing in a substep is multiplied and added at once.
 vec3 rounded(vec3 v)
 {

@@ -12,7 +12,8 @@ void place_root(vec4 head, float share)
 #endif
 }
 
-#if defined(HAIR_MIXED) || defined(SPLITS) // Where the head is when a substep starts and ends, and what of the step is done then.
+#if defined(HAIR_MIXED) || defined(SPLITS)
+// Rotation of the head, and fraction of the step that is done, when a substep starts and ends.
 vec4  head_at_start, head_at_end;
 float fraction_at_start, fraction_at_end;
 #endif

@@ -6,7 +6,7 @@
 //
 // where K is the bending stiffness at its first vertex, r its rest direction, C' the weight of all beyond and a'
 // the force that bears it as the rest strain does: its moment r x a' is the opposite of the stress in the groom.
-// Where the stress is the moment of the weight the segment rests at t = r. C = c r + p is the first moment of the
+// The segment rests at t = r if the stress is the moment of the weight. C = c r + p is the first moment of the
 // masses beyond, p across r.
 #include "lib/sim/rod_shape.h"
 

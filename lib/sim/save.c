@@ -15,7 +15,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 15 // Of the list in walk() and what its fields mean: raise it with either.
+#define VERSION 15 // Version of the list in walk() and of what its fields mean: raise it with either.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"

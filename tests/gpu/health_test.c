@@ -29,7 +29,7 @@ static void shake(struct hair_test* test, hair_instance* hair, uint32_t frames)
     }
 }
 
-// Where the tip of the first guide is.
+// Put a box where the tip of the first guide is.
 static void add_box(struct hair_test* test, hair_instance* hair)
 {
     static float at[3 * 4096];
