@@ -134,7 +134,7 @@ typedef uint32_t hair_uint;
 
 // Most Newton steps of the mixed scheme in a substep, by a work group, and by a thread for a guide of n vertices.
 #define HAIR_MIXED_STEPS 16u
-#define HAIR_MIXED_STEPS_BY_THREAD(n) ((n) <= 32 ? 16u : (n) <= 64 ? 12u : (n) <= 128 ? 8u : 6u)
+#define HAIR_MIXED_STEPS_BY_THREAD(n) ((n) <= 32 ? 16u : (n) <= 64 ? 12u : (n) <= 128 ? 8u : 5u)
 #define HAIR_MIXED_ROW_VECTORS 14u // Vectors in a row of the mixed scheme: see glsl/sim/mixed_rows.glsl.
 
 #define HAIR_HEALTH_EULER 0 // what is counted, as in hair_health

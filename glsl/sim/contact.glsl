@@ -18,14 +18,13 @@
 #define RISE 0.2       // of a vertex out of where its root is, by its distance from that
 
 OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
+#ifndef HAIR_MIXED
 OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it; of STICKS w: friction
+#endif
 #ifdef HAIR_ANY
 #define BITS uvec2 // one for each solid of a list,
 #else
 #define BITS uint // or for each there is
-#endif
-#ifdef HAIR_MIXED
-OWN(vec3, surface); // displacement of the surface that vertex i touched last
 #endif
 OWN(BITS, reachable); // solids,
 OWN(BITS, met);       // and those met in this substep
@@ -124,18 +123,17 @@ float root_depth_in(uint k, bool is_body)
     return solid.radius - length(from_axis(root_now, solid));
 }
 
+#ifdef HAIR_MIXED
+#include "sim/contact_planes.glsl"
+#else
+
 // What solids have made of a displacement, and what they leave of it.
 struct outcome {
-    vec3  d;
-    vec4  freedom, slip; // as touch and slip have them
-#ifdef HAIR_MIXED
-    vec3  grip, surface; // displacement that friction took, and that of the surface which was left last
-#endif
+    vec3 d;
+    vec4 freedom, slip; // as touch and slip have them
 };
 
-#ifdef HAIR_MIXED
-#include "sim/friction.glsl"
-#else
+outcome untouched(vec3 want) { return outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0)); }
 
 // Out of one solid by the depth, and held by its friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
@@ -162,13 +160,7 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 // would have to pull.
 outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
 {
-#ifdef HAIR_MIXED
-    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0), vec3(0.0), vec3(0.0));
-    last_found   = of_force * own(reaction_found);
-    last_held    = of_force * own(reaction);
-#else
-    outcome made = outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0));
-#endif
+    outcome made = untouched(want);
     get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);
     return made;
 }

@@ -9,10 +9,6 @@ void meet_solids(uint i, vec3 head_moved, bool keep)
     PUT(moved, made.d);
     own(touch) = made.freedom;
     own(slip)  = made.slip;
-#ifdef HAIR_MIXED
-    own(reaction_found) = (made.d - own(wanted)) / of_force;
-    own(surface)        = made.surface;
-#endif
 }
 
 // Find the displacements that solids allow.
@@ -21,9 +17,6 @@ void try_wanted(vec3 head_moved, bool keep)
     EACH(guide_count) {
         PUT(moved, own(wanted));
         if (SOLIDS) own(touch) = own(slip) = vec4(0.0);
-#ifdef HAIR_MIXED
-        if (own(reachable) == BITS(0u)) own(reaction_found) = vec3(0.0);
-#endif
         if (SOLIDS && !LISTS_REACHING && own(reachable) != BITS(0u)) meet_solids(i, head_moved, keep);
     }
     if (SOLIDS && LISTS_REACHING) {

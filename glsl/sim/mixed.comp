@@ -16,13 +16,16 @@ layout(local_size_x = GROUP_THREADS) in;
 #ifdef HAIR_WIND
 #include "sim/drag.glsl"
 #endif
-#include "sim/contact_try.glsl"
+#include "sim/contact.glsl"
 #include "sim/past.glsl"
 #ifdef HAIR_TIED
 #include "sim/tie.glsl"
 #endif
 #include "sim/leader.glsl"
 #include "sim/mixed.glsl"
+#include "sim/mixed_rows.glsl"
+#include "sim/mixed_chain.glsl"
+#include "sim/mixed_contact.glsl"
 #include "sim/mixed_system.glsl"
 #include "sim/mixed_solve.glsl"
 #include "sim/mixed_step.glsl"

@@ -55,6 +55,7 @@ OWN(vec3, flow);      // unit vector along the strand at vertex i, which drag di
 OWN(vec2, mobilities); // fractions of `mobility` across and along it
 #endif
 
+bool touching;        // Some vertex can touch a solid in this substep.
 bool root_is_clamped; // The hinge at the root has a stiffness.
 
 vec4 turn_by(vec3 v) { return normalize(vec4(0.5 * v, 1.0)); }

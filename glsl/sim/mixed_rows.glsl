@@ -72,6 +72,9 @@ vec3 times(symmetric s, vec3 v)
 // v v^T
 symmetric outer(vec3 v) { return symmetric(v * v, v.yzx * v.zxy); }
 
+// v w^T + w v^T
+symmetric twice_mixed(vec3 v, vec3 w) { return symmetric(2.0 * v * w, v.yzx * w.zxy + v.zxy * w.yzx); }
+
 // a b^T, where that is known to be symmetric
 symmetric times_transposed(mat3 a, mat3 b)
 {

@@ -9,29 +9,32 @@
 #else
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS
 #endif
-#define LENGTH_ERROR 2e-4 // What contact may leave of a segment's length, relative.
+#define LENGTH_ERROR 2e-4 // What contact may leave of a segment's length, relative;
+#define LOOSE_ERROR 2e-3  // and of strands that are moved about, for which that takes more Newton steps
+#define LOOSE_FROM 3u     // than this. The next substep goes on with it.
 
-#define FREEZE_FROM 3u   // Newton steps after which contacts stay as they are: see try_frozen().
-
-OWN(vec4, plane);      // `touch` of a contact that stays
-OWN(float, plane_friction);
-OWN(vec3, plane_move); // the displacement that it allowed
 bool guarded;  // A Newton step was not trusted in this substep.
 uint rounds_in_all;
 #define FEWEST_ROUNDS 4u // of every attempt
 
 uint most_turn;  // of this thread's segments, squared, as bits
 bool finite;     // The last attempt, failed or not, came to something finite.
-bool touching; // Some vertex can touch a solid in this substep.
 
-bool is_touching()
+// Find which solids each vertex can touch in this substep.
+void find_reachable(bool leads, vec3 head_moved)
 {
-    bool any = false;
-    if (SOLIDS) {
-        EACH(guide_count) { any = any || (i < guide_count && own(reachable) != BITS(0u)); }
-        any = any_of(bvec2(any, false)).x;
+    EACH(guide_count) { own(reaction_found) = own(reaction); }
+    if (SOLIDS && !leads) {
+        find_chain();
+        EACH(guide_count) { own(wanted) = own(chain); }
     }
-    return any;
+    find_solids(head_moved);
+    list_reaching();
+    touching = TIED;
+    if (!SOLIDS) return;
+    bool any = false;
+    EACH(guide_count) { any = any || (i < guide_count && own(reachable) != BITS(0u)); }
+    touching = any_of(bvec2(any, false)).x || TIED;
 }
 
 // Go along the solution, turning no segment by more than MAX_TURN. `far`: the whole of it would.
@@ -57,39 +60,6 @@ void apply_solution(bool far)
     MEET;
 }
 
-// Find which displacements the contacts allow that were found last, as planes that do not change any more. So Newton's
-// method comes to an end where a vertex goes to and fro over an edge.
-void try_frozen(bool first)
-{
-    EACH(guide_count) {
-        if (first) {
-            own(plane)          = own(touch);
-            own(plane_move)     = GET(moved);
-            own(plane_friction) = own(touch).w == STICKS ? own(slip).w : length(own(slip).xyz);
-        }
-        vec3  to = own(plane_move), n = own(plane).xyz, d = own(wanted);
-        float depth = dot(n, to - d), kind = own(plane).w;
-        own(touch) = own(plane);
-        own(slip)  = vec4(0.0);
-        if (kind == GLIDES) d = to + dot(n, d - to) * n;
-        if (kind == SLIDES || kind == STICKS) {
-            vec3 way = d - own(surface);
-            bool sticks;
-            last_found = of_force * own(reaction_found);
-            last_held  = of_force * own(reaction);
-            vec3 grip  = gripped(own(plane_friction), n, way - dot(way, n) * n, sticks, own(slip));
-            own(touch) = vec4(n, sticks ? STICKS : SLIDES);
-            d += depth * n - grip;
-            if (depth <= 0.0) {
-                d          = own(wanted);
-                own(touch) = own(slip) = vec4(0.0);
-            }
-        }
-        own(reaction_found) = (d - own(wanted)) / of_force;
-        PUT(moved, d);
-    }
-}
-
 // Return whether the solution turns a segment too far or is not finite, and whether it turns one by more than CLOSE_TURN.
 bvec2 judge_solution()
 {
@@ -103,115 +73,27 @@ bvec2 judge_solution()
     return any_of(bvec2(far, most > floatBitsToUint(CLOSE_TURN * CLOSE_TURN)));
 }
 
-// Replace `wanted` of every vertex by `start` and the sum of all before it.
-void sum_along(vec3 start)
-{
-#ifdef HAIR_THREAD_PER_GUIDE
-    for (uint k = 0u; k < guide_count; ++k) {
-        vec3 v    = wanted[k];
-        wanted[k] = start;
-        start += v;
-    }
-#else
-    vec3 sum = lane + 1u < guide_count ? wanted : vec3(0.0);
-    for (uint reach = 1u; reach < lanes; reach *= 2u) {
-        lend(sum);
-        vec3 more = lent_by(lane - reach); // Read by all threads, as shuffles want it.
-        sum += lane >= reach ? more : vec3(0.0);
-    }
-    lend(sum);
-    vec3 before = lent_by(lane - 1u);
-    wanted = start + (lane > 0u ? before : vec3(0.0));
-#endif
-}
-
-// Return the displacement of a free root that leaves the guide the momentum which forces from without give it.
-vec3 free_root_moved()
-{
-    vec3  momentum = vec3(0.0);
-    float mass     = 0.0;
-    EACH(guide_count) {
-        float m = i < guide_count && own(slack) > 0.0 ? 1.0 / own(slack) : 0.0;
-        mass += m;
-        momentum += m * (GET(lever) - own(wanted));
-    }
-    return vec3(sum_of(momentum.x), sum_of(momentum.y), sum_of(momentum.z)) / sum_of(mass);
-}
-
-#ifdef HAIR_TIED
-// Share out along each span what its held end lacks.
-void close_spans()
-{
-    EACH(guide_count) { PUT(lever, own(slack) == 0.0 ? held_move(i) - GET(moved) : vec3(0.0)); }
-    MEET;
-    EACH(guide_count) {
-        vec4  s = own(span);
-        float far = s.z > 0.0 ? (float(i) - s.x) / max(s.y - s.x, 1.0) : 0.0;
-        vec3  from = GET_AT(lever, uint(s.x)), to = GET_AT(lever, uint(s.y));
-        vec3  lack = own(slack) == 0.0 ? GET(lever) : s.z > 0.0 ? mix(from, to, far) : vec3(0.0);
-        PUT(moved, GET(moved) + lack);
-    }
-    MEET;
-}
-#endif
-
-// Sum up displacements, and places after them, out of the turns.
-void place_vertices()
-{
-    EACH(guide_count) {
-        // Without the forces of segments, which cancel, and would leave what rounding makes of stiff ones.
-        PUT(lever, own(reached) + (GET(moved) - own(wanted)));
-        vec3 then   = along_of(seen(section));
-        own(wanted) = own(rest_length) * change_by(own(turn), then);
-#ifdef HAIR_TIED
-        vec3 between = BETWEEN;
-        own(wanted) += i + 1u < guide_count ? own(rest_length) * then - between : vec3(0.0);
-#endif
-    }
-    vec3 root_place = GET_AT(place, 0u), start = root_is_free ? vec3(0.0) : root_moved;
-    sum_along(start);
-    if (root_is_free) start = free_root_moved();
-    EACH(guide_count) {
-        PUT(moved, own(wanted) + (root_is_free ? start : vec3(0.0)));
-        own(wanted) = own(rest_length) * along_of(seen(tried));
-    }
-    sum_along(root_place + (start - root_moved));
-    EACH(guide_count) { PUT(place, own(wanted) - (GET(moved) - root_moved)); }
-    MEET;
-#ifdef HAIR_TIED
-    close_spans();
-#endif
-}
-
 // Return whether the substep by `method` succeeds: BDF2, implicit Euler, or follow-the-leader, which always does. Where it
 // succeeds, or has come to something finite, place_vertices() is next; not after follow-the-leader.
 bool attempt(int method, vec3 head_moved)
 {
-    predict(method);
-    find_solids(head_moved);
-    list_reaching();
-    touching = TIED || is_touching();
-    EACH(guide_count) { own(reaction_found) = own(reaction); }
-    bool  exact = true, done = false, fits = false, frozen = false, verifies = false;
+    bool  leads = IS_LEADER(method), exact = true, done = false, fits = false;
     bvec2 judged = bvec2(true);
+    predict(method);
+    find_reachable(leads, head_moved);
     for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
-        if (!IS_LEADER(method)) find_wanted();
-        // A step that fits frozen contacts is tried once more with those that there are.
-        bool freezes = SOLIDS && n >= FREEZE_FROM && !verifies;
-        if (freezes) try_frozen(!frozen);
-        else try_wanted(head_moved, false);
-        frozen = freezes;
+        if (!leads) find_wanted();
+        meet_solids(n, leads, head_moved);
         MEET;
-        if (IS_LEADER(method)) { // What is led into a solid is turned out of it, once.
+        if (leads) { // What is led into a solid is turned out of it, once.
             follow_leader();
             if (n == (SOLIDS ? 1u : 0u)) return true;
             continue;
         }
-        bool loose = put_rows(exact, LENGTH_ERROR);
+        bool loose = put_rows(exact, n < LOOSE_FROM ? LENGTH_ERROR : LOOSE_ERROR);
         fits = done && (!touching || !any_of(bvec2(loose, false)).x);
-        verifies = fits && frozen;
-        if ((fits && !frozen) || (done && !has_rounds())) break;
+        if (fits || (done && !has_rounds())) break;
         solve_system(exact);
         judged = judge_solution();
         if (judged.x && exact) {

@@ -1,24 +1,9 @@
 // mixed_system.glsl - the rows of Newton's system of a guide: one for each segment, with the hinge to the next.
-#include "sim/mixed_rows.glsl"
-
 #define TWIST_HELD 1e-5 // See twist_hold().
 #define HELD 1e-3 // Fraction of the mobility that a contact leaves across it, for a block between two to have an inverse.
 #if defined(HAIR_SOLIDS) || defined(HAIR_WIND) || defined(HAIR_TIED)
 #define MOBILITY_IS_MATRIX
 #endif
-
-// Return the part of a displacement that the contact of a vertex lets pass, taken to be symmetric.
-mat3 freedom_of(vec4 freedom, vec4 slip)
-{
-    mat3 n = outerProduct(freedom.xyz, freedom.xyz), one = mat3(1.0);
-    if (freedom.w == FREE) return one;
-    mat3 m = one - n;
-    if (freedom.w == GLIDES) m = n;
-    if (freedom.w == STICKS) m /= 1.0 + GRIP;
-    float square = dot(slip.xyz, slip.xyz);
-    if (freedom.w == SLIDES && square > 0.0) m = (1.0 - slip.w) * m + (slip.w / square) * outerProduct(slip.xyz, slip.xyz);
-    return m;
-}
 
 void put_hinge(uint i, bool exact, vec4 a)
 {
@@ -46,13 +31,11 @@ void put_mobility(uint i)
     w += own(mobility) * (own(mobilities).y - own(mobilities).x) * outerProduct(own(flow), own(flow));
 #endif
     if (SOLIDS && own(touch).w != FREE) {
-        mat3 m = freedom_of(own(touch), own(slip));
+        w = full(own(freedom));
 #ifdef HAIR_WIND
-        w = m * w * m;
-#else
-        w = own(mobility) * m;
+        w *= own(mobilities).x;
 #endif
-        w += mat3(HELD * own(mobility));
+        w *= own(mobility);
     }
     // Two neighbours that are held would leave the force between them nothing to act on.
     if (TIED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
@@ -90,8 +73,8 @@ bool put_rows(bool exact, float tolerance)
         float l = own(rest_length), pull = l * dot(t, f);
         symmetric c = symmetric(ROW(hinge_diagonal, i) + ROW(hinge_diagonal, i + 1u), ROW(hinge_beside, i) + ROW(hinge_beside, i + 1u));
         vec3 moment = ROW(hinge_moment, i + 1u) - ROW(hinge_moment, i);
-        // Tension resists turning, compression does the opposite. Else of t f^T + f t^T, times half the length.
-        if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, symmetric(2.0 * t * f, t.yzx * f.zxy + t.zxy * f.yzx)));
+        // Tension resists turning, compression does the opposite.
+        if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, twice_mixed(t, f)));
         else c = plus(c, minus(multiple_of_one(max(pull, 0.0)), times(max(pull, 0.0), outer(t))));
         c      = plus(c, times(twist_hold(l, dot(t, times(c, t))), outer(t)));
         vec3 e = l * change_by(own(turn), then) - to;

@@ -50,14 +50,15 @@ static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
     return by_thread ? HAIR_MIXED_STEPS_BY_THREAD(sim->most_vertices) : HAIR_MIXED_STEPS;
 }
 
-// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep takes one Newton step. Where a
-// part begins loops go over the guide in mixed.glsl, mixed_parts.glsl and accept.glsl; in each step in mixed_step.glsl.
+// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep takes one Newton step. In a step
+// 14 loops go over the guide in mixed_step.glsl and what it includes. Where a part begins and ends 23 do, in mixed.glsl,
+// mixed_chain.glsl, mixed_parts.glsl and accept.glsl.
 static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 {
     uint32_t     most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
     struct loops loops = {0};
-    loops.over         = most * (16 + 2 * tied + 8);
-    loops.along        = most * 4;
+    loops.over         = most * (14 + 23 + 3 * tied);
+    loops.along        = most * 7;
     return loops;
 }
 
@@ -113,8 +114,8 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
     if (sim->contacts.any) return rounds_of_list(sim, by_thread);
-    // Others are walked through: BODY_STEPS. The mixed scheme looks in every Newton step, and twice when it leads.
-    uint32_t looks = hair_sim_is_mixed(sim) ? 2 * newton_steps(sim, by_thread) + 4 : 44;
+    // Others are walked through: BODY_STEPS. The mixed scheme looks once in a Newton step, and twice when it leads.
+    uint32_t looks = hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) + 4 : 44;
     return solids ? looks * (solids + 10 + 12 * others) : 0;
 }
 

@@ -1,0 +1,145 @@
+// mixed_contact.glsl - contact and friction of the mixed scheme, as springs that are part of Newton's system.
+//
+// In a Newton step the tangent planes of solids take the place of solids. They are those where the chain of segments is.
+// Vertices without contact would go wherever the forces of stiff segments happen to point, and find other planes each time.
+//
+// A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a segment holds inside a
+// solid has no place to go: rigid planes would answer by forces without bound, which throw the strand about later.
+//
+// A vertex hangs on its surface by a spring that gives way where it pulls by more than friction bears (P. Cundall and
+// O. Strack, A Discrete Numerical Model for Granular Assemblies, 1979). Its stiffness is GRIP times the inertia of the
+// vertex in a substep, so that what sticks still moves a little with forces, and all forces between what sticks are
+// determined. The spring begins with the force of the last substep: nothing creeps. With F that force and d the way over
+// the surface, all as displacements, it takes
+//
+//   g = (F + GRIP d) / (1 + GRIP), at most friction times the pressure.
+//
+// The pressure is that of the last substep, which keeps Newton's system symmetric. A Newton step that finds a much larger
+// or smaller one replaces it. Along a chain over a round body it builds up as fast as Picard's iteration of T' = friction T.
+#define PUSH 1000.0
+#define GRIP 3.0
+#define OFF_PLANE 0.25      // Distance from a plane over which a vertex that was pressed on it stays, in segments
+#define PRESSURE_CHANGE 0.5 // Relative change of pressure that replaces it,
+#define PRESSED_UNTIL 4u    // in so many Newton steps
+#define PLANES_UNTIL 4u     // Newton steps that find planes. Later ones keep them, so that they come to an end.
+
+OWN(vec4, plane);          // Planes of vertex i, as `outcome` has them
+OWN(vec4, other_plane);
+OWN(vec3, surface);        // Displacement of the surface at vertex i
+OWN(float, surface_friction);
+OWN(symmetric, freedom);   // Derivative of the displacement by the one that is wanted
+OWN(vec3, pressing);       // Reaction that friction is measured by. m/s^2
+
+void find_planes_of(uint i, vec3 head_moved)
+{
+    vec3    pressed = of_force * own(reaction_found);
+    float   most = OFF_PLANE * guide_length / float(guide_count - 1u);
+    vec3    want = own(chain) - min(1.0, most / max(length(pressed), 1e-9)) * pressed;
+    outcome made = allowed(i, want, own(reachable), BITS(0u), head_moved, own(met));
+    own(plane)            = made.plane;
+    own(other_plane)      = made.other;
+    own(surface)          = made.surface;
+    own(surface_friction) = made.friction;
+}
+
+// Find the planes of solids where the chain is.
+void find_planes(vec3 head_moved)
+{
+    EACH(guide_count) {
+        own(plane) = own(other_plane) = vec4(0.0);
+        if (!LISTS_REACHING && own(reachable) != BITS(0u)) find_planes_of(i, head_moved);
+    }
+    if (LISTS_REACHING) {
+        EACH_REACHING { find_planes_of(i, head_moved); }
+    }
+}
+
+// Replace the pressure that friction is measured by, where another one was found than it was taken to be.
+void renew_pressure(bool all)
+{
+    EACH(guide_count) {
+        bool other = length(own(reaction_found) - own(pressing)) > PRESSURE_CHANGE * length(own(pressing));
+        if (all || other) own(pressing) = own(reaction_found);
+    }
+}
+
+// Return how far both planes push a vertex along their normals, by how far it is beyond each. `signed_`: they may pull.
+vec2 pushes_of(float normals, vec2 beyond, bool are_two, bool signed_)
+{
+    const float s = 1.0 + 1.0 / PUSH;
+    vec2 by = (s * beyond - normals * beyond.yx) / (s * s - normals * normals);
+    if (signed_) return by;
+    if (are_two && by.x <= 0.0) by = vec2(0.0, beyond.y / s);
+    else if (are_two && by.y <= 0.0) by = vec2(beyond.x / s, 0.0);
+    return max(by, 0.0);
+}
+
+// Return the part of a displacement that one plane, or two, take away. Without compliance it would be a projection.
+symmetric taken_by(vec3 n, vec3 m, bool both)
+{
+    const float s = 1.0 + 1.0 / PUSH;
+    float c = dot(n, m);
+    symmetric across = outer(n);
+    if (both) across = plus(across, minus(outer(m), times(c / s, twice_mixed(n, m))));
+    return times(s / (s * s - c * c), across);
+}
+
+// Find what planes make of the displacement that vertex i wants. `first`: what it wants follows from forces that were not
+// solved for yet, and only the chain tells what presses and sticks.
+void hold_vertex(uint i, bool first)
+{
+    vec3  n = own(plane).xyz, m = own(other_plane).xyz, d = own(wanted);
+    vec2  beyond = vec2(own(plane).w - dot(n, d), own(other_plane).w - dot(m, d));
+    vec2  by = pushes_of(dot(n, m), beyond, m != vec3(0.0), first);
+    vec3  push = by.x * n + by.y * m;
+    own(reaction_found) = vec3(0.0);
+    if (by == vec2(0.0)) return;
+    bool both = by.x != 0.0 && by.y != 0.0;
+    n = by.x != 0.0 ? n : m;
+    m = both ? m : vec3(0.0);
+
+    vec3      along = both ? normalize(cross(n, m)) : vec3(0.0);
+    symmetric one = multiple_of_one(1.0), over = both ? outer(along) : minus(one, outer(n)), gives = times(GRIP / (1.0 + GRIP), over);
+    vec3      held = of_force * times(over, own(reaction)), pressure = of_force * (own(pressing) - times(over, own(pressing)));
+    float     bears = dot(pressure, n + m) > 0.0 ? own(surface_friction) * length(pressure) : 0.0;
+    vec3      by_want = times(gives, d - own(surface)) - held / (1.0 + GRIP);
+    vec3      spring = first ? GRIP * times(over, own(chain) - own(surface)) - held : by_want;
+    float     far = max(length(spring), 1e-30);
+    bool      sticks = far <= bears;
+    if (!sticks) {
+        float part = first || both ? 0.0 : bears / far;
+        gives      = times(part, minus(gives, times(GRIP / (1.0 + GRIP), outer(spring / far))));
+        by_want    = (bears / far) * spring;
+    }
+    PUT(moved, d + push - by_want);
+    own(reaction_found) = (push - by_want) / of_force;
+    own(freedom)        = minus(minus(one, taken_by(n, m, both)), gives);
+    own(touch)          = sticks || !both ? vec4(n, sticks ? STICKS : SLIDES) : vec4(along, GLIDES);
+}
+
+// Find the displacements that planes leave.
+void hold_vertices(bool first)
+{
+    EACH(guide_count) {
+        PUT(moved, own(wanted));
+        if (!SOLIDS) continue;
+        own(touch) = vec4(0.0);
+        if (own(reachable) == BITS(0u)) own(reaction_found) = vec3(0.0);
+        else if (!LISTS_REACHING) hold_vertex(i, first);
+    }
+    if (SOLIDS && LISTS_REACHING) {
+        EACH_REACHING { hold_vertex(i, first); }
+    }
+}
+
+// Find in a Newton step which displacements solids allow.
+void meet_solids(uint n, bool leads, vec3 head_moved)
+{
+    if (SOLIDS && touching) {
+        if (leads) EACH(guide_count) { own(chain) = own(wanted); }
+        else if (n > 0u && n < PLANES_UNTIL) find_chain();
+        if (leads || n < PLANES_UNTIL) find_planes(head_moved);
+        if (n < PRESSED_UNTIL) renew_pressure(n == 0u);
+    }
+    hold_vertices(n == 0u && !leads);
+}
