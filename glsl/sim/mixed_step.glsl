@@ -9,9 +9,8 @@
 #else
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS
 #endif
-#define LENGTH_ERROR 2e-4 // What contact may leave of a segment's length, relative;
-#define LOOSE_ERROR 2e-3  // and of strands that are moved about, for which that takes more Newton steps
-#define LOOSE_FROM 3u     // than this. The next substep goes on with it.
+#define LOOSER 10.0   // Factor of what contact may leave of lengths where Newton's method needs more
+#define LOOSE_FROM 3u // steps than this. The next substep goes on with it.
 
 bool guarded;  // A Newton step was not trusted in this substep.
 uint rounds_in_all;
@@ -91,7 +90,7 @@ bool attempt(int method, vec3 head_moved)
             if (n == (SOLIDS ? 1u : 0u)) return true;
             continue;
         }
-        bool loose = put_rows(exact, n < LOOSE_FROM ? LENGTH_ERROR : LOOSE_ERROR);
+        bool loose = put_rows(exact, n < LOOSE_FROM ? 1.0 : LOOSER);
         fits = done && (!touching || !any_of(bvec2(loose, false)).x);
         if (fits || (done && !has_rounds())) break;
         solve_system(exact);

@@ -55,9 +55,13 @@ float twist_hold(float l, float twist)
     return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
+// Return what contact may leave of a segment's length, relative. What turns in a substep may have the larger part of it:
+// by an error that comes again in each substep a strand at rest would tremble.
+float length_error(vec4 turn) { return clamp(0.04 * length(turn.xyz), 1e-5, 2e-4); }
+
 // Write all rows, by the exact second derivatives or only by what of them is always convex. Return whether a segment
-// lacks or has too much of its length by more than the relative `tolerance`.
-bool put_rows(bool exact, float tolerance)
+// lacks or has too much of its length by more than `looser` times what it may.
+bool put_rows(bool exact, float looser)
 {
     bool loose = false;
     EACH(guide_count) {
@@ -82,7 +86,8 @@ bool put_rows(bool exact, float tolerance)
         e += l * then - between;
 #endif
         if (i + 1u < guide_count) {
-            loose = loose || bits_of(dot(e, e)) > floatBitsToUint(tolerance * tolerance * l * l);
+            float most = looser * l * length_error(own(turn));
+            loose      = loose || bits_of(dot(e, e)) > floatBitsToUint(most * most);
             PUT_ROW(turn_diagonal, i, c.diagonal);
             PUT_ROW(turn_beside, i, c.beside);
             PUT_ROW(force_diagonal, i, l * t);

@@ -10,12 +10,11 @@
 #define SECONDS 10.0
 #define NUDGE 0.05         // s
 #define NUDGE_GRAVITY 0.2f // m/s^2: 10 mm/s at its end. Soft coils creep back for long after more.
-#define NUDGE_PULL 8.0f    // Hz, at the root of a free coil
 #define MAX_ENERGY 1.01
 
 struct curl {
     struct bench_living        living;
-    struct hair_reference_rod* rod; // NULL: redblack has no material
+    struct hair_reference_rod* rod; // NULL: follow and redblack have no energy.
     hair_physics               calm;
     double                     time;
     double                     start;      // J, after the nudge
@@ -69,17 +68,12 @@ static bool step_frame(struct curl* curl)
 
 static bool nudge(struct curl* curl)
 {
-    struct bench_living*           living     = &curl->living;
-    hair_physics                   push       = curl->calm;
-    struct hair_reference_rod_pose head       = living->scene->head;
-    const double                   forward[3] = {0, 0, 1}, none[3] = {0, 0, 0};
-    if (push.root == HAIR_ROOT_FREE) { // Pulled at one end.
-        push.pull_root = NUDGE_PULL;
-        head           = bench_pose(forward, 0.01, none);
-    } else
-        push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
+    struct bench_living* living = &curl->living;
+    hair_physics         push   = curl->calm;
+    push.root                   = HAIR_ROOT_CLAMPED; // A free coil would only fall.
+    push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
     double h = living->substep, count = ceil(NUDGE / h);
-    return !hair_set_physics(living->hair, &push) && bench_step(living, &head, count * h) &&
+    return !hair_set_physics(living->hair, &push) && bench_step(living, &living->scene->head, count * h) &&
            !hair_set_physics(living->hair, &curl->calm) && bench_step(living, &living->scene->head, h);
 }
 
@@ -152,7 +146,7 @@ static void measure(struct bench* bench, double radius, uint32_t each, hair_solv
         bench_refuse(bench, name, method);
         return;
     }
-    if (solver != HAIR_SOLVER_REDBLACK) curl.rod = bench_reference(&scene);
+    if (bench_rest_must_sleep(solver)) curl.rod = bench_reference(&scene);
     if (run(&curl))
         add_row(&curl, name, radius, each);
     else
