@@ -3,7 +3,8 @@
 
 #define MOST_FEW 2048      // guides: so many a GPU has under way at once, whatever registers they take
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
-#define MOST_IN_THREAD 64  // vertices of a guide under the mixed scheme
+#define MOST_IN_THREAD 128 // Vertices of a guide that a thread of a GPU has memory for,
+#define MOST_MIXED 64      // and under the mixed scheme
 #define GROUPS_OF_LIST 16  // of a unit of a GPU, which has as many under way
 #define MOST_ROUNDS 65000  // that a software rasteriser may go in one thread: see rounds.c
 #define PART_ROUNDS_OF_THREAD 30000 // of these, for parts of a substep: 21 of 32 vertices
@@ -12,8 +13,8 @@
 // Where a thread would have too much to do, it is a work group's.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
 {
-    // A GPU has no room for the rows of a longer guide in one thread.
-    if (!sim->gl->software && hair_sim_is_mixed(sim) && sim->most_vertices > MOST_IN_THREAD) return 0;
+    uint32_t most = hair_sim_is_mixed(sim) ? MOST_MIXED : MOST_IN_THREAD;
+    if (!sim->gl->software && sim->most_vertices > most) return 0;
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 

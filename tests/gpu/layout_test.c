@@ -653,8 +653,10 @@ static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** sta
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | SOLIDS,
                                           HAIR_GL_MIXED_SOLVER | THREAD | SOLIDS};
+    const struct hair_test* test  = *state;
+    int                     sizes = test->context->gl.software ? 4 : 3; // A GPU refuses threads that take more memory.
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
-        for (int size = 0; size < 4; ++size)
+        for (int size = 0; size < sizes; ++size)
             assert_int_equal(threads_of(*state, groups[i] | HAIR_GL_SIZE(size)), 8);
 }
 
