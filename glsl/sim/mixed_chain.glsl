@@ -25,8 +25,8 @@ void sum_along(vec3 start)
 #endif
 }
 
-// Return the displacement of a free root that leaves the guide the momentum which forces from without give it. Forces of
-// segments cancel, and would leave what rounding makes of stiff ones.
+// Return the displacement of a free root that leaves the guide the momentum which external forces give it.
+// Forces of segments cancel, and would leave the rounding of stiff ones.
 vec3 free_root_moved()
 {
     vec3  momentum = vec3(0.0);

@@ -1,27 +1,30 @@
 // mixed_contact.glsl - contact and friction of the mixed scheme, as springs that are part of Newton's system.
 //
-// In a Newton step the tangent planes of solids take the place of solids. They are those where the chain of segments is.
-// Vertices without contact would go wherever the forces of stiff segments happen to point, and find other planes each time.
+// In a Newton step the tangent planes of solids take the place of solids. They touch the solids where the
+// chain of segments is. The displacements without contact would give other planes in each step: they follow
+// from the forces of stiff segments, which are wild until they are solved for.
 //
-// A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a segment holds inside a
-// solid has no place to go: rigid planes would answer by forces without bound, which throw the strand about later.
+// A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a segment
+// holds inside a solid has no place to go. Rigid planes would answer by forces without bound, which throw
+// the strand about later.
 //
-// A vertex hangs on its surface by a spring that gives way where it pulls by more than friction bears (P. Cundall and
-// O. Strack, A Discrete Numerical Model for Granular Assemblies, 1979). Its stiffness is GRIP times the inertia of the
-// vertex in a substep, so that what sticks still moves a little with forces, and all forces between what sticks are
-// determined. The spring begins with the force of the last substep: nothing creeps. With F that force and d the way over
-// the surface, all as displacements, it takes
+// A vertex hangs on its surface by a spring that gives way where it pulls by more than friction bears
+// (P. Cundall and O. Strack, A Discrete Numerical Model for Granular Assemblies, 1979). Its stiffness is GRIP
+// times the inertia of the vertex in a substep. So a vertex that sticks still moves a little with forces,
+// and all forces between such vertices are determined. The spring begins with the force of the last substep:
+// nothing creeps. With F that force and d the way over the surface, all as displacements, it takes
 //
 //   g = (F + GRIP d) / (1 + GRIP), at most friction times the pressure.
 //
-// The pressure is that of the last substep, which keeps Newton's system symmetric. A Newton step that finds a much larger
-// or smaller one replaces it. Along a chain over a round body it builds up as fast as Picard's iteration of T' = friction T.
+// The pressure is that of the last substep, which keeps Newton's system symmetric. A Newton step replaces it
+// where it finds a much larger or smaller one. Along a chain over a round body it builds up as fast as
+// Picard's iteration of T' = friction T.
 #define PUSH 1000.0
 #define GRIP 3.0
-#define OFF_PLANE 0.25      // Distance from a plane over which a vertex that was pressed on it stays, in segments
-#define PRESSURE_CHANGE 0.5 // Relative change of pressure that replaces it,
-#define PRESSED_UNTIL 4u    // in so many Newton steps
-#define PLANES_UNTIL 4u     // Newton steps that find planes. Later ones keep them, so that they come to an end.
+#define OFF_PLANE 0.25      // Distance from its plane at which a pressed vertex still stays, in segments
+#define PRESSURE_CHANGE 0.5 // Relative change of pressure that replaces it
+#define PRESSED_UNTIL 4u    // Number of Newton steps that replace pressures
+#define PLANES_UNTIL 4u     // Number of Newton steps that find planes. Later ones keep them, and converge.
 
 OWN(vec4, plane);          // Planes of vertex i, as `outcome` has them
 OWN(vec4, other_plane);
@@ -33,8 +36,8 @@ OWN(vec3, pressing);       // Reaction that friction is measured by. m/s^2
 void find_planes_of(uint i, vec3 head_moved)
 {
     vec3    pressed = of_force * own(reaction_found);
-    float   most = OFF_PLANE * guide_length / float(guide_count - 1u);
-    vec3    want = own(chain) - min(1.0, most / max(length(pressed), 1e-9)) * pressed;
+    float   most    = OFF_PLANE * guide_length / float(guide_count - 1u);
+    vec3    want    = own(chain) - min(1.0, most / max(length(pressed), 1e-9)) * pressed;
     outcome made = allowed(i, want, own(reachable), BITS(0u), head_moved, own(met));
     own(plane)            = made.plane;
     own(other_plane)      = made.other;
@@ -54,7 +57,7 @@ void find_planes(vec3 head_moved)
     }
 }
 
-// Replace the pressure that friction is measured by, where another one was found than it was taken to be.
+// Replace the pressure that friction is measured by where the last Newton step found another one.
 void renew_pressure(bool all)
 {
     EACH(guide_count) {
@@ -63,18 +66,19 @@ void renew_pressure(bool all)
     }
 }
 
-// Return how far both planes push a vertex along their normals, by how far it is beyond each. `signed_`: they may pull.
-vec2 pushes_of(float normals, vec2 beyond, bool are_two, bool signed_)
+// Return how far two planes push a vertex along their normals, by how far it is beyond each. `normals` is
+// the product of both normals. Where `may_pull`, a push may be negative.
+vec2 pushes_of(float normals, vec2 beyond, bool are_two, bool may_pull)
 {
     const float s = 1.0 + 1.0 / PUSH;
     vec2 by = (s * beyond - normals * beyond.yx) / (s * s - normals * normals);
-    if (signed_) return by;
+    if (may_pull) return by;
     if (are_two && by.x <= 0.0) by = vec2(0.0, beyond.y / s);
     else if (are_two && by.y <= 0.0) by = vec2(beyond.x / s, 0.0);
     return max(by, 0.0);
 }
 
-// Return the part of a displacement that one plane, or two, take away. Without compliance it would be a projection.
+// Return the part of a displacement that one plane takes away, or two do. Stiffer springs make it a projection.
 symmetric taken_by(vec3 n, vec3 m, bool both)
 {
     const float s = 1.0 + 1.0 / PUSH;
@@ -84,8 +88,8 @@ symmetric taken_by(vec3 n, vec3 m, bool both)
     return times(s / (s * s - c * c), across);
 }
 
-// Find what planes make of the displacement that vertex i wants. `first`: what it wants follows from forces that were not
-// solved for yet, and only the chain tells what presses and sticks.
+// Find what planes make of the displacement that vertex i wants. In the `first` Newton step that follows from
+// forces which were not solved for yet: only the chain tells what presses and sticks.
 void hold_vertex(uint i, bool first)
 {
     vec3  n = own(plane).xyz, m = own(other_plane).xyz, d = own(wanted);
@@ -99,8 +103,10 @@ void hold_vertex(uint i, bool first)
     m = both ? m : vec3(0.0);
 
     vec3      along = both ? normalize(cross(n, m)) : vec3(0.0);
-    symmetric one = multiple_of_one(1.0), over = both ? outer(along) : minus(one, outer(n)), gives = times(GRIP / (1.0 + GRIP), over);
-    vec3      held = of_force * times(over, own(reaction)), pressure = of_force * (own(pressing) - times(over, own(pressing)));
+    symmetric one = multiple_of_one(1.0), over = both ? outer(along) : minus(one, outer(n));
+    symmetric gives = times(GRIP / (1.0 + GRIP), over);
+    vec3      held = of_force * times(over, own(reaction));
+    vec3      pressure = of_force * (own(pressing) - times(over, own(pressing)));
     float     bears = dot(pressure, n + m) > 0.0 ? own(surface_friction) * length(pressure) : 0.0;
     vec3      by_want = times(gives, d - own(surface)) - held / (1.0 + GRIP);
     vec3      spring = first ? GRIP * times(over, own(chain) - own(surface)) - held : by_want;

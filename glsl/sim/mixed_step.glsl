@@ -1,23 +1,23 @@
 // mixed_step.glsl - a substep of the mixed scheme: Newton's method on turns and forces, contact within it.
 //
-// One step of Newton's method with the exact second derivatives is enough in usual motion. Where a block is not positive, or
-// a segment would turn far, Gauss and Newton's convex derivatives take its place, and no segment turns by more than MAX_TURN.
-#define CLOSE_TURN 0.03  // rad: what a Newton step this small leaves is about its square.
-#define MAX_ROUNDS 10u   // Newton steps of an attempt, those that are not trusted counted; and of all in a substep
+// One step of Newton's method with the exact second derivatives is enough in usual motion. Where a block is
+// not positive, or a segment would turn far, Gauss and Newton's convex derivatives take its place, and no
+// segment turns by more than MAX_TURN.
+#define CLOSE_TURN 0.03 // rad: a Newton step this small leaves about its square.
+#define MAX_ROUNDS 10u  // Number of Newton steps of an attempt. Those that are not trusted count too.
+#define FEWEST_ROUNDS 4u // Number of Newton steps that every attempt may take
 #ifdef HAIR_THREAD_PER_GUIDE // A software rasteriser leaves loops that go round too often: see lib/sim/rounds.c.
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS_BY_THREAD(HAIR_GUIDE_THREADS)
 #else
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS
 #endif
-#define LOOSER 10.0   // Factor of what contact may leave of lengths where Newton's method needs more
-#define LOOSE_FROM 3u // steps than this. The next substep goes on with it.
+#define LOOSE_FROM 3u   // Number of Newton steps after which errors of length may be larger, by the factor
+#define LOOSER 10.0     // LOOSER. The next substep goes on with what is left.
 
-bool guarded;  // A Newton step was not trusted in this substep.
-uint rounds_in_all;
-#define FEWEST_ROUNDS 4u // of every attempt
-
-uint most_turn;  // of this thread's segments, squared, as bits
-bool finite;     // The last attempt, failed or not, came to something finite.
+bool guarded;       // A Newton step was not trusted in this substep.
+uint rounds_in_all; // Number of Newton steps in this substep
+uint most_turn;     // Greatest turn of this thread's segments, squared, as bits
+bool finite;        // The last attempt, failed or not, came to something finite.
 
 // Find which solids each vertex can touch in this substep.
 void find_reachable(bool leads, vec3 head_moved)
@@ -59,7 +59,8 @@ void apply_solution(bool far)
     MEET;
 }
 
-// Return whether the solution turns a segment too far or is not finite, and whether it turns one by more than CLOSE_TURN.
+// Return whether the solution turns a segment too far or is not finite, and whether it turns one by more than
+// CLOSE_TURN.
 bvec2 judge_solution()
 {
     uint most = 0u;
@@ -72,8 +73,9 @@ bvec2 judge_solution()
     return any_of(bvec2(far, most > floatBitsToUint(CLOSE_TURN * CLOSE_TURN)));
 }
 
-// Return whether the substep by `method` succeeds: BDF2, implicit Euler, or follow-the-leader, which always does. Where it
-// succeeds, or has come to something finite, place_vertices() is next; not after follow-the-leader.
+// Return whether the substep by `method` succeeds: BDF2, implicit Euler, or follow-the-leader, which always
+// does. Where it succeeds, or has come to something finite, place_vertices() is next; not after
+// follow-the-leader.
 bool attempt(int method, vec3 head_moved)
 {
     bool  leads = IS_LEADER(method), exact = true, done = false, fits = false;

@@ -55,12 +55,12 @@ float twist_hold(float l, float twist)
     return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
-// Return what contact may leave of a segment's length, relative. What turns in a substep may have the larger part of it:
-// by an error that comes again in each substep a strand at rest would tremble.
+// Return the relative error that contact may leave in a segment's length. A segment that turns in a substep may
+// have more of it. An error that comes again in each substep would make a strand at rest tremble.
 float length_error(vec4 turn) { return clamp(0.04 * length(turn.xyz), 1e-5, 2e-4); }
 
-// Write all rows, by the exact second derivatives or only by what of them is always convex. Return whether a segment
-// lacks or has too much of its length by more than `looser` times what it may.
+// Write all rows, by the exact second derivatives or only by their part that is always convex. Return whether
+// the error of a segment's length is more than `looser` times the one that it may have.
 bool put_rows(bool exact, float looser)
 {
     bool loose = false;
