@@ -22,7 +22,7 @@ static void interrupt(int number)
 static void catch_signals(void)
 {
     struct sigaction action = {0};
-    action.sa_handler       = interrupt;
+    action.sa_handler = interrupt;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
@@ -102,17 +102,17 @@ static bool is_software(const char* renderer)
 
 static int make_opengl(struct bench* bench)
 {
-    bench->host        = (hair_host){NULL, NULL, hair_print_log, (void*)(uintptr_t)BENCH_TOOL};
+    bench->host = (hair_host){NULL, NULL, hair_print_log, (void*)(uintptr_t)BENCH_TOOL};
     hair_result result = hair_egl_create(&bench->host, bench->options.device, &bench->egl);
     if (result) return hair_exit_for(result);
-    bench->renderer        = (const char*)glGetString(GL_RENDERER);
-    bench->software        = is_software(bench->renderer);
-    bench->host            = (hair_host){NULL, NULL, keep_log, bench};
+    bench->renderer = (const char*)glGetString(GL_RENDERER);
+    bench->software = is_software(bench->renderer);
+    bench->host = (hair_host){NULL, NULL, keep_log, bench};
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &bench->host;
-    desc.get_proc          = hair_egl_get_proc;
-    desc.timings           = !bench->software;
-    result                 = hair_context_create(&desc, &bench->context);
+    desc.host = &bench->host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.timings = !bench->software;
+    result = hair_context_create(&desc, &bench->context);
     if (result) hair_complain(BENCH_TOOL, "%s", bench->sentence);
     return hair_exit_for(result);
 }
@@ -120,7 +120,7 @@ static int make_opengl(struct bench* bench)
 static int plan(struct bench* bench)
 {
     const struct bench_options* options = &bench->options;
-    bench->planning                     = true;
+    bench->planning = true;
     options->suite->run(bench);
     bench->planning = false;
     if (bench->planned) return HAIR_EXIT_OK;
@@ -132,9 +132,9 @@ static int plan(struct bench* bench)
 // As Linux names it; nothing where it does not.
 static void name_processor(char* name, int size)
 {
-    char  line[256];
+    char line[256];
     FILE* file = fopen("/proc/cpuinfo", "r");
-    name[0]    = 0;
+    name[0] = 0;
     while (file && !name[0] && fgets(line, sizeof line, file)) {
         const char* value = strncmp(line, "model name", 10) ? NULL : strchr(line, ':');
         if (value) snprintf(name, (size_t)size, "%.*s", (int)strcspn(value + 2, "\n"), value + 2);
@@ -144,16 +144,16 @@ static void name_processor(char* name, int size)
 
 static void write_json(const struct bench* bench, FILE* file)
 {
-    char     version[32], processor[128];
+    char version[32], processor[128];
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
     name_processor(processor, sizeof processor);
-    struct bench_about about = {.suite     = bench->options.suite->name,
-                                .version   = version,
-                                .renderer  = bench->renderer,
+    struct bench_about about = {.suite = bench->options.suite->name,
+                                .version = version,
+                                .renderer = bench->renderer,
                                 .processor = processor,
-                                .cores     = sysconf(_SC_NPROCESSORS_ONLN),
-                                .seconds   = 1e-3 * (hair_now() - bench->started)};
+                                .cores = sysconf(_SC_NPROCESSORS_ONLN),
+                                .seconds = 1e-3 * (hair_now() - bench->started)};
     bench_write_json(&bench->rows, &about, file);
 }
 
@@ -194,7 +194,7 @@ static bool close_targets(const struct bench* bench, struct target targets[2], b
 static int measure(struct bench* bench)
 {
     const struct bench_options* options = &bench->options;
-    bench->started                      = hair_now();
+    bench->started = hair_now();
     options->suite->run(bench);
     if (!options->quiet && isatty(STDERR_FILENO)) fprintf(stderr, "\r\033[K");
     if (interrupted) {
@@ -218,7 +218,7 @@ static int print_table(const struct bench* bench)
 static int run(struct bench* bench)
 {
     const struct bench_options* options = &bench->options;
-    struct target targets[2]            = {{options->json, write_json, {0}}, {options->csv, write_csv, {0}}};
+    struct target targets[2] = {{options->json, write_json, {0}}, {options->csv, write_csv, {0}}};
     bench_rows_create(&bench->rows, options->suite->columns);
     int code = plan(bench);
     if (!code) code = make_opengl(bench);

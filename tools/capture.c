@@ -26,23 +26,23 @@ static volatile sig_atomic_t interrupted;
 
 struct capture {
     struct hair_capture_options options;
-    hair_host                   host;
-    hair_groom*                 groom;
-    hair_egl*                   egl;
-    hair_context*               context;
-    hair_instance*              hair;
-    hair_shader*                shader; // NULL: the library's
-    struct hair_world*          world;  // NULL: nothing of Bullet's is in the scene
-    hair_solid*                 solids;
-    uint32_t                    solid_room;
-    struct hair_render*         render;
-    struct hair_sink            sink;
-    struct hair_stats           stats;
-    float                       reach;    // of the head, m
-    float*                      vertices; // of all guides, for the hash
-    XXH3_state_t*               strands;
-    XXH3_state_t*               pixels;
-    double                      started; // ms
+    hair_host host;
+    hair_groom* groom;
+    hair_egl* egl;
+    hair_context* context;
+    hair_instance* hair;
+    hair_shader* shader; // NULL: the library's
+    struct hair_world* world; // NULL: nothing of Bullet's is in the scene
+    hair_solid* solids;
+    uint32_t solid_room;
+    struct hair_render* render;
+    struct hair_sink sink;
+    struct hair_stats stats;
+    float reach; // of the head, m
+    float* vertices; // of all guides, for the hash
+    XXH3_state_t* strands;
+    XXH3_state_t* pixels;
+    double started; // ms
 };
 
 static void interrupt(int number)
@@ -54,7 +54,7 @@ static void interrupt(int number)
 static void catch_signals(void)
 {
     struct sigaction action = {0};
-    action.sa_handler       = interrupt;
+    action.sa_handler = interrupt;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
@@ -73,10 +73,10 @@ static void say_all(hair_log_level level, const char* sentence, void* tool)
 static int make_groom(struct capture* capture)
 {
     struct hair_scene* scene = &capture->options.scene;
-    int                code  = hair_subject_load(TOOL, &capture->host, scene, &capture->groom);
+    int code = hair_subject_load(TOOL, &capture->host, scene, &capture->groom);
     if (code) return code;
     hair_groom_info* info = &capture->stats.groom;
-    *info                 = hair_groom_info_default();
+    *info = hair_groom_info_default();
     hair_groom_describe(capture->groom, info);
 
     struct hair_bounds bounds = {{info->lower[0], info->lower[1], info->lower[2]},
@@ -93,17 +93,17 @@ static int make_opengl(struct capture* capture)
     hair_result result = hair_egl_create(&capture->host, capture->options.device, &capture->egl);
     if (result) return hair_exit_for(result);
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &capture->host;
-    desc.get_proc          = hair_egl_get_proc;
-    desc.timings           = capture->options.stats ? 1 : 0;
+    desc.host = &capture->host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.timings = capture->options.stats ? 1 : 0;
     return hair_exit_for(hair_context_create(&desc, &capture->context));
 }
 
 static int make_mesh(struct capture* capture)
 {
     const struct hair_scene* scene = &capture->options.scene;
-    struct head_mesh         mesh;
-    bool                     ball = scene->subject == HAIR_SUBJECT_FUR;
+    struct head_mesh mesh;
+    bool ball = scene->subject == HAIR_SUBJECT_FUR;
     if (!scene->head && !ball) return HAIR_EXIT_OK;
     if (scene->head ? head_mesh_create(&mesh) : hair_rig_ball(scene->ball_radius, &mesh)) {
         hair_complain(TOOL, "out of memory for the head");
@@ -117,12 +117,12 @@ static int make_mesh(struct capture* capture)
 static int make_render(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
-    struct hair_render_desc            desc    = {.width       = options->scene.width,
-                                                  .height      = options->scene.height,
-                                                  .samples     = options->samples,
-                                                  .supersample = options->supersample,
-                                                  .linear      = capture->sink.kind == HAIR_SINK_EXR};
-    int                                code    = hair_render_create(TOOL, &desc, &capture->render);
+    struct hair_render_desc desc = {.width = options->scene.width,
+                                    .height = options->scene.height,
+                                    .samples = options->samples,
+                                    .supersample = options->supersample,
+                                    .linear = capture->sink.kind == HAIR_SINK_EXR};
+    int code = hair_render_create(TOOL, &desc, &capture->render);
     return code ? code : make_mesh(capture);
 }
 
@@ -131,7 +131,7 @@ static bool reserve_solids(struct capture* capture, uint32_t count)
     if (count <= capture->solid_room) return true;
     hair_solid* more = realloc(capture->solids, count * sizeof *more);
     if (!more) return false;
-    capture->solids     = more;
+    capture->solids = more;
     capture->solid_room = count;
     return true;
 }
@@ -139,10 +139,10 @@ static bool reserve_solids(struct capture* capture, uint32_t count)
 // The scene's own, and of Bullet's objects those that the hair can reach.
 static hair_result set_solids(struct capture* capture, float time, const float transform[16])
 {
-    const hair_solid* others      = NULL;
-    uint32_t          other_count = 0;
-    float             lower[3], upper[3];
-    hair_result       result = hair_get_reach(capture->hair, lower, upper);
+    const hair_solid* others = NULL;
+    uint32_t other_count = 0;
+    float lower[3], upper[3];
+    hair_result result = hair_get_reach(capture->hair, lower, upper);
     if (!result)
         result = hair_world_solids(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
@@ -157,7 +157,7 @@ static hair_result set_solids(struct capture* capture, float time, const float t
 
 static int make_shader(struct capture* capture)
 {
-    hair_shader_desc  desc = hair_shader_desc_default();
+    hair_shader_desc desc = hair_shader_desc_default();
     struct hair_bytes bytes;
     if (!capture->options.shader) return HAIR_EXIT_OK;
     if (!hair_file_read(TOOL, capture->options.shader, MOST_SHADER, &bytes)) return HAIR_EXIT_INPUT;
@@ -165,9 +165,9 @@ static int make_shader(struct capture* capture)
     if (text) {
         memcpy(text, bytes.data, bytes.size);
         text[bytes.size] = 0;
-        desc.label       = capture->options.shader;
-        desc.glsl        = text;
-        desc.at          = HAIR_SHADE_PIXELS;
+        desc.label = capture->options.shader;
+        desc.glsl = text;
+        desc.at = HAIR_SHADE_PIXELS;
     }
     free(bytes.data);
     hair_result result =
@@ -180,11 +180,11 @@ static int make_shader(struct capture* capture)
 static int make_hair(struct capture* capture)
 {
     const struct hair_scene* scene = &capture->options.scene;
-    hair_desc                desc  = scene->settings.desc;
-    hair_wind                wind  = hair_scene_wind_of(&scene->settings, &scene->wind);
-    desc.label                     = capture->options.name;
-    desc.physics                   = &scene->settings.physics;
-    desc.look                      = &scene->settings.look;
+    hair_desc desc = scene->settings.desc;
+    hair_wind wind = hair_scene_wind_of(&scene->settings, &scene->wind);
+    desc.label = capture->options.name;
+    desc.physics = &scene->settings.physics;
+    desc.look = &scene->settings.look;
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_set_wind(capture->hair, &wind);
@@ -196,8 +196,8 @@ static int make_hashes(struct capture* capture)
 {
     if (!capture->options.hash) return HAIR_EXIT_OK;
     capture->vertices = malloc(((size_t)capture->stats.groom.guide_vertex_count + 1) * 3 * sizeof(float));
-    capture->strands  = XXH3_createState();
-    capture->pixels   = XXH3_createState();
+    capture->strands = XXH3_createState();
+    capture->pixels = XXH3_createState();
     if (!capture->vertices || !capture->strands || !capture->pixels) {
         hair_complain(TOOL, "out of memory for hashes");
         return HAIR_EXIT_RUNTIME;
@@ -217,8 +217,8 @@ static float time_of(const struct capture* capture, double frame)
 // The head at one place, while the hair finds its own.
 static hair_result settle(struct capture* capture)
 {
-    const struct hair_scene* scene  = &capture->options.scene;
-    hair_result              result = HAIR_OK;
+    const struct hair_scene* scene = &capture->options.scene;
+    hair_result result = HAIR_OK;
     for (float time = 0; time < scene->settle && !result && !interrupted; time += LONGEST_STEP)
         result = hair_step(capture->hair, fminf(LONGEST_STEP, scene->settle - time));
     return result;
@@ -227,9 +227,9 @@ static hair_result settle(struct capture* capture)
 // From the frame before to this one.
 static hair_result step(struct capture* capture, uint32_t frame)
 {
-    const struct hair_scene* scene  = &capture->options.scene;
-    int                      parts  = (int)ceilf(1 / (scene->fps * LONGEST_STEP) - 1e-4f);
-    hair_result              result = HAIR_OK;
+    const struct hair_scene* scene = &capture->options.scene;
+    int parts = (int)ceilf(1 / (scene->fps * LONGEST_STEP) - 1e-4f);
+    hair_result result = HAIR_OK;
     for (int i = 1; i <= parts && !result; ++i) {
         float transform[16], time = time_of(capture, frame - 1 + (double)i / parts);
         hair_motion_at(&scene->motion, time, transform);
@@ -242,7 +242,7 @@ static hair_result step(struct capture* capture, uint32_t frame)
 
 static hair_result hash(struct capture* capture, const struct hair_image* image)
 {
-    uint32_t    count, room = capture->stats.groom.guide_vertex_count;
+    uint32_t count, room = capture->stats.groom.guide_vertex_count;
     hair_result result = hair_read(capture->hair, HAIR_READ_GUIDES, capture->vertices, room, &count);
     if (result) return result;
     XXH3_64bits_update(capture->strands, capture->vertices, (size_t)count * 3 * sizeof(float));
@@ -254,8 +254,8 @@ static int show(struct capture* capture, uint32_t frame)
 {
     const struct hair_scene* scene = &capture->options.scene;
     const struct hair_image* image;
-    float                    transform[16];
-    double                   before = hair_now();
+    float transform[16];
+    double before = hair_now();
     hair_motion_at(&scene->motion, time_of(capture, frame), transform);
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
     if (code) return code;
@@ -267,8 +267,8 @@ static int show(struct capture* capture, uint32_t frame)
 
 static void show_progress(const struct capture* capture, uint32_t done)
 {
-    uint32_t end     = capture->options.end;
-    double   elapsed = 1e-3 * (hair_now() - capture->started);
+    uint32_t end = capture->options.end;
+    double elapsed = 1e-3 * (hair_now() - capture->started);
     if (capture->options.quiet || !isatty(STDERR_FILENO)) return;
     fprintf(stderr, "\r%s: frame %u of %u, %.0f s left   %s", TOOL, done, end, elapsed / done * (end - done),
             done == end ? "\n" : "");
@@ -277,12 +277,12 @@ static void show_progress(const struct capture* capture, uint32_t done)
 static int run_frames(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
-    capture->started                           = hair_now();
-    int settled                                = hair_exit_for(settle(capture));
+    capture->started = hair_now();
+    int settled = hair_exit_for(settle(capture));
     if (settled) return settled;
     for (uint32_t frame = 0; frame < options->end; ++frame) {
         double before = hair_now();
-        int    code   = frame ? hair_exit_for(step(capture, frame)) : HAIR_EXIT_OK;
+        int code = frame ? hair_exit_for(step(capture, frame)) : HAIR_EXIT_OK;
         if (frame && options->stats) {
             glFinish();
             hair_clock_add(&capture->stats.step, hair_now() - before);
@@ -318,14 +318,14 @@ static int write_stats(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
     if (!options->stats) return HAIR_EXIT_OK;
-    capture->stats.name     = options->name;
+    capture->stats.name = options->name;
     capture->stats.renderer = (const char*)glGetString(GL_RENDERER);
-    capture->stats.width    = options->scene.width;
-    capture->stats.height   = options->scene.height;
-    capture->stats.first    = options->first;
-    capture->stats.end      = options->end;
-    capture->stats.health   = hair_health_default();
-    hair_result result      = hair_get_health(capture->hair, &capture->stats.health);
+    capture->stats.width = options->scene.width;
+    capture->stats.height = options->scene.height;
+    capture->stats.first = options->first;
+    capture->stats.end = options->end;
+    capture->stats.health = hair_health_default();
+    hair_result result = hair_get_health(capture->hair, &capture->stats.health);
     if (result) return hair_exit_for(result);
     bool ok = hair_stats_write(TOOL, options->stats, &capture->stats, capture->context, capture->hair);
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
@@ -342,7 +342,7 @@ static int print_hashes(const struct capture* capture)
 static int run(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
-    const struct hair_scene*           scene   = &options->scene;
+    const struct hair_scene* scene = &options->scene;
     int code = hair_sink_plan(TOOL, options->out, scene->width, scene->height, options->end - options->first,
                               &capture->sink);
     if (!code) code = make(capture);
@@ -385,9 +385,9 @@ int main(int count, char** arguments)
     catch_signals();
     int code = hair_capture_parse(TOOL, count, arguments, &capture->options);
     if (code < 0) {
-        capture->host.log  = capture->options.verbose ? say_all : hair_print_log;
+        capture->host.log = capture->options.verbose ? say_all : hair_print_log;
         capture->host.user = (void*)(uintptr_t)TOOL;
-        code               = run(capture);
+        code = run(capture);
     }
     destroy(capture);
     return code;

@@ -17,7 +17,7 @@ int main(int count, char** arguments)
     long column = 0;
     for (int i = 2; i < count; ++i) {
         const char* name = strchr(arguments[i], '/'); // Relative to glsl/.
-        FILE*       in   = fopen(arguments[i], "rb");
+        FILE* in = fopen(arguments[i], "rb");
         if (!in || !name) return fprintf(stderr, "embed: cannot read %s\n", arguments[i]), 1;
         for (++name; *name; ++name) put(out, *name, &column);
         put(out, 0, &column);

@@ -13,16 +13,16 @@
 
 #define TOOL "hair-gallery"
 #define COLUMNS 5u // pictures beside each other
-#define MARGIN 8u  // pixels around each
-#define TITLE 3u   // pixels for a dot of the letters
+#define MARGIN 8u // pixels around each
+#define TITLE 3u // pixels for a dot of the letters
 #define CAPTION 2u
 #define CAPTION_LINES 3u
 #define PICTURE_PATH 4128
 #define SAMPLES "--supersample 4 " // unless a row says how many
 
 static const struct entry {
-    const char* title;     // of a row; of a picture NULL
-    const char* caption;   // of a picture
+    const char* title; // of a row; of a picture NULL
+    const char* caption; // of a picture
     const char* arguments; // of hair-capture
 } entries[] = {
 #define ROW(title) {title, NULL, NULL},
@@ -36,13 +36,13 @@ static const struct entry {
 struct gallery {
     const char* out;
     const char* only; // NULL: every row
-    uint32_t    width, height, jobs;
-    char        capture[4096]; // path of hair-capture
-    char        folder[4096];
+    uint32_t width, height, jobs;
+    char capture[4096]; // path of hair-capture
+    char folder[4096];
     struct {
         uint32_t x, y; // of its upper left
-        bool     is_shown;
-        pid_t    process; // that makes it; 0: none
+        bool is_shown;
+        pid_t process; // that makes it; 0: none
     } place[ENTRIES];
     struct hair_image sheet;
 };
@@ -68,7 +68,7 @@ static int print_help(void)
 static void arrange(struct gallery* gallery)
 {
     uint32_t y = MARGIN, column = 0, below = 0;
-    bool     is_shown = true;
+    bool is_shown = true;
     for (uint32_t i = 0; i < ENTRIES; ++i) {
         const struct entry* entry = &entries[i];
         if (entry->title) {
@@ -91,15 +91,15 @@ static void arrange(struct gallery* gallery)
             below = gallery->height + MARGIN + CAPTION_LINES * HAIR_LETTER_HEIGHT * CAPTION + MARGIN;
         }
     }
-    gallery->sheet.width  = MARGIN + COLUMNS * (gallery->width + MARGIN);
+    gallery->sheet.width = MARGIN + COLUMNS * (gallery->width + MARGIN);
     gallery->sheet.height = y + below;
 }
 
 static bool make_ground(struct gallery* gallery)
 {
     static const unsigned char ground[3] = {24, 25, 28};
-    size_t                     pixels    = (size_t)gallery->sheet.width * gallery->sheet.height;
-    gallery->sheet.encoded               = malloc(3 * pixels);
+    size_t pixels = (size_t)gallery->sheet.width * gallery->sheet.height;
+    gallery->sheet.encoded = malloc(3 * pixels);
     if (!gallery->sheet.encoded) {
         hair_complain(TOOL, "out of memory for a sheet of %u x %u", gallery->sheet.width,
                       gallery->sheet.height);
@@ -154,15 +154,15 @@ static bool begin_picture(struct gallery* gallery, uint32_t i)
 
 static bool read_picture(struct gallery* gallery, uint32_t i)
 {
-    char      name[PICTURE_PATH];
+    char name[PICTURE_PATH];
     png_image image = {.version = PNG_IMAGE_VERSION};
     name_picture(gallery, i, name);
     size_t at = (size_t)gallery->place[i].y * gallery->sheet.width + gallery->place[i].x;
-    bool   ok = png_image_begin_read_from_file(&image, name) && image.width == gallery->width &&
+    bool ok = png_image_begin_read_from_file(&image, name) && image.width == gallery->width &&
               image.height == gallery->height;
     image.format = PNG_FORMAT_RGB;
-    ok           = ok && png_image_finish_read(&image, NULL, gallery->sheet.encoded + 3 * at,
-                                               (png_int_32)(3 * gallery->sheet.width), NULL);
+    ok = ok && png_image_finish_read(&image, NULL, gallery->sheet.encoded + 3 * at,
+                                     (png_int_32)(3 * gallery->sheet.width), NULL);
     png_image_free(&image);
     unlink(name);
     if (!ok) hair_complain(TOOL, "cannot read the picture \"%s\"", entries[i].caption);
@@ -172,7 +172,7 @@ static bool read_picture(struct gallery* gallery, uint32_t i)
 // Waits for any picture. False: it could not be made, or there is none to wait for.
 static bool end_picture(struct gallery* gallery)
 {
-    int   status;
+    int status;
     pid_t process = wait(&status);
     for (uint32_t i = 0; i < ENTRIES; ++i) {
         if (process <= 0 || gallery->place[i].process != process) continue;
@@ -187,7 +187,7 @@ static bool end_picture(struct gallery* gallery)
 static bool make_pictures(struct gallery* gallery)
 {
     uint32_t running = 0;
-    bool     ok      = true;
+    bool ok = true;
     for (uint32_t i = 0; i < ENTRIES && ok; ++i) {
         if (!gallery->place[i].is_shown || entries[i].title) continue;
         if (running == gallery->jobs) {
@@ -212,7 +212,7 @@ static bool make_sheet(struct gallery* gallery, FILE* file)
 
 static int make(struct gallery* gallery)
 {
-    const char*        temporary = getenv("TMPDIR");
+    const char* temporary = getenv("TMPDIR");
     struct hair_output output;
     if (!hair_output_open(TOOL, gallery->out, &output)) return HAIR_EXIT_RUNTIME;
     snprintf(gallery->folder, sizeof gallery->folder, "%s/hair-gallery-XXXXXX",
@@ -282,10 +282,10 @@ int main(int count, char** arguments)
         {"only", 1, NULL, 'r'}, {"size", 1, NULL, 's'}, {"jobs", 1, NULL, 'j'},    {"output", 1, NULL, 'o'},
         {"list", 0, NULL, 'l'}, {"help", 0, NULL, 'h'}, {"version", 0, NULL, 'v'}, {NULL, 0, NULL, 0}};
     struct gallery gallery = {.width = 400, .height = 300};
-    long           cores   = sysconf(_SC_NPROCESSORS_ONLN);
-    const char*    slash   = strrchr(arguments[0], '/');
-    bool           lists   = false;
-    gallery.jobs           = cores > 0 && cores < 256 ? (uint32_t)cores : 1;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    const char* slash = strrchr(arguments[0], '/');
+    bool lists = false;
+    gallery.jobs = cores > 0 && cores < 256 ? (uint32_t)cores : 1;
     snprintf(gallery.capture, sizeof gallery.capture, "%.*shair-capture",
              slash ? (int)(slash - arguments[0]) + 1 : 0, arguments[0]);
     for (int found; (found = getopt_long(count, arguments, "ho:", table, NULL)) != -1;) {

@@ -17,7 +17,7 @@ enum { INFO = 1, CONVERT = 2, GENERATE = 4 };
 
 static const struct command {
     const char* name;
-    int         bit, operands;
+    int bit, operands;
     const char* use;
     const char* about;
 } commands[] = {
@@ -30,7 +30,7 @@ enum choice { SCALE = 256, UP, TIP_FIRST, SHARE, VERTICES, GUIDES, LENGTH, SEED,
 
 static const struct row {
     const char* name;
-    int         option, commands;
+    int option, commands;
     const char* argument; // NULL: it takes none
     const char* about;
 } rows[] = {
@@ -53,12 +53,12 @@ static const struct row {
 // What the command line says.
 struct said {
     const struct command* command;
-    const char*           operand[2];
-    hair_import           import;
-    hair_style_desc       style;
-    hair_format           format; // HAIR_FORMAT_NONE: as the name of OUT ends
-    int                   given;  // the commands that every option given goes with
-    const char*           wrong;  // an option that does not go with all of them
+    const char* operand[2];
+    hair_import import;
+    hair_style_desc style;
+    hair_format format; // HAIR_FORMAT_NONE: as the name of OUT ends
+    int given; // the commands that every option given goes with
+    const char* wrong; // an option that does not go with all of them
 };
 
 static const hair_host host = {NULL, NULL, hair_print_log, TOOL};
@@ -111,9 +111,9 @@ static bool parse_number(const char* name, const char* text, float* out)
 static bool parse_count(const char* name, const char* text, uint32_t* out)
 {
     char* end;
-    errno                    = 0;
+    errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
-    *out                     = (uint32_t)value;
+    *out = (uint32_t)value;
     if (*text >= '0' && *text <= '9' && !*end && !errno && value <= UINT32_MAX) return true;
     hair_complain(TOOL, "--%s is %s, not a whole number in [0, %u]", name, text, UINT32_MAX);
     return false;
@@ -122,7 +122,7 @@ static bool parse_count(const char* name, const char* text, uint32_t* out)
 static bool parse_up(const char* text, hair_up* out)
 {
     static const char axes[] = "yzx"; // In the order of hair_up.
-    const char*       axis   = text[0] && !text[1] ? strchr(axes, text[0]) : NULL;
+    const char* axis = text[0] && !text[1] ? strchr(axes, text[0]) : NULL;
     if (axis) *out = (hair_up)(axis - axes);
     if (!axis) hair_complain(TOOL, "--up is %s, not y, z or x", text);
     return axis != NULL;
@@ -217,9 +217,9 @@ static int parse(int count, char** arguments, struct said* said)
         options[i] = (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL,
                                      rows[i].option};
 
-    *said            = (struct said){.import = hair_import_default(),
-                                     .style  = hair_style_desc_default(),
-                                     .given  = INFO | CONVERT | GENERATE};
+    *said = (struct said){.import = hair_import_default(),
+                          .style = hair_style_desc_default(),
+                          .given = INFO | CONVERT | GENERATE};
     said->style.host = &host;
     int index;
     for (int option; (option = getopt_long(count, arguments, "h", options, &index)) != -1;) {
@@ -250,11 +250,11 @@ static int read_asset(const char* path, const struct said* said, hair_asset** ou
 {
     struct hair_bytes bytes;
     if (!hair_file_read(TOOL, path, MOST_BYTES, &bytes)) return HAIR_EXIT_INPUT;
-    hair_host       named = {NULL, NULL, hair_print_log, (void*)hair_log_name(TOOL, path)};
-    hair_asset_desc desc  = hair_asset_desc_default();
-    desc.host             = &named;
-    desc.import           = &said->import;
-    hair_result result    = hair_asset_read(&desc, bytes.data, bytes.size, out);
+    hair_host named = {NULL, NULL, hair_print_log, (void*)hair_log_name(TOOL, path)};
+    hair_asset_desc desc = hair_asset_desc_default();
+    desc.host = &named;
+    desc.import = &said->import;
+    hair_result result = hair_asset_read(&desc, bytes.data, bytes.size, out);
     free(bytes.data);
     return exit_code(result);
 }
@@ -275,10 +275,10 @@ static int write_bytes(const char* path, const void* bytes, size_t size)
 
 static int write_asset(const hair_asset* asset, const struct said* said)
 {
-    const char* path   = said->operand[1];
+    const char* path = said->operand[1];
     hair_format format = said->format;
     if (!format) format = ends_in(path, ".tfx") ? HAIR_FORMAT_TFX4 : HAIR_FORMAT_HAIR;
-    size_t      size   = 0;
+    size_t size = 0;
     hair_result result = hair_asset_write(asset, format, NULL, 0, &size);
     if (result == HAIR_ERROR_ARGUMENT)
         hair_complain(TOOL, "%s was not written: give --vertices 4, 8, 16, 32 or 64", path);
@@ -289,7 +289,7 @@ static int write_asset(const hair_asset* asset, const struct said* said)
         hair_complain(TOOL, "out of memory for the %zu bytes of %s", size, path);
         return HAIR_EXIT_RUNTIME;
     }
-    result   = hair_asset_write(asset, format, bytes, size, &size);
+    result = hair_asset_write(asset, format, bytes, size, &size);
     int code = result ? exit_code(result) : write_bytes(path, bytes, size);
     free(bytes);
     return code;
@@ -300,7 +300,7 @@ static int write_asset(const hair_asset* asset, const struct said* said)
 static void print_repairs(const hair_repairs* repairs)
 {
     const struct {
-        uint32_t    count;
+        uint32_t count;
         const char* one;
         const char* many;
         const char* what;
@@ -326,7 +326,7 @@ static void print_asset(const hair_asset_info* info)
     static const char* const abouts[] = {"generated", "hair, all strands", "tfx4, .tfx version 4, guides",
                                          "tfx3, .tfx version 3, guides",
                                          "tfx2, .tfx version 2 as text, guides"};
-    const float *            l = info->lower, *u = info->upper;
+    const float *l = info->lower, *u = info->upper;
     printf("%-10s %s\n", "format:", abouts[info->format]);
     printf("%-10s %u, of %u in the file\n", "strands:", info->strand_count, info->file_strands);
     printf("%-10s %u, of %u in the file; fewest %u, most %u to a strand\n", "vertices:", info->vertex_count,
@@ -343,11 +343,11 @@ static void print_asset(const hair_asset_info* info)
 
 static hair_result print_groom(const hair_asset* asset)
 {
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_groom_info info  = hair_groom_info_default();
-    hair_groom*     groom = NULL;
-    desc.host             = &host;
-    hair_result result    = hair_asset_fill(asset, &desc);
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_groom_info info = hair_groom_info_default();
+    hair_groom* groom = NULL;
+    desc.host = &host;
+    hair_result result = hair_asset_fill(asset, &desc);
     if (!result) result = hair_groom_create(&desc, &groom);
     if (!result) result = hair_groom_describe(groom, &info);
     hair_groom_destroy(groom);
@@ -360,10 +360,10 @@ static hair_result print_groom(const hair_asset* asset)
 static int run_info(const struct said* said)
 {
     hair_asset* asset = NULL;
-    int         code  = read_asset(said->operand[0], said, &asset);
+    int code = read_asset(said->operand[0], said, &asset);
     if (code) return code;
-    hair_asset_info info   = hair_asset_info_default();
-    hair_result     result = hair_asset_describe(asset, &info);
+    hair_asset_info info = hair_asset_info_default();
+    hair_result result = hair_asset_describe(asset, &info);
     if (!result) {
         print_asset(&info);
         result = print_groom(asset);
@@ -375,7 +375,7 @@ static int run_info(const struct said* said)
 static int run_convert(const struct said* said)
 {
     hair_asset* asset = NULL;
-    int         code  = read_asset(said->operand[0], said, &asset);
+    int code = read_asset(said->operand[0], said, &asset);
     if (!code) code = write_asset(asset, said);
     hair_asset_destroy(asset);
     return code;
@@ -386,7 +386,7 @@ static int run_generate(struct said* said)
     hair_asset* asset = NULL;
     if (!parse_style(said->operand[0], &said->style.style)) return misuse();
     hair_result result = hair_asset_generate(&said->style, &asset);
-    int         code   = result ? exit_code(result) : write_asset(asset, said);
+    int code = result ? exit_code(result) : write_asset(asset, said);
     hair_asset_destroy(asset);
     return code;
 }
@@ -394,7 +394,7 @@ static int run_generate(struct said* said)
 static int run(int count, char** arguments)
 {
     struct said said;
-    int         code = parse(count, arguments, &said);
+    int code = parse(count, arguments, &said);
     if (code >= 0) return code;
     switch (said.command->bit) {
     case INFO: return run_info(&said);

@@ -47,22 +47,22 @@
 #define HAIR_API HAIR_EXPORT
 #endif
 
-typedef struct hair_groom    hair_groom;
-typedef struct hair_form     hair_form;
-typedef struct hair_context  hair_context;
+typedef struct hair_groom hair_groom;
+typedef struct hair_form hair_form;
+typedef struct hair_context hair_context;
 typedef struct hair_instance hair_instance;
-typedef struct hair_shader   hair_shader;
+typedef struct hair_shader hair_shader;
 
 typedef enum hair_result {
     HAIR_OK = 0,
     HAIR_ERROR_ARGUMENT, ///< A value outside its documented range; the log names it.
-    HAIR_ERROR_MEMORY,   ///< hair_host.alloc or the driver refused.
-    HAIR_ERROR_OPENGL,   ///< No context current, older than 4.5, or a shader it would not compile.
-    HAIR_ERROR_FILE,     ///< Unreadable, or not in the format it claims; the log has the byte offset.
-    HAIR_ERROR_VERSION   ///< Compiled against another major version, or no default function was used.
+    HAIR_ERROR_MEMORY, ///< hair_host.alloc or the driver refused.
+    HAIR_ERROR_OPENGL, ///< No context current, older than 4.5, or a shader it would not compile.
+    HAIR_ERROR_FILE, ///< Unreadable, or not in the format it claims; the log has the byte offset.
+    HAIR_ERROR_VERSION ///< Compiled against another major version, or no default function was used.
 } hair_result;
 
-HAIR_API uint32_t    hair_version(void);                     ///< The library's HAIR_VERSION. [any thread]
+HAIR_API uint32_t hair_version(void); ///< The library's HAIR_VERSION. [any thread]
 HAIR_API const char* hair_result_string(hair_result result); ///< Static text, never NULL. [any thread]
 
 typedef enum hair_log_level { HAIR_LOG_ERROR = 0, HAIR_LOG_WARNING, HAIR_LOG_INFO } hair_log_level;
@@ -70,9 +70,9 @@ typedef enum hair_log_level { HAIR_LOG_ERROR = 0, HAIR_LOG_WARNING, HAIR_LOG_INF
 /// What the program lends the library. Called on the thread that called the library.
 typedef struct hair_host {
     void* (*alloc)(size_t size, size_t align, void* user); ///< NULL, with free: the C library's.
-    void (*free)(void* memory, size_t size, void* user);   ///< size is what alloc was asked for.
+    void (*free)(void* memory, size_t size, void* user); ///< size is what alloc was asked for.
     void (*log)(hair_log_level level, const char* sentence, void* user); ///< NULL: silence.
-    void* user;                                                          ///< Given back in every call.
+    void* user; ///< Given back in every call.
 } hair_host;
 
 /// Every desc begins with `made`, which its default function fills in where the caller is compiled: fields
@@ -83,10 +83,10 @@ typedef struct hair_made {
 } hair_made;
 
 #define HAIR_DESC(T)                                                                                         \
-    HAIR_API void   T##_init(T* desc, hair_made made);                                                       \
+    HAIR_API void T##_init(T* desc, hair_made made);                                                         \
     static inline T T##_default(void)                                                                        \
     {                                                                                                        \
-        T         desc;                                                                                      \
+        T desc;                                                                                              \
         hair_made made = {(uint32_t)sizeof desc, HAIR_VERSION};                                              \
         T##_init(&desc, made);                                                                               \
         return desc;                                                                                         \
@@ -99,71 +99,71 @@ typedef enum hair_up { HAIR_UP_Y = 0, HAIR_UP_Z, HAIR_UP_X } hair_up;
 /// How foreign strands become the library's: in metres, +y up, root first, fit to simulate.
 typedef struct hair_import {
     hair_made made;
-    float     scale;           ///< Metres per unit of the positions. [1e-6, 1e6]. Default 1.
-    hair_up   up;              ///< The axis that points up in them; turned to +y. Default HAIR_UP_Y.
-    uint32_t  tip_first;       ///< 1: strands run from tip to root. [0, 1]. Default 0.
-    float     share;           ///< Share of the strands to keep, by `seed`. [1e-6, 1]. Default 1.
-    uint32_t  strand_vertices; ///< Vertices to resample every strand to. 0 (as they are) to 256. Default 0.
-    uint32_t  seed;            ///< Of every random choice. Default 1.
+    float scale; ///< Metres per unit of the positions. [1e-6, 1e6]. Default 1.
+    hair_up up; ///< The axis that points up in them; turned to +y. Default HAIR_UP_Y.
+    uint32_t tip_first; ///< 1: strands run from tip to root. [0, 1]. Default 0.
+    float share; ///< Share of the strands to keep, by `seed`. [1e-6, 1]. Default 1.
+    uint32_t strand_vertices; ///< Vertices to resample every strand to. 0 (as they are) to 256. Default 0.
+    uint32_t seed; ///< Of every random choice. Default 1.
 } hair_import;
 HAIR_DESC(hair_import)
 
 /// What was wrong with foreign strands and what was done about it.
 typedef struct hair_repairs {
-    uint32_t dropped_single;    ///< Strands of fewer than two vertices, also after the repairs below.
-    uint32_t dropped_short;     ///< Strands shorter than 10 micrometres.
+    uint32_t dropped_single; ///< Strands of fewer than two vertices, also after the repairs below.
+    uint32_t dropped_short; ///< Strands shorter than 10 micrometres.
     uint32_t removed_nonfinite; ///< Vertices that were NaN, infinite or beyond 1e6 m.
-    uint32_t removed_repeated;  ///< Vertices nearer to the one before than 1e-5 of the strand's length.
-    uint32_t resampled;         ///< Strands of more than 256 vertices, brought down to 256.
+    uint32_t removed_repeated; ///< Vertices nearer to the one before than 1e-5 of the strand's length.
+    uint32_t resampled; ///< Strands of more than 256 vertices, brought down to 256.
 } hair_repairs;
 
 typedef enum hair_strands_are {
     HAIR_STRANDS_ALL = 0, ///< Every hair: guides are chosen among them and the others follow those.
-    HAIR_STRANDS_GUIDES   ///< Guides only: followers are grown on the scalp, or around guides without one.
+    HAIR_STRANDS_GUIDES ///< Guides only: followers are grown on the scalp, or around guides without one.
 } hair_strands_are;
 
 typedef enum hair_map_of {
     HAIR_MAP_NONE = 0, ///< 1 everywhere.
-    HAIR_MAP_IMAGE,    ///< Values of an image, by scalp_uvs, smoothly from one to the next.
+    HAIR_MAP_IMAGE, ///< Values of an image, by scalp_uvs, smoothly from one to the next.
     HAIR_MAP_VERTICES, ///< A value per vertex of the scalp, linear between.
     HAIR_MAP_TRIANGLES ///< A value per triangle of the scalp.
 } hair_map_of;
 
 /// Values all over a scalp.
 typedef struct hair_map {
-    hair_map_of  of;            ///< Default HAIR_MAP_NONE.
-    const float* values;        ///< Of an image row after row, the first row at v = 0. Required but for none.
-    uint32_t     width, height; ///< Of an image. [1, 16384] each.
+    hair_map_of of; ///< Default HAIR_MAP_NONE.
+    const float* values; ///< Of an image row after row, the first row at v = 0. Required but for none.
+    uint32_t width, height; ///< Of an image. [1, 16384] each.
 } hair_map;
 
 /// Which share of followers grows where, and how thick. A groom has up to four sets; what is drawn may lie between.
 typedef struct hair_map_set {
     hair_made made;
-    hair_map  density;   ///< Share of the followers that are drawn. [0, 1].
-    hair_map  thickness; ///< Of a strand, as a multiple of the look's radius. [0, 4].
+    hair_map density; ///< Share of the followers that are drawn. [0, 1].
+    hair_map thickness; ///< Of a strand, as a multiple of the look's radius. [0, 4].
 } hair_map_set;
 HAIR_DESC(hair_map_set)
 
 typedef struct hair_groom_desc {
-    hair_made          made;
-    const hair_host*   host;      ///< NULL: the C library's allocator, no log.
-    const float*       positions; ///< xyz per vertex, strand after strand; `import` says the unit. Required.
-    const uint32_t*    strand_vertices; ///< Vertices in each strand, any number. Required.
-    uint32_t           strand_count;    ///< [1, 4194304].
-    const hair_import* import;          ///< NULL: the defaults: metres, +y up, root first.
-    hair_strands_are   strands_are;     ///< Default HAIR_STRANDS_ALL.
-    uint32_t           guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 262144.
-    uint32_t        guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
-    uint32_t        follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
-    float           clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
-    const float*    scalp_positions;      ///< xyz per vertex, in the space of `positions`. NULL: no scalp.
-    const uint32_t* scalp_triangles;      ///< Three indices each, counter-clockwise from outside.
-    const float*    scalp_density;        ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
-    uint32_t        scalp_vertex_count;   ///< [0, 4194304].
-    uint32_t        scalp_triangle_count; ///< [0, 4194304].
-    uint32_t        seed;                 ///< Of every random choice. Default 1.
-    const float*    scalp_uvs;            ///< uv per scalp vertex, for maps that are images. NULL: none.
-    const hair_map_set* map_sets[4];      ///< Maps on the scalp, up to the first NULL. NULL: none.
+    hair_made made;
+    const hair_host* host; ///< NULL: the C library's allocator, no log.
+    const float* positions; ///< xyz per vertex, strand after strand; `import` says the unit. Required.
+    const uint32_t* strand_vertices; ///< Vertices in each strand, any number. Required.
+    uint32_t strand_count; ///< [1, 4194304].
+    const hair_import* import; ///< NULL: the defaults: metres, +y up, root first.
+    hair_strands_are strands_are; ///< Default HAIR_STRANDS_ALL.
+    uint32_t guide_count; ///< To choose of HAIR_STRANDS_ALL. 0 (one in ten, at least 64) to 262144.
+    uint32_t guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
+    uint32_t follower_count; ///< To grow for HAIR_STRANDS_GUIDES. [0, 4194304]. Default 18000.
+    float clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
+    const float* scalp_positions; ///< xyz per vertex, in the space of `positions`. NULL: no scalp.
+    const uint32_t* scalp_triangles; ///< Three indices each, counter-clockwise from outside.
+    const float* scalp_density; ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
+    uint32_t scalp_vertex_count; ///< [0, 4194304].
+    uint32_t scalp_triangle_count; ///< [0, 4194304].
+    uint32_t seed; ///< Of every random choice. Default 1.
+    const float* scalp_uvs; ///< uv per scalp vertex, for maps that are images. NULL: none.
+    const hair_map_set* map_sets[4]; ///< Maps on the scalp, up to the first NULL. NULL: none.
     /// Per strand, in the unit of `positions`: of the mean of all that much thicker than hair_look.radius are it and what
     /// grows of it, at most 4 times. [0, 1e6]. NULL: chance has it.
     const float* strand_radii;
@@ -177,17 +177,17 @@ HAIR_DESC(hair_groom_desc)
 
 /// Repair strands, choose guides, find rest shapes, bind or grow followers.
 HAIR_API hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out);
-HAIR_API void        hair_groom_destroy(hair_groom* groom);
+HAIR_API void hair_groom_destroy(hair_groom* groom);
 
 typedef struct hair_groom_info {
-    hair_made    made;
-    uint32_t     strand_count; ///< Left after the repairs.
-    uint32_t     guide_count;
-    uint32_t     guide_vertex_count; ///< In all guides together.
-    uint32_t     follower_count;     ///< Strands drawn at full density.
-    uint32_t     patch_count;
-    float        length[3];          ///< Of the strands: least, mean, greatest. m.
-    float        lower[3], upper[3]; ///< Bounds of the strands at rest. m.
+    hair_made made;
+    uint32_t strand_count; ///< Left after the repairs.
+    uint32_t guide_count;
+    uint32_t guide_vertex_count; ///< In all guides together.
+    uint32_t follower_count; ///< Strands drawn at full density.
+    uint32_t patch_count;
+    float length[3]; ///< Of the strands: least, mean, greatest. m.
+    float lower[3], upper[3]; ///< Bounds of the strands at rest. m.
     hair_repairs repairs;
 } hair_groom_info;
 HAIR_DESC(hair_groom_info)
@@ -200,33 +200,33 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 /// when at every edge as many triangles pass one way as the other, by the positions of vertices; then it has an
 /// inside. An open one is taken for a shell, and the log warns. Triangles may touch, cross and be degenerate.
 typedef struct hair_form_desc {
-    hair_made        made;
-    const hair_host* host;         ///< NULL: the C library's allocator, no log. Kept as long as the form is.
-    const float*     positions;    ///< xyz per vertex, in the form's own space. m. [-1e6, 1e6]. Required.
-    const uint32_t*  triangles;    ///< Three indices each, counter-clockwise from outside. Required.
-    uint32_t         vertex_count; ///< [1, 16777216].
-    uint32_t         triangle_count; ///< [1, 16777216].
-    uint32_t         resolution;     ///< Voxels along the longest side. [8, 256]. Default 64.
+    hair_made made;
+    const hair_host* host; ///< NULL: the C library's allocator, no log. Kept as long as the form is.
+    const float* positions; ///< xyz per vertex, in the form's own space. m. [-1e6, 1e6]. Required.
+    const uint32_t* triangles; ///< Three indices each, counter-clockwise from outside. Required.
+    uint32_t vertex_count; ///< [1, 16777216].
+    uint32_t triangle_count; ///< [1, 16777216].
+    uint32_t resolution; ///< Voxels along the longest side. [8, 256]. Default 64.
     float
         voxel; ///< Their size instead, as far as 256 of them suffice. m. 0 (by resolution) to 1e6. Default 0.
     float thickness; ///< Of the shell that an open mesh is; at least 2 voxels. m. [0, 1e6]. Default 0.
-    float room;      ///< Kept around the surface too, for solids rounded by it. m. [0, 1e6]. Default 0.
+    float room; ///< Kept around the surface too, for solids rounded by it. m. [0, 1e6]. Default 0.
 } hair_form_desc;
 HAIR_DESC(hair_form_desc)
 
 /// Take the distance to the mesh at every node of the grid. Seconds for a fine grid or for millions of triangles.
 HAIR_API hair_result hair_form_create(const hair_form_desc* desc, hair_form** out);
-HAIR_API void        hair_form_destroy(hair_form* form);
+HAIR_API void hair_form_destroy(hair_form* form);
 
 typedef struct hair_form_info {
     hair_made made;
-    uint32_t  closed;             ///< 1: the mesh has an inside. 0: it is a shell.
-    uint32_t  unused;             ///< Triangles that use a vertex twice.
-    uint32_t  size[3];            ///< Nodes of the grid along each axis.
-    float     voxel;              ///< Between two of them. m.
-    float     thickness;          ///< Of the shell. 0 where there is none. m.
-    float     lower[3], upper[3]; ///< Bounds of the surface. m.
-    uint64_t  bytes;              ///< Of memory.
+    uint32_t closed; ///< 1: the mesh has an inside. 0: it is a shell.
+    uint32_t unused; ///< Triangles that use a vertex twice.
+    uint32_t size[3]; ///< Nodes of the grid along each axis.
+    float voxel; ///< Between two of them. m.
+    float thickness; ///< Of the shell. 0 where there is none. m.
+    float lower[3], upper[3]; ///< Bounds of the surface. m.
+    uint64_t bytes; ///< Of memory.
 } hair_form_info;
 HAIR_DESC(hair_form_info)
 
@@ -254,13 +254,13 @@ typedef struct hair_cache {
 } hair_cache;
 
 typedef struct hair_context_desc {
-    hair_made        made;
-    const hair_host* host;                           ///< NULL: the C library's allocator, no log.
+    hair_made made;
+    const hair_host* host; ///< NULL: the C library's allocator, no log.
     void* (*get_proc)(const char* name, void* user); ///< Finds OpenGL functions. Required.
-    void*         get_proc_user;                     ///< Given back to get_proc.
-    hair_gl_state gl_state;                          ///< Default HAIR_GL_RESTORE.
-    uint32_t      timings;                           ///< 1: time passes, for hair_timings. [0, 1]. Default 0.
-    const char*   glsl_dir; ///< For development: glsl/ read from here. NULL: built in.
+    void* get_proc_user; ///< Given back to get_proc.
+    hair_gl_state gl_state; ///< Default HAIR_GL_RESTORE.
+    uint32_t timings; ///< 1: time passes, for hair_timings. [0, 1]. Default 0.
+    const char* glsl_dir; ///< For development: glsl/ read from here. NULL: built in.
     const hair_cache*
         cache; ///< Copied; get and put are required. NULL: every program is compiled. Default NULL.
 } hair_context_desc;
@@ -269,7 +269,7 @@ HAIR_DESC(hair_context_desc)
 /// Compiles no program yet: each is compiled when something first needs it, and kept as long as the context.
 
 HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
-HAIR_API void        hair_context_destroy(hair_context* context);
+HAIR_API void hair_context_destroy(hair_context* context);
 
 /// Compile the shaders of glsl_dir that have been needed again. One that fails to compile keeps its last good program.
 HAIR_API hair_result hair_context_reload(hair_context* context);
@@ -278,9 +278,9 @@ HAIR_API hair_result hair_context_reload(hair_context* context);
 /// what a driver adds. Bytes.
 typedef struct hair_memory {
     hair_made made;
-    uint64_t  bytes; ///< In use now.
-    uint64_t  most;  ///< In use at once, since the context was created.
-    uint64_t  limit; ///< 0: none.
+    uint64_t bytes; ///< In use now.
+    uint64_t most; ///< In use at once, since the context was created.
+    uint64_t limit; ///< 0: none.
 } hair_memory;
 HAIR_DESC(hair_memory)
 
@@ -294,40 +294,40 @@ HAIR_API hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes
 
 typedef enum hair_solver {
     HAIR_SOLVER_DIRECT = 0, ///< Second order, exact lengths, implicit bending. Robust; the default.
-    HAIR_SOLVER_ACCURATE,   ///< Second order without damping of its own, finer substeps: least error.
-    HAIR_SOLVER_FOLLOW,     ///< Follow the leader, one pass: cheapest. Never stretches, never converges.
-    HAIR_SOLVER_REDBLACK    ///< Tariq 2010: Verlet, red/black constraints, `iterations` times. Stretches.
+    HAIR_SOLVER_ACCURATE, ///< Second order without damping of its own, finer substeps: least error.
+    HAIR_SOLVER_FOLLOW, ///< Follow the leader, one pass: cheapest. Never stretches, never converges.
+    HAIR_SOLVER_REDBLACK ///< Tariq 2010: Verlet, red/black constraints, `iterations` times. Stretches.
 } hair_solver;
 
 typedef enum hair_root {
     HAIR_ROOT_CLAMPED = 0, ///< Held by the scalp in place and direction.
-    HAIR_ROOT_HINGED,      ///< Held in place, free to turn.
-    HAIR_ROOT_FREE         ///< Held by nothing.
+    HAIR_ROOT_HINGED, ///< Held in place, free to turn.
+    HAIR_ROOT_FREE ///< Held by nothing.
 } hair_root;
 
 /// How hair moves. Of redblack only: angular, bend, iterations; it has none of: young to tip_mass, drag to volume.
 typedef struct hair_physics {
     hair_made made;
-    float     gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
-    float     damping;    ///< Decay rate of velocity relative to the air. 1/s. [0, 1000]. Default 4.
-    float     pull_root;  ///< Pull to the rest pose near the root, as a frequency. Hz. [0, 30]. Default 4.
-    float     pull_tip;   ///< The same at the tip; linear between. Hz. [0, 30]. Default 1.
-    float     angular; ///< Angular force to the rest angle with the segment before. Hz. [0, 30]. Default 8.
-    float     bend;    ///< Angular constraint: share removed by an iteration. [0, 1]. Default 0.1.
-    uint32_t  iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
-    float     margin;     ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
-    float     young;      ///< Young's modulus of a hair. Pa. [0, 1e12]. Default 4e9.
-    float     poisson;    ///< Poisson's ratio: how much softer twist is than bending. [0, 0.5]. Default 0.45.
-    float     fiber_radius;   ///< Of a section's circle of like area. m. [1e-6, 1e-3]. Default 4e-5.
-    float     fiber_density;  ///< kg/m^3. [1, 1e5]. Default 1300.
-    float     flatness;       ///< Short by long axis of its section. [0.03, 1]. Default 1.
-    float     stiffness_root; ///< Of bending and twist, as a multiple, at the root. [0, 1e4]. Default 1.
-    float     stiffness_tip;  ///< The same at the tip; linear between. [0, 1e4]. Default 1.
-    float     hold; ///< Fraction of gravity that the rest shape bears. 1 keeps the groom. [0, 1]. Default 1.
+    float gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
+    float damping; ///< Decay rate of velocity relative to the air. 1/s. [0, 1000]. Default 4.
+    float pull_root; ///< Pull to the rest pose near the root, as a frequency. Hz. [0, 30]. Default 4.
+    float pull_tip; ///< The same at the tip; linear between. Hz. [0, 30]. Default 1.
+    float angular; ///< Angular force to the rest angle with the segment before. Hz. [0, 30]. Default 8.
+    float bend; ///< Angular constraint: share removed by an iteration. [0, 1]. Default 0.1.
+    uint32_t iterations; ///< Of constraints in a substep. [1, 256]. Default 20.
+    float margin; ///< Distance kept to solids. m. [0, 0.1]. Default 0.001.
+    float young; ///< Young's modulus of a hair. Pa. [0, 1e12]. Default 4e9.
+    float poisson; ///< Poisson's ratio: how much softer twist is than bending. [0, 0.5]. Default 0.45.
+    float fiber_radius; ///< Of a section's circle of like area. m. [1e-6, 1e-3]. Default 4e-5.
+    float fiber_density; ///< kg/m^3. [1, 1e5]. Default 1300.
+    float flatness; ///< Short by long axis of its section. [0.03, 1]. Default 1.
+    float stiffness_root; ///< Of bending and twist, as a multiple, at the root. [0, 1e4]. Default 1.
+    float stiffness_tip; ///< The same at the tip; linear between. [0, 1e4]. Default 1.
+    float hold; ///< Fraction of gravity that the rest shape bears. 1 keeps the groom. [0, 1]. Default 1.
     hair_root root; ///< Default HAIR_ROOT_CLAMPED.
-    float     tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
-    float     drag; ///< Of wind, as a multiple of that of a single hair: see hair_wind. [0, 10]. Default 0.1.
-    float     friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
+    float tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
+    float drag; ///< Of wind, as a multiple of that of a single hair: see hair_wind. [0, 10]. Default 0.1.
+    float friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
     /// Decay rate of the velocity of hair relative to the rigid motion of the hair around. Cohesion and volume keep the
     /// momentum and the angular momentum of all hair together. They do not reach hair that is off the head and farther
     /// from it than it is long.
@@ -354,10 +354,10 @@ HAIR_DESC(hair_physics)
 
 typedef enum hair_preset {
     HAIR_PRESET_NATURAL = 0, ///< The defaults.
-    HAIR_PRESET_FINE,        ///< Thin and light: bends easily, stops soon.
-    HAIR_PRESET_THICK,       ///< Stiff, swings long.
-    HAIR_PRESET_WET,         ///< Heavy, soft, sticks to skin.
-    HAIR_PRESET_FRIZZY,      ///< Flat hairs that hold each other off: stiff, airy.
+    HAIR_PRESET_FINE, ///< Thin and light: bends easily, stops soon.
+    HAIR_PRESET_THICK, ///< Stiff, swings long.
+    HAIR_PRESET_WET, ///< Heavy, soft, sticks to skin.
+    HAIR_PRESET_FRIZZY, ///< Flat hairs that hold each other off: stiff, airy.
     HAIR_PRESET_COUNT
 } hair_preset;
 
@@ -370,8 +370,8 @@ HAIR_API const char* hair_preset_name(hair_preset preset); ///< "natural", "fine
 /// is done and nothing paid for it.
 typedef enum hair_collision {
     HAIR_COLLISION_PUSH = 0, ///< Led round them, smoothly, as long as they were; the default.
-    HAIR_COLLISION_SWITCH,   ///< Tariq 2010: below the first vertex inside, each follows its own guide alone.
-    HAIR_COLLISION_NONE      ///< They go through.
+    HAIR_COLLISION_SWITCH, ///< Tariq 2010: below the first vertex inside, each follows its own guide alone.
+    HAIR_COLLISION_NONE ///< They go through.
 } hair_collision;
 
 /// A number along a strand, smooth and without going beyond its neighbours: at[i] at i/7 of the length from the root.
@@ -391,18 +391,18 @@ static inline hair_curve hair_curve_line(float root, float tip)
 typedef enum hair_interpolation {
     HAIR_INTERPOLATION_MIXED = 0, ///< Both of the below, by hair_look.clump along the strand.
     HAIR_INTERPOLATION_SINGLE, ///< Tariq 2010: offsets from one guide, in its frame. Locks, at worst ropes.
-    HAIR_INTERPOLATION_MULTI   ///< Tariq 2010: the weighted mean of three guides. Full and even.
+    HAIR_INTERPOLATION_MULTI ///< Tariq 2010: the weighted mean of three guides. Full and even.
 } hair_interpolation;
 
 typedef enum hair_curls {
     HAIR_CURLS_HELIX = 0, ///< A circle a turn.
-    HAIR_CURLS_EXAMPLE    ///< curl_x and curl_z: see hair_look_curl_like.
+    HAIR_CURLS_EXAMPLE ///< curl_x and curl_z: see hair_look_curl_like.
 } hair_curls;
 
 /// How strands scatter light.
 typedef enum hair_shading {
     HAIR_SHADING_FIBRES =
-        0,             ///< Marschner et al. 2003, Zinke et al. 2008: light goes through strands; the default.
+        0, ///< Marschner et al. 2003, Zinke et al. 2008: light goes through strands; the default.
     HAIR_SHADING_LINES ///< Kajiya and Kay 1989 with two highlights: cheaper, needs no table.
 } hair_shading;
 
@@ -421,79 +421,79 @@ typedef enum hair_shadow {
 /// curve that is not 0 at the root takes it off the scalp.
 typedef struct hair_look {
     hair_made made;
-    float     root_color[3]; ///< Reflectance of much hair at the root. [0, 1]. Default (0.13, 0.055, 0.024).
-    float     tip_color[3];  ///< The same at the tip. [0, 1]. Default (0.26, 0.13, 0.06).
-    float     color_spread;  ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
-    hair_shading shading;    ///< Default HAIR_SHADING_FIBRES.
-    float        roughness[2]; ///< Of fibres, along and round them. [0.05, 1]. Default (0.3, 0.4).
-    float        tilt; ///< Of the scales of fibres, which moves highlights. Radians. [0, 0.3]. Default 0.05.
-    float        scattering; ///< Share of the light from other fibres that is heeded. [0, 1]. Default 1.
-    float      specular[2];  ///< Of lines: the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
-    float      gloss[2];     ///< Of lines: their exponents. [1, 1000]. Default (60, 15).
-    float      radius; ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
-    hair_curve taper;  ///< As a share of that. [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
-    float      length; ///< Share of every strand that is drawn, cut off beyond. [0.01, 1]. Default 1.
-    float      thinning; ///< The most by which strands are shorter at random, as a share. [0, 1]. Default 0.
+    float root_color[3]; ///< Reflectance of much hair at the root. [0, 1]. Default (0.13, 0.055, 0.024).
+    float tip_color[3]; ///< The same at the tip. [0, 1]. Default (0.26, 0.13, 0.06).
+    float color_spread; ///< Relative spread of brightness between strands. [0, 1]. Default 0.4.
+    hair_shading shading; ///< Default HAIR_SHADING_FIBRES.
+    float roughness[2]; ///< Of fibres, along and round them. [0.05, 1]. Default (0.3, 0.4).
+    float tilt; ///< Of the scales of fibres, which moves highlights. Radians. [0, 0.3]. Default 0.05.
+    float scattering; ///< Share of the light from other fibres that is heeded. [0, 1]. Default 1.
+    float specular[2]; ///< Of lines: the white and the coloured highlight. [0, 4]. Default (0.05, 0.5).
+    float gloss[2]; ///< Of lines: their exponents. [1, 1000]. Default (60, 15).
+    float radius; ///< Of a drawn strand; it may stand for several. m. [1e-6, 0.01]. Default 1.5e-4.
+    hair_curve taper; ///< As a share of that. [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
+    float length; ///< Share of every strand that is drawn, cut off beyond. [0.01, 1]. Default 1.
+    float thinning; ///< The most by which strands are shorter at random, as a share. [0, 1]. Default 0.
     hair_interpolation interpolation; ///< Default HAIR_INTERPOLATION_MIXED.
-    hair_curve clump;       ///< 0 multi, 1 single. [0, 1]. Default (0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6).
+    hair_curve clump; ///< 0 multi, 1 single. [0, 1]. Default (0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6).
     hair_curve clump_width; ///< Offsets from one guide, as a multiple. [0, 4]. Default 1.
-    float      tip_strays;  ///< Share of the strands that stray near their tips. [0, 1]. Default 0.3.
+    float tip_strays; ///< Share of the strands that stray near their tips. [0, 1]. Default 0.3.
     hair_curve tip_stray; ///< How far, in lengths. [0, 1]. Default (0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025).
-    float      strays;    ///< Share of the strands that stray all along. [0, 1]. Default 0.1.
+    float strays; ///< Share of the strands that stray all along. [0, 1]. Default 0.1.
     hair_curve stray; ///< How far, in lengths. [0, 1]. Default (0, 0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02).
     hair_curve frizz; ///< How far every strand kinks. m. [0, 0.1]. Default 0.
-    float      kink;  ///< From one of its kinks to the next. m. [0.001, 1]. Default 0.015.
+    float kink; ///< From one of its kinks to the next. m. [0.001, 1]. Default 0.015.
     /// Strands turn about the way they would go, in the frame that their guide carries: what they reach stays, and the
     /// strand that is drawn is longer. Turns need some eight `segments` each.
-    float      curl_radius;  ///< Of curls or waves. m. [0, 0.1]. Default 0.
+    float curl_radius; ///< Of curls or waves. m. [0, 0.1]. Default 0.
     hair_curve curl_profile; ///< Along the strand, a multiple. [0, 2]. Default (0, 0.6, 0.9, 1, 1, 1, 1, 1).
-    float      curl_wavelength; ///< Along the strand, of a turn. m. [0.001, 10]. Default 0.05.
-    float      curl_turns;      ///< Beside those, turns from root to tip. [0, 100]. Default 0.
-    float      curl_flatness;   ///< From 0, a helix, to 1, a wave in a plane. [0, 1]. Default 0.
-    float      curl_left;       ///< Share of the guides whose strands turn to the left. [0, 1]. Default 0.
-    float      curl_lock_phase; ///< How far apart guides are in their turns. Turns. [0, 1]. Default 1.
-    float      curl_phase;      ///< The same of the strands of one guide. Turns. [0, 1]. Default 0.1.
-    float      curl_spread;     ///< Relative spread of radius and length of turns. [0, 0.9]. Default 0.1.
-    hair_curls curls;           ///< Default HAIR_CURLS_HELIX.
+    float curl_wavelength; ///< Along the strand, of a turn. m. [0.001, 10]. Default 0.05.
+    float curl_turns; ///< Beside those, turns from root to tip. [0, 100]. Default 0.
+    float curl_flatness; ///< From 0, a helix, to 1, a wave in a plane. [0, 1]. Default 0.
+    float curl_left; ///< Share of the guides whose strands turn to the left. [0, 1]. Default 0.
+    float curl_lock_phase; ///< How far apart guides are in their turns. Turns. [0, 1]. Default 1.
+    float curl_phase; ///< The same of the strands of one guide. Turns. [0, 1]. Default 0.1.
+    float curl_spread; ///< Relative spread of radius and length of turns. [0, 0.9]. Default 0.1.
+    hair_curls curls; ///< Default HAIR_CURLS_HELIX.
     float curl_x[16]; ///< At i/16 of a turn, across the strand, as a share of the radius. [-1, 1]. Default 0.
     float curl_z[16]; ///< The same at right angles to it. [-1, 1]. Default 0.
     float absorption; ///< Strands that light meets, of HAIR_SHADOW_DEPTH. 1/m. [0, 10000]. Default 200.
-    float density;    ///< Share of the followers drawn. [0, 1]. Default 1.
-    uint32_t       segments;  ///< Line segments of a drawn strand. [1, 256]. Default 32.
+    float density; ///< Share of the followers drawn. [0, 1]. Default 1.
+    uint32_t segments; ///< Line segments of a drawn strand. [1, 256]. Default 32.
     hair_collision collision; ///< Of followers with solids. Default HAIR_COLLISION_PUSH.
-    float          map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
+    float map_set; ///< Of the groom's sets of maps, from 0; between two a blend. [0, 3]. Default 0.
     /// Of the colours from root_color to tip_color, at i/7 of the strand and evenly between. At most 1 comes of it.
-    hair_curve red;               ///< Times the red. [0, 4]. Default 1.
-    hair_curve green;             ///< Times the green. [0, 4]. Default 1.
-    hair_curve blue;              ///< Times the blue. [0, 4]. Default 1.
-    float      hue_spread;        ///< Relative spread of red against blue between strands. [0, 1]. Default 0.
-    float      roughness_spread;  ///< Relative spread of roughness between strands. [0, 1]. Default 0.
-    float      tilt_spread;       ///< Relative spread of tilt between strands. [0, 1]. Default 0.25.
-    float      root_shade;        ///< Share of the colour that is lost at the root. [0, 1]. Default 0.
-    float      root_shade_length; ///< Share of the strand over which it comes back. [0.001, 1]. Default 0.15.
-    float      streaks;           ///< Share of the strands that have another colour. [0, 1]. Default 0.
-    float      streak_color[3];   ///< Theirs, from root to tip. [0, 1]. Default (0.6, 0.42, 0.22).
-    float      streak_locks;      ///< Share of strands that go by what their lock does. [0, 1]. Default 0.8.
-    float      sparkle; ///< Of lines: how the coloured highlight glitters along strands. [0, 1]. Default 0.
+    hair_curve red; ///< Times the red. [0, 4]. Default 1.
+    hair_curve green; ///< Times the green. [0, 4]. Default 1.
+    hair_curve blue; ///< Times the blue. [0, 4]. Default 1.
+    float hue_spread; ///< Relative spread of red against blue between strands. [0, 1]. Default 0.
+    float roughness_spread; ///< Relative spread of roughness between strands. [0, 1]. Default 0.
+    float tilt_spread; ///< Relative spread of tilt between strands. [0, 1]. Default 0.25.
+    float root_shade; ///< Share of the colour that is lost at the root. [0, 1]. Default 0.
+    float root_shade_length; ///< Share of the strand over which it comes back. [0.001, 1]. Default 0.15.
+    float streaks; ///< Share of the strands that have another colour. [0, 1]. Default 0.
+    float streak_color[3]; ///< Theirs, from root to tip. [0, 1]. Default (0.6, 0.42, 0.22).
+    float streak_locks; ///< Share of strands that go by what their lock does. [0, 1]. Default 0.8.
+    float sparkle; ///< Of lines: how the coloured highlight glitters along strands. [0, 1]. Default 0.
     /// Water makes hair darker and smoother, draws strands together and holds down what strays: it changes the numbers
     /// above, not how they are drawn. How wet hair moves is a preset of hair_physics.
     float wetness; ///< [0, 1]. Default 0.
     /// Share of the colours that the groom has of its own, if any, in those from root_color to tip_color. Spreads, streaks and
     /// root_shade go on top.
-    float       groom_colors; ///< [0, 1]. Default 1.
-    hair_shadow shadow;       ///< Default HAIR_SHADOW_DEPTH.
-    float       voxel; ///< Of HAIR_SHADOW_STRANDS: cells of its grid, at least. m. [0.001, 1]. Default 0.004.
+    float groom_colors; ///< [0, 1]. Default 1.
+    hair_shadow shadow; ///< Default HAIR_SHADOW_DEPTH.
+    float voxel; ///< Of HAIR_SHADOW_STRANDS: cells of its grid, at least. m. [0.001, 1]. Default 0.004.
 } hair_look;
 HAIR_DESC(hair_look)
 
 typedef enum hair_look_kind {
     HAIR_LOOK_NATURAL = 0, ///< The defaults.
-    HAIR_LOOK_STRAIGHT,    ///< Sleek: hardly a strand strays.
-    HAIR_LOOK_WAVY,        ///< Locks in flat waves of 85 mm.
-    HAIR_LOOK_CURLY,       ///< Locks that turn, 24 mm wide, every 50 mm.
-    HAIR_LOOK_COILY,       ///< Strands that turn, 9 mm wide, every 18 mm.
-    HAIR_LOOK_FRIZZY,      ///< Every strand kinks its own way.
-    HAIR_LOOK_SHORT,       ///< A third of the length, unevenly.
+    HAIR_LOOK_STRAIGHT, ///< Sleek: hardly a strand strays.
+    HAIR_LOOK_WAVY, ///< Locks in flat waves of 85 mm.
+    HAIR_LOOK_CURLY, ///< Locks that turn, 24 mm wide, every 50 mm.
+    HAIR_LOOK_COILY, ///< Strands that turn, 9 mm wide, every 18 mm.
+    HAIR_LOOK_FRIZZY, ///< Every strand kinks its own way.
+    HAIR_LOOK_SHORT, ///< A third of the length, unevenly.
     HAIR_LOOK_COUNT
 } hair_look_kind;
 
@@ -526,7 +526,7 @@ HAIR_API hair_result hair_look_curl_like(hair_look* look, const float* positions
 
 typedef enum hair_mapping {
     HAIR_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
-    HAIR_MAPPING_GROUP,    ///< A work group per guide, a thread per vertex. redblack has no other by compute.
+    HAIR_MAPPING_GROUP, ///< A work group per guide, a thread per vertex. redblack has no other by compute.
     /// A thread per guide: fastest on software rasterisers, which may not let one thread do all for long guides among many
     /// solids. Then a work group does, as on hardware for guides of more than 128 vertices.
     HAIR_MAPPING_THREAD,
@@ -539,20 +539,20 @@ typedef enum hair_mapping {
 /// How the first vertex of a follower that is inside a solid is found: the answer is the same.
 typedef enum hair_first_hit {
     HAIR_FIRST_HIT_AUTO = 0, ///< The faster: by compute.
-    HAIR_FIRST_HIT_COMPUTE,  ///< Vertices are gone through up to the first.
+    HAIR_FIRST_HIT_COMPUTE, ///< Vertices are gone through up to the first.
     HAIR_FIRST_HIT_PREPASS ///< Tariq 2010: vertices are drawn as points, a texel per follower keeps the least.
 } hair_first_hit;
 
 typedef struct hair_desc {
-    hair_made   made;
-    const char* label;   ///< Name in the log and in GPU debuggers. NULL: "hair".
-    hair_solver solver;  ///< Default HAIR_SOLVER_DIRECT.
-    float       substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
-    hair_mapping        mapping; ///< Of guides to GPU threads. Default HAIR_MAPPING_AUTO.
-    float               max_dt;  ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
+    hair_made made;
+    const char* label; ///< Name in the log and in GPU debuggers. NULL: "hair".
+    hair_solver solver; ///< Default HAIR_SOLVER_DIRECT.
+    float substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
+    hair_mapping mapping; ///< Of guides to GPU threads. Default HAIR_MAPPING_AUTO.
+    float max_dt; ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
     const hair_physics* physics; ///< NULL: the defaults.
-    const hair_look*    look;    ///< NULL: the defaults.
-    float               transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
+    const hair_look* look; ///< NULL: the defaults.
+    float transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
     float field_voxel; ///< Side of a voxel of the field, see hair_field_info. m. [0.0005, 1]. Default 0.005.
     hair_first_hit first_hit; ///< Default HAIR_FIRST_HIT_AUTO.
     /// 1 watches the energy of guides for hair_health.gaining. It costs a dispatch in each step in which nothing drives hair.
@@ -562,7 +562,7 @@ HAIR_DESC(hair_desc)
 
 HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
                                  hair_instance** out);
-HAIR_API void        hair_destroy(hair_instance* hair);
+HAIR_API void hair_destroy(hair_instance* hair);
 HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics);
 HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
 
@@ -596,13 +596,13 @@ typedef enum hair_wind_model {
 /// How the fluid is kept from being pressed together. The defaults leave less than a thousandth of what was to be done.
 typedef enum hair_projection {
     HAIR_PROJECTION_MULTIGRID = 0, ///< Cycles over ever coarser grids: the fastest by far; the default.
-    HAIR_PROJECTION_RELAXATION,    ///< Sweeps of Gauss and Seidel that go beyond.
-    HAIR_PROJECTION_JACOBI         ///< Tariq 2010: sweeps of Jacobi.
+    HAIR_PROJECTION_RELAXATION, ///< Sweeps of Gauss and Seidel that go beyond.
+    HAIR_PROJECTION_JACOBI ///< Tariq 2010: sweeps of Jacobi.
 } hair_projection;
 
 /// What blows from a place, on top of the wind. Start from hair_wind_source_default.
 typedef struct hair_wind_source {
-    float position[3];  ///< World. m. [-1e9, 1e9]. Default 0.
+    float position[3]; ///< World. m. [-1e9, 1e9]. Default 0.
     float direction[3]; ///< Of a jet, any length. 0: it blows to all sides. [-1e6, 1e6]. Default 0.
     float
         speed; ///< At its mouth; of a source to all sides below 0: it draws in. m/s. [-1000, 1000]. Default 5.
@@ -619,28 +619,28 @@ static inline hair_wind_source hair_wind_source_default(void)
 /// coefficient of 1 + 9.75 Re^-0.744, the form of White 1991, along them as heat passes from them. Guides stand for locks,
 /// whose hairs shelter each other: so hair_physics.drag is below 1. hair_physics.damping is against this air as well.
 typedef struct hair_wind {
-    hair_made       made;
-    hair_wind_model model;       ///< Default HAIR_WIND_AMBIENT.
-    float           velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
-    float           density;     ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
-    float           viscosity;   ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.
+    hair_made made;
+    hair_wind_model model; ///< Default HAIR_WIND_AMBIENT.
+    float velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
+    float density; ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
+    float viscosity; ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.
     uint32_t resolution; ///< Of the fluid: cells along a side, up to a multiple of 16. [16, 128]. Default 32.
-    float    box; ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
+    float box; ///< Of the fluid: its side. m. 0 (half as long again as the field's) to 100. Default 0.
     hair_projection projection; ///< Of the fluid. Default HAIR_PROJECTION_MULTIGRID.
-    uint32_t        cycles;     ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
+    uint32_t cycles; ///< Or sweeps, of that, in 1/60 s. 0 (what suffices) to 10000. Default 0.
     /// Gusts are turbulence, of the same statistics every way, that the wind carries along: von Karman's spectrum.
     float gusts; ///< Standard deviation of each component, as a share of the wind's speed. [0, 2]. Default 0.
     float gust_length; ///< Integral length scale: gusts are some times as long. m. [0.1, 1000]. Default 1.
-    uint32_t seed;     ///< Of gusts. Default 1.
+    uint32_t seed; ///< Of gusts. Default 1.
     /// How much the head, as far as its place is told from roots, and the largest solids of up to 0.5 m around it divert
     /// wind and gusts, as balls: before them by potential flow, behind by a wake.
-    float                   shelter;      ///< [0, 1]. Default 1.
-    const hair_wind_source* sources;      ///< Copied. NULL: none.
-    uint32_t                source_count; ///< [0, 4]. Default 0.
+    float shelter; ///< [0, 1]. Default 1.
+    const hair_wind_source* sources; ///< Copied. NULL: none.
+    uint32_t source_count; ///< [0, 4]. Default 0.
     /// The application's own wind, on top of all this: xyz in m/s along the world's axes. Read while steps run, and 0 where
     /// it is not finite, outside, and when it has been deleted.
-    uint32_t texture;               ///< Of OpenGL: 3D, of floats. 0: none. Default 0.
-    float    texture_transform[16]; ///< World to its coordinates. Affine. Default identity.
+    uint32_t texture; ///< Of OpenGL: 3D, of floats. 0: none. Default 0.
+    float texture_transform[16]; ///< World to its coordinates. Affine. Default identity.
     /// Hair slows the fluid as porous matter does: as so many strands that lie where guides are, each of which takes from
     /// air what hair_physics.drag gives to a guide. A scalp has some 100000. 0: air blows through hair as through nothing.
     uint32_t strands; ///< [0, 10000000]. Default 0.
@@ -653,25 +653,25 @@ HAIR_API hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind);
 
 typedef enum hair_shape {
     HAIR_SHAPE_SPHERE = 0, ///< size[0]: radius.
-    HAIR_SHAPE_CAPSULE,    ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
-    HAIR_SHAPE_BOX,        ///< size: half the lengths of its sides.
-    HAIR_SHAPE_CYLINDER,   ///< size[0]: radius. size[1]: half its height, along local y.
-    HAIR_SHAPE_CONE,       ///< size[0]: radius of its base, at local y = -size[1]. Its tip is at +size[1].
-    HAIR_SHAPE_PLANE,      ///< All that is below local y = 0.
-    HAIR_SHAPE_FORM        ///< `form`, `scale` times as large.
+    HAIR_SHAPE_CAPSULE, ///< size[0]: radius. size[1]: half the length of its axis, which is local y.
+    HAIR_SHAPE_BOX, ///< size: half the lengths of its sides.
+    HAIR_SHAPE_CYLINDER, ///< size[0]: radius. size[1]: half its height, along local y.
+    HAIR_SHAPE_CONE, ///< size[0]: radius of its base, at local y = -size[1]. Its tip is at +size[1].
+    HAIR_SHAPE_PLANE, ///< All that is below local y = 0.
+    HAIR_SHAPE_FORM ///< `form`, `scale` times as large.
 } hair_shape;
 
 /// Start from hair_solid_default.
 typedef struct hair_solid {
-    hair_shape shape;       ///< Default HAIR_SHAPE_SPHERE.
-    float      position[3]; ///< World. m. [-1e9, 1e9]. Default 0.
-    float      rotation[4]; ///< World. Unit quaternion, xyzw. Default identity.
-    float      size[3];     ///< As the shape says. m. [0, 1e6], above 0 unless it is rounded. Default 0.
-    float      rounding;    ///< Added all round, which rounds edges. m. [0, 1e6]. Default 0.
-    float      scale;       ///< Of a form. [1e-6, 1e6]. Default 1.
-    float      friction; ///< Coulomb's coefficient is this times hair_physics.friction. [0, 100]. Default 1.
+    hair_shape shape; ///< Default HAIR_SHAPE_SPHERE.
+    float position[3]; ///< World. m. [-1e9, 1e9]. Default 0.
+    float rotation[4]; ///< World. Unit quaternion, xyzw. Default identity.
+    float size[3]; ///< As the shape says. m. [0, 1e6], above 0 unless it is rounded. Default 0.
+    float rounding; ///< Added all round, which rounds edges. m. [0, 1e6]. Default 0.
+    float scale; ///< Of a form. [1e-6, 1e6]. Default 1.
+    float friction; ///< Coulomb's coefficient is this times hair_physics.friction. [0, 100]. Default 1.
     const hair_form* form; ///< Of HAIR_SHAPE_FORM; held as long as the solid is. Default NULL.
-    uint64_t         key;  ///< Tells it from others, from step to step. 0: its place does. Default 0.
+    uint64_t key; ///< Tells it from others, from step to step. 0: its place does. Default 0.
 } hair_solid;
 
 static inline hair_solid hair_solid_default(void)
@@ -691,15 +691,15 @@ HAIR_API hair_result hair_set_solids(hair_instance* hair, const hair_solid* soli
 
 typedef enum hair_tie_to {
     HAIR_TIE_HEAD = 0, ///< The head: hair that is tied back, a clip.
-    HAIR_TIE_WORLD     ///< The world: a hand, a hook.
+    HAIR_TIE_WORLD ///< The world: a hand, a hook.
 } hair_tie_to;
 
 /// A vertex of a guide that is held in place, free to turn. Start from hair_tie_default.
 typedef struct hair_tie {
-    uint32_t    guide;       ///< As hair_read has them, from 0. Default 0.
-    uint32_t    vertex;      ///< Of the guide, from 1; beyond its last: its tip. Default 4294967295.
-    hair_tie_to to;          ///< What holds it. Default HAIR_TIE_HEAD.
-    float       position[3]; ///< In groom space, or in the world. m. [-1e9, 1e9]. Default 0.
+    uint32_t guide; ///< As hair_read has them, from 0. Default 0.
+    uint32_t vertex; ///< Of the guide, from 1; beyond its last: its tip. Default 4294967295.
+    hair_tie_to to; ///< What holds it. Default HAIR_TIE_HEAD.
+    float position[3]; ///< In groom space, or in the world. m. [-1e9, 1e9]. Default 0.
 } hair_tie;
 
 static inline hair_tie hair_tie_default(void)
@@ -744,8 +744,8 @@ HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t si
 
 typedef enum hair_pass {
     HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
-    HAIR_PASS_DEPTH,     ///< Depth only: shadow maps and pre-passes.
-    HAIR_PASS_GUIDES,    ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
+    HAIR_PASS_DEPTH, ///< Depth only: shadow maps and pre-passes.
+    HAIR_PASS_GUIDES, ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
     HAIR_PASS_SOLIDS, ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
     /// With depth: how far hair has moved on the screen since the frame before, see hair_view.frame. To a float target: x and
     /// y in viewports, to the right and up, without jitter; 0 and 1 beside. Keeps the vertices of two frames: 40 bytes each.
@@ -767,11 +767,11 @@ typedef enum hair_pass {
 typedef enum hair_path {
     HAIR_PATH_TESSELLATION = 0, ///< Isolines, from one-point patches.
     HAIR_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
-    HAIR_PATH_EXPANDED,  ///< Vertices written once, for all views until hair moves: 24 bytes each; and
-                         ///< shaded for each view of colour before it draws them: 8 more. With a
-                         ///< hair_lod those of what is drawn are written for each view: 40 bytes, of
-                         ///< lines 24; only of HAIR_PASS_COLOR and HAIR_PASS_DEPTH and without a
-                         ///< shader, else as HAIR_PATH_INSTANCED.
+    HAIR_PATH_EXPANDED, ///< Vertices written once, for all views until hair moves: 24 bytes each; and
+    ///< shaded for each view of colour before it draws them: 8 more. With a
+    ///< hair_lod those of what is drawn are written for each view: 40 bytes, of
+    ///< lines 24; only of HAIR_PASS_COLOR and HAIR_PASS_DEPTH and without a
+    ///< shader, else as HAIR_PATH_INSTANCED.
     /// As HAIR_PATH_EXPANDED, but pixels too are made by compute, and come to the framebuffer as rectangles: for GPUs of which
     /// few units draw. Of HAIR_PASS_COLOR and HAIR_PASS_DEPTH as ribbons, by samples, without a shader that shades pixels;
     /// all else is drawn as by HAIR_PATH_EXPANDED. With a hair_lod vertices are written for each view, 32 bytes. What is
@@ -779,12 +779,12 @@ typedef enum hair_path {
     /// memory: 8 bytes, of depth alone 4, for each sample of the pixels that hair can be in, and half as many again.
     HAIR_PATH_COMPUTED,
     HAIR_PATH_AUTO ///< What was measured to be the fastest on this driver: by its name, never by timing. hair_report says
-                   ///< which it is.
+    ///< which it is.
 } hair_path;
 
 typedef enum hair_primitive {
     HAIR_RIBBONS = 0, ///< Camera-facing, of true width.
-    HAIR_LINES        ///< One pixel wide: the cheap setting.
+    HAIR_LINES ///< One pixel wide: the cheap setting.
 } hair_primitive;
 
 /// How pixels come to show strands that are thinner than they are.
@@ -808,14 +808,14 @@ typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_
 /// are more than a pixel, in full where they are 2: where no view shows that, it is not found out either.
 typedef struct hair_lod {
     hair_made made;
-    float     strands;  ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.
-    float     segments; ///< Share of hair_look.segments that they have, at most. [0, 1]. Default 1.
-    float     width;    ///< Strands are 1 / share to this power as wide. [0, 2]. Default 1.
-    uint32_t  dynamic;  ///< 1: by patch, as follows. 0: alike everywhere, as above. [0, 1]. Default 1.
+    float strands; ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.
+    float segments; ///< Share of hair_look.segments that they have, at most. [0, 1]. Default 1.
+    float width; ///< Strands are 1 / share to this power as wide. [0, 2]. Default 1.
+    uint32_t dynamic; ///< 1: by patch, as follows. 0: alike everywhere, as above. [0, 1]. Default 1.
     /// Strands that would be thinner on the screen than this are drawn so wide, and as many fewer. Pixels.
-    float strand_pixels;  ///< [0.01, 100]. Default 0.25.
+    float strand_pixels; ///< [0.01, 100]. Default 0.25.
     float segment_pixels; ///< Length of a segment on the screen, likewise. [0.1, 1000]. Default 4.
-    float least;      ///< Share of the strands of a patch that is left, at least. [0.001, 1]. Default 0.05.
+    float least; ///< Share of the strands of a patch that is left, at least. [0.001, 1]. Default 0.05.
     float importance; ///< Hair is taken for as many times as large as it appears. [0, 1000]. Default 1.
     /// The same for hair that a head hides whose place is told from its roots. Below 1 what the head is certain to hide
     /// is not drawn: then the head must be. What is not in view never is.
@@ -826,7 +826,7 @@ HAIR_DESC(hair_lod)
 /// Where the host's own shading runs.
 typedef enum hair_shade_at {
     HAIR_SHADE_VERTICES = 0, ///< Of strands, as ours: cheap. Pixels get what lies between.
-    HAIR_SHADE_PIXELS        ///< In the fragment shader, whose other outputs it may declare and write.
+    HAIR_SHADE_PIXELS ///< In the fragment shader, whose other outputs it may declare and write.
 } hair_shade_at;
 
 /// Shading of the host's own: GLSL 4.50 that has
@@ -844,73 +844,73 @@ typedef enum hair_shade_at {
 /// the root on the scalp; 0 where the groom has none); uint strand, lock (its guide), seed. The rest of the library's names
 /// are in sight too and may change: give your own a prefix. What is not finite or below 0 becomes 0.
 typedef struct hair_shader_desc {
-    hair_made     made;
-    const char*   label; ///< In errors, before the line: "label:12: …". NULL: "shader".
-    const char*   glsl;  ///< Its text, without #version. Required.
-    hair_shade_at at;    ///< Default HAIR_SHADE_VERTICES.
+    hair_made made;
+    const char* label; ///< In errors, before the line: "label:12: …". NULL: "shader".
+    const char* glsl; ///< Its text, without #version. Required.
+    hair_shade_at at; ///< Default HAIR_SHADE_VERTICES.
 } hair_shader_desc;
 HAIR_DESC(hair_shader_desc)
 
 /// A text that does not compile is HAIR_ERROR_OPENGL, its first error in the log. Programs are made as views need them.
 HAIR_API hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc,
                                         hair_shader** out);
-HAIR_API void        hair_shader_destroy(hair_shader* shader); ///< Before its context.
+HAIR_API void hair_shader_destroy(hair_shader* shader); ///< Before its context.
 
 typedef enum hair_light_kind {
     HAIR_LIGHT_DIRECTIONAL = 0, ///< So far away that all of its light comes from one side: the sun.
-    HAIR_LIGHT_POINT,           ///< A lamp that shines everywhere.
-    HAIR_LIGHT_SPOT             ///< One that shines into a cone.
+    HAIR_LIGHT_POINT, ///< A lamp that shines everywhere.
+    HAIR_LIGHT_SPOT ///< One that shines into a cone.
 } hair_light_kind;
 
 typedef struct hair_light {
-    hair_made       made;
+    hair_made made;
     hair_light_kind kind; ///< Default HAIR_LIGHT_DIRECTIONAL.
     /// Towards the light: from anywhere, or of a spot from the middle of what it shines at. Any length. World.
-    float to[3];       ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
+    float to[3]; ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
     float position[3]; ///< Of a point or spot. World. m. [-1e9, 1e9]. Default 0.
-    float color[3];    ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
-    float range;       ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
-    float size;        ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
+    float color[3]; ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
+    float range; ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
+    float size; ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
     float inner; ///< Of a spot: half of the angle of its full brightness. Radians. [0, 1.57]. Default 0.3.
     float outer; ///< And beyond which it does not shine: above inner. Radians. [0, 1.57]. Default 0.5.
     /// Of OpenGL: 2D, depth of hair seen from the light, as HAIR_PASS_DEPTH draws it: what hair lets through of it. Bodies in
     /// it take no more than hair would there. 0: none. One or both textures of up to 4 lights.
     uint32_t shadow_texture;
     /// World to clip space of both; orthographic or, of points and spots, in perspective. Depth grows away from the light.
-    float    shadow_matrix[16]; ///< Default identity.
-    uint32_t body_texture;      ///< The same of what lets no light through: a head, clothes, walls. 0: none.
+    float shadow_matrix[16]; ///< Default identity.
+    uint32_t body_texture; ///< The same of what lets no light through: a head, clothes, walls. 0: none.
     float body_bias; ///< Hair no farther than this behind what that shows is lit. m. [0, 1]. Default 0.003.
 } hair_light;
 HAIR_DESC(hair_light)
 
 typedef struct hair_view {
-    hair_made         made;
-    hair_pass         pass;           ///< Default HAIR_PASS_COLOR.
-    hair_path         path;           ///< Default HAIR_PATH_TESSELLATION.
-    hair_primitive    primitive;      ///< Default HAIR_RIBBONS.
-    float             view[16];       ///< World to view. Default identity.
-    float             projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
-    const hair_light* lights;         ///< light_count of them. NULL: each as hair_light_default() has it.
-    uint32_t          light_count;    ///< [0, 16]. Default 1.
+    hair_made made;
+    hair_pass pass; ///< Default HAIR_PASS_COLOR.
+    hair_path path; ///< Default HAIR_PATH_TESSELLATION.
+    hair_primitive primitive; ///< Default HAIR_RIBBONS.
+    float view[16]; ///< World to view. Default identity.
+    float projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
+    const hair_light* lights; ///< light_count of them. NULL: each as hair_light_default() has it.
+    uint32_t light_count; ///< [0, 16]. Default 1.
     float ambient[3]; ///< Irradiance of surroundings that are the same on all sides. [0, 1e6]. Default 0.35.
     /// Radiance of the surroundings beside that, as 9 spherical harmonics of r, g, b each, up to order 2 and as Ramamoorthi
     /// and Hanrahan 2001 order and scale them, over world axes: 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Each in
     /// [-1e6, 1e6]. NULL: none.
-    const float*    sky;
-    hair_slice      slice;    ///< Of HAIR_PASS_SOLIDS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
-    float           slice_at; ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
-    const hair_lod* lod;      ///< NULL: all is drawn.
-    hair_shader*    shader;   ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
-    hair_coverage   coverage; ///< Default HAIR_COVERAGE_SAMPLES.
+    const float* sky;
+    hair_slice slice; ///< Of HAIR_PASS_SOLIDS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
+    float slice_at; ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
+    const hair_lod* lod; ///< NULL: all is drawn.
+    hair_shader* shader; ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    hair_coverage coverage; ///< Default HAIR_COVERAGE_SAMPLES.
     float opacity; ///< Of HAIR_COVERAGE_SHARES, HAIR_PASS_OPACITY: of what strands cover. [0, 1]. Default 1.
     float jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
     /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
     /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.
     /// Where there was none, after hair_reset or hair_load, or with another number of segments, hair has stood still;
     /// hair_teleport takes along where it was.
-    uint32_t frame;                 ///< Also of HAIR_SHADOW_STRANDS. Default 0.
-    float    before_view[16];       ///< View of the frame before. Default identity.
-    float    before_projection[16]; ///< And its projection, without jitter. Default identity.
+    uint32_t frame; ///< Also of HAIR_SHADOW_STRANDS. Default 0.
+    float before_view[16]; ///< View of the frame before. Default identity.
+    float before_projection[16]; ///< And its projection, without jitter. Default identity.
     /// Of OpenGL: 2D, linear colours that those of strands are multiplied by, where hair_groom_desc.scalp_uvs have their
     /// roots, as the texture itself filters them. 0, or a groom without uvs: none.
     uint32_t color_texture;
@@ -940,8 +940,8 @@ HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 
 typedef enum hair_read_what {
     HAIR_READ_GUIDES = 0, ///< Vertices of the guides where the last substep left them.
-    HAIR_READ_SMOOTH,     ///< Vertices of the guides as drawn: smoothed, interpolated to now.
-    HAIR_READ_FOLLOWERS   ///< Vertices of all followers as drawn: look.segments + 1 each.
+    HAIR_READ_SMOOTH, ///< Vertices of the guides as drawn: smoothed, interpolated to now.
+    HAIR_READ_FOLLOWERS ///< Vertices of all followers as drawn: look.segments + 1 each.
 } hair_read_what;
 
 /// Copy positions, xyz each, world, of at most `capacity` vertices. `count` becomes how many there are. Waits.
@@ -951,19 +951,19 @@ HAIR_API hair_result hair_read(hair_instance* hair, hair_read_what what, float* 
 /// What went wrong since the instance was created, and how it was borne.
 typedef struct hair_health {
     hair_made made;
-    uint32_t  euler;  ///< Times that a substep of a straight guide was redone by implicit Euler.
-    uint32_t  follow; ///< Times that a substep, or a part of one, was redone by follow-the-leader after that.
-    uint32_t  reset;     ///< Times that a guide was put back in its rest pose: it was not finite.
-    uint32_t  stiffened; ///< Guides made stiffer to hold their groom against gravity, as `hold` asks.
-    float     stiffest;  ///< Greatest multiple of the stiffness at any vertex of these guides. At most 3.
-    float     substep;   ///< Length of a substep. s.
-    uint32_t  taut;      ///< Times that a guide was stretched in a substep: what holds it was too far apart.
-    uint32_t  sagging;   ///< Guides that three times their stiffness does not hold: they sag from the groom.
-    float     farthest_sag; ///< Greatest distance from the groom at which a vertex of these guides rests. m.
-    uint32_t  parts; ///< Times that a substep of a guide that is curved, fine or heavy was redone in parts.
+    uint32_t euler; ///< Times that a substep of a straight guide was redone by implicit Euler.
+    uint32_t follow; ///< Times that a substep, or a part of one, was redone by follow-the-leader after that.
+    uint32_t reset; ///< Times that a guide was put back in its rest pose: it was not finite.
+    uint32_t stiffened; ///< Guides made stiffer to hold their groom against gravity, as `hold` asks.
+    float stiffest; ///< Greatest multiple of the stiffness at any vertex of these guides. At most 3.
+    float substep; ///< Length of a substep. s.
+    uint32_t taut; ///< Times that a guide was stretched in a substep: what holds it was too far apart.
+    uint32_t sagging; ///< Guides that three times their stiffness does not hold: they sag from the groom.
+    float farthest_sag; ///< Greatest distance from the groom at which a vertex of these guides rests. m.
+    uint32_t parts; ///< Times that a substep of a guide that is curved, fine or heavy was redone in parts.
     uint32_t
-          softened; ///< Guides whose stiffness is reduced to what single precision can solve at this substep.
-    float softest;  ///< Least factor of the stiffness at any vertex of these guides. 1: none is softened.
+        softened; ///< Guides whose stiffness is reduced to what single precision can solve at this substep.
+    float softest; ///< Least factor of the stiffness at any vertex of these guides. 1: none is softened.
     uint32_t
         restless; ///< Guides that still move at 2 cm/s though damping had the time to calm any hair: see below.
     float fastest; ///< Greatest speed of a guide vertex relative to the head, over the last substep. m/s.
@@ -971,7 +971,7 @@ typedef struct hair_health {
         gaining; ///< Times that the energy of a guide grew in 0.25 s, with hair_desc.diagnose: see below.
     uint32_t
         overstretched; ///< Guides with a segment whose length is off by more than 1 % after the last substep.
-    float stretch;     ///< Greatest relative error of a segment's length after the last substep.
+    float stretch; ///< Greatest relative error of a segment's length after the last substep.
 } hair_health;
 HAIR_DESC(hair_health)
 
@@ -989,12 +989,12 @@ HAIR_API hair_result hair_get_health(hair_instance* hair, hair_health* out);
 /// that allows. Exact at the middles of voxels for every shape but forms, between them to be interpolated.
 typedef struct hair_field_info {
     hair_made made;
-    uint32_t  distance_texture; ///< Of OpenGL: 3D, R16F. m, below 0 inside. 0: no solid reaches into the box.
-    uint32_t  solid_texture; ///< 3D, R32UI: which of hair_set_solids is nearest; 4294967295: none near. Or 0.
-    uint32_t  size[3];       ///< Voxels along the head's x, y and z.
-    float     voxel;         ///< Side of one. m.
-    float     far; ///< Of solids farther than this it says so and no more; and so of all beyond the box. m.
-    float     transform[16]; ///< World to texture coordinates: the box is [0, 1]^3.
+    uint32_t distance_texture; ///< Of OpenGL: 3D, R16F. m, below 0 inside. 0: no solid reaches into the box.
+    uint32_t solid_texture; ///< 3D, R32UI: which of hair_set_solids is nearest; 4294967295: none near. Or 0.
+    uint32_t size[3]; ///< Voxels along the head's x, y and z.
+    float voxel; ///< Side of one. m.
+    float far; ///< Of solids farther than this it says so and no more; and so of all beyond the box. m.
+    float transform[16]; ///< World to texture coordinates: the box is [0, 1]^3.
 } hair_field_info;
 HAIR_DESC(hair_field_info)
 
@@ -1003,10 +1003,10 @@ HAIR_DESC(hair_field_info)
 HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
 typedef struct hair_timing {
-    const char* pass;     ///< Its label and features, as "sim/direct_curved_32". As long as the context.
-    float       ms;       ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t    runs;     ///< Since the context was created.
-    double      total_ms; ///< GPU time of its finished runs together, but for more than four at once.
+    const char* pass; ///< Its label and features, as "sim/direct_curved_32". As long as the context.
+    float ms; ///< GPU time of its last finished run. 0 before there is one.
+    uint32_t runs; ///< Since the context was created.
+    double total_ms; ///< GPU time of its finished runs together, but for more than four at once.
 } hair_timing;
 
 /// GPU time of every pass that something has needed yet, if the context was created with `timings`. Never waits. Returns how
@@ -1015,14 +1015,14 @@ HAIR_API uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t
 
 /// Why work was done or not.
 typedef enum hair_why {
-    HAIR_WHY_DONE = 0,    ///< It was.
-    HAIR_WHY_ASLEEP,      ///< Hair is at rest, as hair_physics.sleep has it.
-    HAIR_WHY_UNCHANGED,   ///< What it makes is there and still holds.
+    HAIR_WHY_DONE = 0, ///< It was.
+    HAIR_WHY_ASLEEP, ///< Hair is at rest, as hair_physics.sleep has it.
+    HAIR_WHY_UNCHANGED, ///< What it makes is there and still holds.
     HAIR_WHY_OUT_OF_VIEW, ///< No view showed any of the hair.
-    HAIR_WHY_NONE_NEAR,   ///< No solid is near the hair.
-    HAIR_WHY_NOT_WANTED,  ///< Settings ask for none of it: no wind, no cohesion, a rigid head, another path.
-    HAIR_WHY_NOT_DUE,     ///< Its time has not come: no substep fell due, hair is in motion.
-    HAIR_WHY_NOT_CALLED   ///< No call asked for it.
+    HAIR_WHY_NONE_NEAR, ///< No solid is near the hair.
+    HAIR_WHY_NOT_WANTED, ///< Settings ask for none of it: no wind, no cohesion, a rigid head, another path.
+    HAIR_WHY_NOT_DUE, ///< Its time has not come: no substep fell due, hair is in motion.
+    HAIR_WHY_NOT_CALLED ///< No call asked for it.
 } hair_why;
 
 HAIR_API const char* hair_why_string(hair_why why); ///< Static text, NULL beyond the last. [any thread]
@@ -1031,18 +1031,18 @@ HAIR_API const char* hair_why_string(hair_why why); ///< Static text, NULL beyon
 typedef struct hair_report_row {
     const char* work; ///< Static text: "solve", "smooth", "color", …
     const char* pass; ///< The last pass that ran for it, as in hair_timing. NULL: none did.
-    hair_why    why;
-    uint32_t    runs; ///< Of passes.
+    hair_why why;
+    uint32_t runs; ///< Of passes.
     float ms; ///< GPU time, from the first of passes that follow each other to the last. 0 without timings.
     uint64_t bytes; ///< OpenGL memory that it has.
 } hair_report_row;
 
 typedef struct hair_report_info {
     hair_made made;
-    uint32_t  frame; ///< Counted from 1. 0: none is finished, and there are no rows.
-    uint32_t  age;   ///< Frames that have begun since.
-    float     ms;    ///< Of all rows.
-    uint64_t  bytes; ///< Of all rows; what instances share is not among them.
+    uint32_t frame; ///< Counted from 1. 0: none is finished, and there are no rows.
+    uint32_t age; ///< Frames that have begun since.
+    float ms; ///< Of all rows.
+    uint64_t bytes; ///< Of all rows; what instances share is not among them.
 } hair_report_info;
 HAIR_DESC(hair_report_info)
 

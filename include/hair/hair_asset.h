@@ -11,15 +11,15 @@ typedef struct hair_asset hair_asset;
 
 typedef enum hair_format {
     HAIR_FORMAT_NONE = 0, ///< Made by hair_asset_generate.
-    HAIR_FORMAT_HAIR,     ///< .hair ("cyHair"): all strands, any number of vertices each.
+    HAIR_FORMAT_HAIR, ///< .hair ("cyHair"): all strands, any number of vertices each.
     HAIR_FORMAT_TFX4, ///< .tfx version 4: guides, the same number of vertices each, 4 to 64, a power of two.
     HAIR_FORMAT_TFX3, ///< .tfx version 3. Read only.
-    HAIR_FORMAT_TFX2  ///< .tfx version 2, text. Read only.
+    HAIR_FORMAT_TFX2 ///< .tfx version 2, text. Read only.
 } hair_format;
 
 typedef struct hair_asset_desc {
-    hair_made          made;
-    const hair_host*   host;   ///< NULL: the C library's allocator, no log.
+    hair_made made;
+    const hair_host* host; ///< NULL: the C library's allocator, no log.
     const hair_import* import; ///< NULL: the defaults.
 } hair_asset_desc;
 HAIR_DESC(hair_asset_desc)
@@ -29,7 +29,7 @@ HAIR_DESC(hair_asset_desc)
 /// 12 bytes for every vertex that import.strand_vertices asks for.
 HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size,
                                      hair_asset** out);
-HAIR_API void        hair_asset_destroy(hair_asset* asset);
+HAIR_API void hair_asset_destroy(hair_asset* asset);
 
 /// Write strands as HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Returns in `size` the bytes needed; writes them if
 /// `capacity` is enough. Colours of files are sRGB, and kept at 8 places of a strand. For .tfx all strands must have the same fitting number of vertices: resample first.
@@ -48,13 +48,13 @@ typedef enum hair_style {
 } hair_style;
 
 typedef struct hair_style_desc {
-    hair_made        made;
-    const hair_host* host;            ///< NULL: the C library's allocator, no log.
-    hair_style       style;           ///< Default HAIR_STYLE_LONG.
-    uint32_t         guide_count;     ///< Guides, spread evenly over the scalp. [16, 4096]. Default 166.
-    uint32_t         strand_vertices; ///< Vertices of each. 0 (as the style needs) to 256. Default 0.
-    float            length;          ///< Of the style's own lengths. [0.1, 4]. Default 1.
-    uint32_t         seed;            ///< Of every random choice. Default 1.
+    hair_made made;
+    const hair_host* host; ///< NULL: the C library's allocator, no log.
+    hair_style style; ///< Default HAIR_STYLE_LONG.
+    uint32_t guide_count; ///< Guides, spread evenly over the scalp. [16, 4096]. Default 166.
+    uint32_t strand_vertices; ///< Vertices of each. 0 (as the style needs) to 256. Default 0.
+    float length; ///< Of the style's own lengths. [0.1, 4]. Default 1.
+    uint32_t seed; ///< Of every random choice. Default 1.
 } hair_style_desc;
 HAIR_DESC(hair_style_desc)
 
@@ -63,27 +63,27 @@ HAIR_DESC(hair_style_desc)
 /// triangles lie; the face looks along +z; the neck goes down from there to shoulders 0.40 m wide at height 1.40.
 HAIR_API hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out);
 
-HAIR_API const char* hair_style_name(hair_style style);    ///< "long", "bob", … NULL beyond the last.
+HAIR_API const char* hair_style_name(hair_style style); ///< "long", "bob", … NULL beyond the last.
 HAIR_API const char* hair_format_name(hair_format format); ///< "hair", "tfx4", … NULL beyond the last.
 
 typedef struct hair_asset_info {
-    hair_made        made;
-    hair_format      format;
-    hair_strands_are strands_are;  ///< .tfx and the built-in haircuts hold guides; .hair holds all.
-    uint32_t         strand_count; ///< After the repairs.
-    uint32_t         vertex_count;
-    uint32_t         fewest, most;       ///< Vertices of a strand.
-    float            length[3];          ///< Least, mean, greatest. m.
-    float            lower[3], upper[3]; ///< Bounds. m.
-    uint32_t         file_strands;       ///< Before the repairs and `share`.
-    uint32_t         file_vertices;
-    hair_repairs     repairs;
-    const float*     positions;       ///< xyz per vertex. Lives as long as the asset, as do the following.
-    const uint32_t*  strand_vertices; ///< Per strand.
-    const float*     strand_radii;    ///< Per strand, at the root. m. NULL: the file has none.
-    const float*     scalp_positions; ///< xyz per vertex. NULL: no scalp.
-    const uint32_t*  scalp_triangles;
-    uint32_t         scalp_vertex_count, scalp_triangle_count;
+    hair_made made;
+    hair_format format;
+    hair_strands_are strands_are; ///< .tfx and the built-in haircuts hold guides; .hair holds all.
+    uint32_t strand_count; ///< After the repairs.
+    uint32_t vertex_count;
+    uint32_t fewest, most; ///< Vertices of a strand.
+    float length[3]; ///< Least, mean, greatest. m.
+    float lower[3], upper[3]; ///< Bounds. m.
+    uint32_t file_strands; ///< Before the repairs and `share`.
+    uint32_t file_vertices;
+    hair_repairs repairs;
+    const float* positions; ///< xyz per vertex. Lives as long as the asset, as do the following.
+    const uint32_t* strand_vertices; ///< Per strand.
+    const float* strand_radii; ///< Per strand, at the root. m. NULL: the file has none.
+    const float* scalp_positions; ///< xyz per vertex. NULL: no scalp.
+    const uint32_t* scalp_triangles;
+    uint32_t scalp_vertex_count, scalp_triangle_count;
     const float*
         strand_colors; ///< Per strand, linear rgb at 8 even places from root to tip. NULL: the file has none.
 } hair_asset_info;

@@ -19,9 +19,9 @@ class btCollisionShape;
 class btCollisionObject;
 class btCollisionWorld;
 #else
-typedef struct btCollisionShape  btCollisionShape;
+typedef struct btCollisionShape btCollisionShape;
 typedef struct btCollisionObject btCollisionObject;
-typedef struct btCollisionWorld  btCollisionWorld;
+typedef struct btCollisionWorld btCollisionWorld;
 #endif
 
 /// A list of solids, and the forms that have been made of shapes. For one thread at a time.
@@ -30,7 +30,7 @@ typedef struct hair_bullet hair_bullet;
 /// `scalar_size` is sizeof(btScalar) in the program: if it is not that of the library, which is for the Bullet of
 /// single precision, the result is HAIR_ERROR_VERSION. host NULL: the C library's allocator, no log.
 HAIR_API hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_bullet** out);
-HAIR_API void        hair_bullet_destroy(hair_bullet* bullet); ///< Solids that are set stay. Takes NULL.
+HAIR_API void hair_bullet_destroy(hair_bullet* bullet); ///< Solids that are set stay. Takes NULL.
 
 /// Voxels along the longest side of forms that are made from now on. [8, 256]. 64 unless set.
 HAIR_API hair_result hair_bullet_set_resolution(hair_bullet* bullet, uint32_t resolution);

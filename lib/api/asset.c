@@ -5,10 +5,10 @@
 
 hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size, hair_asset** out)
 {
-    hair_host       host = HAIR_HOST_OF(desc);
+    hair_host host = HAIR_HOST_OF(desc);
     hair_asset_desc own;
-    hair_import     import;
-    hair_result     result = HAIR_TAKE(&host, hair_asset_desc, desc, &own);
+    hair_import import;
+    hair_result result = HAIR_TAKE(&host, hair_asset_desc, desc, &own);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
     if (result) return result;
     if (!bytes) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "bytes is NULL");
@@ -33,9 +33,9 @@ hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* 
 
 hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out)
 {
-    hair_host       host = HAIR_HOST_OF(desc);
+    hair_host host = HAIR_HOST_OF(desc);
     hair_style_desc own;
-    hair_result     result = HAIR_TAKE(&host, hair_style_desc, desc, &own);
+    hair_result result = HAIR_TAKE(&host, hair_style_desc, desc, &own);
     if (result) return result;
     if (own.strand_vertices == 1)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT,
@@ -73,15 +73,15 @@ const char* hair_format_name(hair_format format)
 // Lengths and bounds of the strands.
 static void measure(const struct hair_strands* strands, hair_asset_info* info)
 {
-    double       sum = 0;
-    const float* at  = strands->positions;
+    double sum = 0;
+    const float* at = strands->positions;
     for (uint32_t s = 0; s < strands->strand_count; ++s) {
-        uint32_t count  = strands->vertices[s];
-        double   length = 0;
+        uint32_t count = strands->vertices[s];
+        double length = 0;
         for (uint32_t v = 0; v < count; ++v, at += 3) {
             if (v) length += (double)hair_distance(hair_load3(at), hair_load3(at - 3));
             for (int k = 0; k < 3; ++k) {
-                int first      = s == 0 && v == 0;
+                int first = s == 0 && v == 0;
                 info->lower[k] = first ? at[k] : fminf(info->lower[k], at[k]);
                 info->upper[k] = first ? at[k] : fmaxf(info->upper[k], at[k]);
             }
@@ -89,8 +89,8 @@ static void measure(const struct hair_strands* strands, hair_asset_info* info)
         sum += length;
         info->length[0] = s ? fminf(info->length[0], (float)length) : (float)length;
         info->length[2] = fmaxf(info->length[2], (float)length);
-        info->fewest    = s && info->fewest < count ? info->fewest : count;
-        info->most      = info->most > count ? info->most : count;
+        info->fewest = s && info->fewest < count ? info->fewest : count;
+        info->most = info->most > count ? info->most : count;
     }
     if (strands->strand_count) info->length[1] = (float)(sum / strands->strand_count);
 }
@@ -99,21 +99,21 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
 {
     if (!asset) return HAIR_ERROR_ARGUMENT;
     hair_asset_info info = {
-        .format               = asset->format,
-        .strands_are          = asset->strands_are,
-        .strand_count         = asset->strands.strand_count,
-        .vertex_count         = asset->strands.vertex_count,
-        .file_strands         = asset->file_strands,
-        .file_vertices        = asset->file_vertices,
-        .repairs              = asset->repairs,
-        .positions            = asset->strands.positions,
-        .strand_vertices      = asset->strands.vertices,
-        .strand_radii         = asset->strands.radii,
-        .scalp_positions      = asset->scalp_positions,
-        .scalp_triangles      = asset->scalp_triangles,
-        .scalp_vertex_count   = asset->scalp_vertex_count,
+        .format = asset->format,
+        .strands_are = asset->strands_are,
+        .strand_count = asset->strands.strand_count,
+        .vertex_count = asset->strands.vertex_count,
+        .file_strands = asset->file_strands,
+        .file_vertices = asset->file_vertices,
+        .repairs = asset->repairs,
+        .positions = asset->strands.positions,
+        .strand_vertices = asset->strands.vertices,
+        .strand_radii = asset->strands.radii,
+        .scalp_positions = asset->scalp_positions,
+        .scalp_triangles = asset->scalp_triangles,
+        .scalp_vertex_count = asset->scalp_vertex_count,
         .scalp_triangle_count = asset->scalp_triangle_count,
-        .strand_colors        = asset->strands.colors,
+        .strand_colors = asset->strands.colors,
     };
     measure(&asset->strands, &info);
     return HAIR_GIVE(&asset->host, hair_asset_info, &info, out);
@@ -125,16 +125,16 @@ hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc)
     if (!desc) return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc is NULL");
     hair_result result = hair_made_check(&asset->host, "hair_groom_desc", desc->made);
     if (result) return result;
-    desc->positions            = asset->strands.positions;
-    desc->strand_vertices      = asset->strands.vertices;
-    desc->strand_count         = asset->strands.strand_count;
-    desc->strands_are          = asset->strands_are;
-    desc->scalp_positions      = asset->scalp_positions;
-    desc->scalp_triangles      = asset->scalp_triangles;
-    desc->scalp_vertex_count   = asset->scalp_vertex_count;
+    desc->positions = asset->strands.positions;
+    desc->strand_vertices = asset->strands.vertices;
+    desc->strand_count = asset->strands.strand_count;
+    desc->strands_are = asset->strands_are;
+    desc->scalp_positions = asset->scalp_positions;
+    desc->scalp_triangles = asset->scalp_triangles;
+    desc->scalp_vertex_count = asset->scalp_vertex_count;
     desc->scalp_triangle_count = asset->scalp_triangle_count;
-    desc->strand_radii         = asset->strands.radii;
-    desc->colors               = asset->strands.colors;
-    desc->color_count          = HAIR_STRAND_COLORS;
+    desc->strand_radii = asset->strands.radii;
+    desc->colors = asset->strands.colors;
+    desc->color_count = HAIR_STRAND_COLORS;
     return HAIR_OK;
 }

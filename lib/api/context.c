@@ -3,9 +3,9 @@
 
 hair_result hair_context_create(const hair_context_desc* desc, hair_context** out)
 {
-    hair_host         host = HAIR_HOST_OF(desc);
+    hair_host host = HAIR_HOST_OF(desc);
     hair_context_desc own;
-    hair_result       result = HAIR_TAKE(&host, hair_context_desc, desc, &own);
+    hair_result result = HAIR_TAKE(&host, hair_context_desc, desc, &own);
     if (result) return result;
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
@@ -13,9 +13,9 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
         return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_cache.%s is NULL", own.cache->get ? "put" : "get");
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
-    context->host     = host;
+    context->host = host;
     context->forms.gl = &context->gl;
-    result            = hair_gl_create(&context->gl, &host, &own);
+    result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
         return result;
@@ -53,10 +53,10 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
 {
     if (!context) return HAIR_ERROR_ARGUMENT;
     const struct hair_gl_memory* memory = &context->gl.memory;
-    hair_memory                  own    = hair_memory_default();
-    own.bytes                           = memory->bytes;
-    own.most                            = memory->most;
-    own.limit                           = memory->limit;
+    hair_memory own = hair_memory_default();
+    own.bytes = memory->bytes;
+    own.most = memory->most;
+    own.limit = memory->limit;
     return HAIR_GIVE(&context->host, hair_memory, &own, out);
 }
 
@@ -72,10 +72,10 @@ uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity
     if (!context) return 0;
     for (uint32_t i = 0; out && i < capacity && i < context->gl.programs; ++i) {
         struct hair_gl_program* of = context->gl.program[i];
-        out[i].pass                = of->label;
-        out[i].ms                  = hair_gl_pass_ms(&context->gl, of);
-        out[i].runs                = of->timer.begun;
-        out[i].total_ms            = of->timer.total;
+        out[i].pass = of->label;
+        out[i].ms = hair_gl_pass_ms(&context->gl, of);
+        out[i].runs = of->timer.begun;
+        out[i].total_ms = of->timer.total;
     }
     return context->gl.programs;
 }

@@ -7,8 +7,8 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
 {
     hair_quat back = hair_quat_conjugate(head->rotation);
     hair_vec3 x = hair_rotate(back, hair_v3(1, 0, 0)), y = hair_rotate(back, hair_v3(0, 1, 0)),
-              z       = hair_rotate(back, hair_v3(0, 0, 1));
-    const float m[9]  = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+              z = hair_rotate(back, hair_v3(0, 0, 1));
+    const float m[9] = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
     const float low[] = {box->lower.x, box->lower.y, box->lower.z};
     for (int row = 0; row < 3; ++row) {
         double scale = 1 / ((double)box->voxel * HAIR_BRICK * box->bricks[row]), at = (double)low[row];
@@ -30,9 +30,9 @@ hair_result hair_update_field(hair_instance* hair)
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_context*   context = hair->context;
-    hair_field_info own     = hair_field_info_default();
-    hair_result     result  = HAIR_GIVE(&context->host, hair_field_info, &own, out);
+    hair_context* context = hair->context;
+    hair_field_info own = hair_field_info_default();
+    hair_result result = HAIR_GIVE(&context->host, hair_field_info, &own, out);
     if (!result) result = hair_check_current(context);
     if (result) return result;
     hair_enter(hair);
@@ -43,11 +43,11 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     const struct hair_field_box* box = &hair->field.box;
     if (hair_field_is_near(&hair->field)) {
         own.distance_texture = hair->field.distance;
-        own.solid_texture    = hair->field.number;
+        own.solid_texture = hair->field.number;
     }
     for (int i = 0; i < 3; ++i) own.size[i] = HAIR_BRICK * box->bricks[i];
     own.voxel = box->voxel;
-    own.far   = box->far;
+    own.far = box->far;
     write_transform(box, &hair->sim.at_step, own.transform);
     return HAIR_GIVE(&context->host, hair_field_info, &own, out);
 }

@@ -4,9 +4,9 @@
 
 hair_result hair_form_create(const hair_form_desc* desc, hair_form** out)
 {
-    hair_host      host = HAIR_HOST_OF(desc);
+    hair_host host = HAIR_HOST_OF(desc);
     hair_form_desc own;
-    hair_result    result = HAIR_TAKE(&host, hair_form_desc, desc, &own);
+    hair_result result = HAIR_TAKE(&host, hair_form_desc, desc, &own);
     if (result) return result;
     if (!own.positions) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_form_desc.positions is NULL");
     if (!own.triangles) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_form_desc.triangles is NULL");

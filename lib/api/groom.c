@@ -35,7 +35,7 @@ static hair_result take_maps(const hair_host* host, hair_groom_desc* desc, hair_
         if (!desc->scalp_positions)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.scalp_positions is NULL but map_sets[%d] is not", i);
-        result            = HAIR_TAKE(host, hair_map_set, desc->map_sets[i], &own[i]);
+        result = HAIR_TAKE(host, hair_map_set, desc->map_sets[i], &own[i]);
         desc->map_sets[i] = &own[i];
     }
     return result;
@@ -43,11 +43,11 @@ static hair_result take_maps(const hair_host* host, hair_groom_desc* desc, hair_
 
 hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
 {
-    hair_host       host = HAIR_HOST_OF(desc);
+    hair_host host = HAIR_HOST_OF(desc);
     hair_groom_desc own;
-    hair_import     import;
-    hair_map_set    maps[HAIR_MAP_SETS];
-    hair_result     result = HAIR_TAKE(&host, hair_groom_desc, desc, &own);
+    hair_import import;
+    hair_map_set maps[HAIR_MAP_SETS];
+    hair_result result = HAIR_TAKE(&host, hair_groom_desc, desc, &own);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
     if (!result) result = check_arrays(&host, &own);
     if (!result) result = take_maps(&host, &own, maps);

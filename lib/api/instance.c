@@ -54,19 +54,19 @@ static void tell_softened(hair_instance* hair)
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
                         const hair_desc* desc)
 {
-    const hair_host* host    = &context->host;
-    hair->context            = context;
-    hair->max_dt             = (double)desc->max_dt;
-    hair->sim.asked_substep  = (double)desc->substep;
+    const hair_host* host = &context->host;
+    hair->context = context;
+    hair->max_dt = (double)desc->max_dt;
+    hair->sim.asked_substep = (double)desc->substep;
     hair->sim.contacts.forms = &context->forms;
-    hair->sim.solver         = desc->solver;
-    hair->draw.hits.prepass  = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
+    hair->sim.solver = desc->solver;
+    hair->draw.hits.prepass = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
     hair->sim.by_thread =
         desc->solver != HAIR_SOLVER_REDBLACK &&
         (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
     hair->sim.diagnosis.wanted = desc->diagnose != 0;
     hair->sim.feedback.wanted = desc->mapping == HAIR_MAPPING_FEEDBACK;
-    hair->sim.wind            = hair_wind_default();
+    hair->sim.wind = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
@@ -82,7 +82,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
-    hair->longest    = hair_find_reach(groom, hair->reach);
+    hair->longest = hair_find_reach(groom, hair->reach);
     hair_vec3 middle = hair_lerp(hair->reach[0], hair->reach[1], 0.5f);
     hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->reach[1])};
     hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
@@ -104,8 +104,8 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 {
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
-    hair_desc        own;
-    hair_result      result = HAIR_TAKE(host, hair_desc, desc, &own);
+    hair_desc own;
+    hair_result result = HAIR_TAKE(host, hair_desc, desc, &own);
     if (result) return result;
     if (!groom) return hair_fail(host, HAIR_ERROR_ARGUMENT, "groom is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
@@ -135,7 +135,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_physics own;
-    hair_result  result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
+    hair_result result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
     if (own.margin != hair->sim.physics.margin) hair->draw.hits.fresh = 0;
     hair->sim.physics = own;
@@ -145,7 +145,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_look   own;
+    hair_look own;
     hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
     if (result) return result;
     hair_look_soak(&own);
@@ -158,7 +158,7 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result      result = hair_check_transform(hair, "transform", transform, &pose);
+    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) hair->sim.head = pose;
     return result;
 }
@@ -166,9 +166,9 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    const hair_host* host     = &hair->context->host;
-    hair_result      result   = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
-    uint32_t         contacts = hair_sim_contacts(&hair->sim);
+    const hair_host* host = &hair->context->host;
+    hair_result result = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
+    uint32_t contacts = hair_sim_contacts(&hair->sim);
     if (hair->sim.solids.changed) hair->draw.hits.fresh = 0;
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
@@ -193,9 +193,9 @@ hair_result hair_step(hair_instance* hair, float dt)
             hair_log(&context->host, HAIR_LOG_WARNING, "%s: dt is %g s, beyond max_dt %g s: time slows",
                      hair->label, time, hair->max_dt);
         hair->has_slowed = 1;
-        time             = hair->max_dt;
+        time = hair->max_dt;
     }
-    double unseen    = hair->sim.unseen;
+    double unseen = hair->sim.unseen;
     hair->sim.unseen = fmin(unseen + time, 1);
     if (hair_sleep_through(&hair->sim, time)) {
         hair_begin_frame(hair);
@@ -207,8 +207,8 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->sim.unseen = unseen;
         return result;
     }
-    struct hair_gl_ledger was   = hair->ledger;
-    struct hair_asked     asked = hair->asked[(was.number + 1) % HAIR_GL_FRAMES];
+    struct hair_gl_ledger was = hair->ledger;
+    struct hair_asked asked = hair->asked[(was.number + 1) % HAIR_GL_FRAMES];
     hair_enter(hair);
     hair_begin_frame(hair);
     if (hair_blow_is_on(&hair->sim)) {
@@ -227,7 +227,7 @@ hair_result hair_step(hair_instance* hair, float dt)
         *hair_asked_now(hair) = asked;
         for (int i = 0; i < HAIR_GL_FRAMES; ++i)
             memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);
-        hair->ledger     = was;
+        hair->ledger = was;
         hair->sim.unseen = unseen;
     }
     return result;
@@ -240,7 +240,7 @@ hair_result hair_reset(hair_instance* hair)
     if (result) return result;
     hair_enter(hair);
     hair_sim_reset(&hair->sim);
-    hair->smooth.done       = 0;
+    hair->smooth.done = 0;
     hair->draw.motion.shown = 0;
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
@@ -250,12 +250,12 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result      result = hair_check_transform(hair, "transform", transform, &pose);
+    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     hair_enter(hair);
     struct hair_pose was = hair->sim.at_step;
-    result               = hair_sim_teleport(&hair->sim, &pose);
+    result = hair_sim_teleport(&hair->sim, &pose);
     if (!result) {
         hair_draw_take_along(&hair->draw, &was, &pose);
         hair->smooth.done = 0;

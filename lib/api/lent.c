@@ -52,8 +52,8 @@ static int is_depth(const struct hair_gl* gl, GLuint texture)
 
 static hair_result check_depth(const hair_instance* hair, const hair_view* view)
 {
-    const struct hair_gl* gl      = &hair->context->gl;
-    GLuint                texture = view->depth_texture;
+    const struct hair_gl* gl = &hair->context->gl;
+    GLuint texture = view->depth_texture;
     if (!hair_draw_hides(view)) return HAIR_OK;
     if (find_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,

@@ -18,82 +18,82 @@ const char* hair_look_name(hair_look_kind kind)
 
 static void wave(hair_look* look)
 {
-    look->clump           = (hair_curve){{0, 0.15f, 0.35f, 0.5f, 0.6f, 0.68f, 0.74f, 0.8f}};
-    look->curl_radius     = 0.009f;
-    look->curl_profile    = (hair_curve){{0, 0.15f, 0.45f, 0.8f, 1, 1.1f, 1.1f, 1}};
+    look->clump = (hair_curve){{0, 0.15f, 0.35f, 0.5f, 0.6f, 0.68f, 0.74f, 0.8f}};
+    look->curl_radius = 0.009f;
+    look->curl_profile = (hair_curve){{0, 0.15f, 0.45f, 0.8f, 1, 1.1f, 1.1f, 1}};
     look->curl_wavelength = 0.085f;
-    look->curl_flatness   = 0.4f;
+    look->curl_flatness = 0.4f;
     look->curl_lock_phase = 0.5f;
-    look->curl_phase      = 0.06f;
-    look->curl_spread     = 0.08f;
-    look->curl_left       = 0.5f;
+    look->curl_phase = 0.06f;
+    look->curl_spread = 0.08f;
+    look->curl_left = 0.5f;
 }
 
 static void curl(hair_look* look)
 {
-    look->clump           = (hair_curve){{0, 0.35f, 0.65f, 0.82f, 0.9f, 0.94f, 0.96f, 0.97f}};
-    look->clump_width     = (hair_curve){{1, 0.95f, 0.8f, 0.65f, 0.55f, 0.5f, 0.5f, 0.55f}};
-    look->curl_radius     = 0.012f;
-    look->curl_profile    = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
+    look->clump = (hair_curve){{0, 0.35f, 0.65f, 0.82f, 0.9f, 0.94f, 0.96f, 0.97f}};
+    look->clump_width = (hair_curve){{1, 0.95f, 0.8f, 0.65f, 0.55f, 0.5f, 0.5f, 0.55f}};
+    look->curl_radius = 0.012f;
+    look->curl_profile = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
     look->curl_wavelength = 0.05f;
-    look->curl_phase      = 0.08f;
-    look->curl_spread     = 0.05f;
-    look->curl_left       = 0.5f;
-    look->tip_strays      = 0.4f;
+    look->curl_phase = 0.08f;
+    look->curl_spread = 0.05f;
+    look->curl_left = 0.5f;
+    look->tip_strays = 0.4f;
 }
 
 static void coil(hair_look* look)
 {
-    look->clump           = (hair_curve){{0, 0.3f, 0.5f, 0.65f, 0.75f, 0.8f, 0.85f, 0.9f}};
-    look->curl_radius     = 0.0045f;
-    look->curl_profile    = (hair_curve){{0, 0.8f, 1, 1, 1, 1, 1, 0.9f}};
+    look->clump = (hair_curve){{0, 0.3f, 0.5f, 0.65f, 0.75f, 0.8f, 0.85f, 0.9f}};
+    look->curl_radius = 0.0045f;
+    look->curl_profile = (hair_curve){{0, 0.8f, 1, 1, 1, 1, 1, 0.9f}};
     look->curl_wavelength = 0.018f;
-    look->curl_phase      = 0.2f;
-    look->curl_spread     = 0.15f;
-    look->curl_left       = 0.5f;
-    look->strays          = 0.25f;
+    look->curl_phase = 0.2f;
+    look->curl_spread = 0.15f;
+    look->curl_left = 0.5f;
+    look->strays = 0.25f;
 }
 
 static void frizz(hair_look* look)
 {
-    look->clump      = (hair_curve){{0, 0, 0.03f, 0.08f, 0.14f, 0.2f, 0.25f, 0.3f}};
+    look->clump = (hair_curve){{0, 0, 0.03f, 0.08f, 0.14f, 0.2f, 0.25f, 0.3f}};
     look->tip_strays = 0.5f;
-    look->tip_stray  = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
-    look->strays     = 0.35f;
-    look->stray      = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
-    look->frizz      = (hair_curve){{0, 0.0012f, 0.0022f, 0.003f, 0.0035f, 0.004f, 0.0045f, 0.005f}};
-    look->kink       = 0.012f;
+    look->tip_stray = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
+    look->strays = 0.35f;
+    look->stray = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
+    look->frizz = (hair_curve){{0, 0.0012f, 0.0022f, 0.003f, 0.0035f, 0.004f, 0.0045f, 0.005f}};
+    look->kink = 0.012f;
 }
 
 hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
 {
     // By 0.4 m of hair: eight segments a turn.
-    static const uint32_t segments[] = {[HAIR_LOOK_WAVY]   = 64,
-                                        [HAIR_LOOK_CURLY]  = 96,
-                                        [HAIR_LOOK_COILY]  = 192,
+    static const uint32_t segments[] = {[HAIR_LOOK_WAVY] = 64,
+                                        [HAIR_LOOK_CURLY] = 96,
+                                        [HAIR_LOOK_COILY] = 192,
                                         [HAIR_LOOK_FRIZZY] = 96,
-                                        [HAIR_LOOK_SHORT]  = 0};
+                                        [HAIR_LOOK_SHORT] = 0};
     if (!look || (unsigned)kind >= HAIR_LOOK_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
-    hair_look       own, fresh = hair_look_default();
-    hair_result     result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_look own, fresh = hair_look_default();
+    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
     if (result) return result;
     // What makes the way of a strand lies together.
     size_t first = offsetof(hair_look, taper), end = offsetof(hair_look, absorption);
     memcpy((char*)&own + first, (char*)&fresh + first, end - first);
     if (kind == HAIR_LOOK_STRAIGHT) {
         own.tip_strays = 0.1f;
-        own.strays     = 0;
-        own.clump      = hair_curve_line(0, 0.4f);
+        own.strays = 0;
+        own.clump = hair_curve_line(0, 0.4f);
     }
     if (kind == HAIR_LOOK_WAVY) wave(&own);
     if (kind == HAIR_LOOK_CURLY) curl(&own);
     if (kind == HAIR_LOOK_COILY) coil(&own);
     if (kind == HAIR_LOOK_FRIZZY) frizz(&own);
     if (kind == HAIR_LOOK_SHORT) {
-        own.length     = 0.32f;
-        own.thinning   = 0.3f;
-        own.clump      = hair_curve_line(0, 0.25f);
+        own.length = 0.32f;
+        own.thinning = 0.3f;
+        own.clump = hair_curve_line(0, 0.25f);
         own.tip_strays = 0.5f;
     }
     if (own.segments < segments[kind]) own.segments = segments[kind];
@@ -102,17 +102,17 @@ hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
 
 static const struct {
     const char* name;
-    float       root[3], tip[3], spread;
+    float root[3], tip[3], spread;
 } colors[] = {
-    [HAIR_COLOR_BROWN]      = {"brown", {0.13f, 0.055f, 0.024f}, {0.26f, 0.13f, 0.06f}, 0.4f},
+    [HAIR_COLOR_BROWN] = {"brown", {0.13f, 0.055f, 0.024f}, {0.26f, 0.13f, 0.06f}, 0.4f},
     [HAIR_COLOR_DARK_BROWN] = {"dark_brown", {0.05f, 0.024f, 0.014f}, {0.09f, 0.046f, 0.027f}, 0.35f},
-    [HAIR_COLOR_BLACK]      = {"black", {0.011f, 0.01f, 0.01f}, {0.018f, 0.0163f, 0.017f}, 0.3f},
-    [HAIR_COLOR_BLOND]      = {"blond", {0.54f, 0.37f, 0.18f}, {0.72f, 0.55f, 0.31f}, 0.3f},
-    [HAIR_COLOR_RED]        = {"red", {0.2f, 0.045f, 0.012f}, {0.34f, 0.095f, 0.028f}, 0.35f},
-    [HAIR_COLOR_AUBURN]     = {"auburn", {0.1f, 0.03f, 0.015f}, {0.17f, 0.056f, 0.029f}, 0.35f},
-    [HAIR_COLOR_GRAY]       = {"gray", {0.25f, 0.25f, 0.255f}, {0.38f, 0.38f, 0.385f}, 0.6f},
-    [HAIR_COLOR_WHITE]      = {"white", {0.86f, 0.85f, 0.815f}, {0.9f, 0.89f, 0.86f}, 0.15f},
-    [HAIR_COLOR_BLUE]       = {"blue", {0.016f, 0.045f, 0.17f}, {0.03f, 0.11f, 0.34f}, 0.3f},
+    [HAIR_COLOR_BLACK] = {"black", {0.011f, 0.01f, 0.01f}, {0.018f, 0.0163f, 0.017f}, 0.3f},
+    [HAIR_COLOR_BLOND] = {"blond", {0.54f, 0.37f, 0.18f}, {0.72f, 0.55f, 0.31f}, 0.3f},
+    [HAIR_COLOR_RED] = {"red", {0.2f, 0.045f, 0.012f}, {0.34f, 0.095f, 0.028f}, 0.35f},
+    [HAIR_COLOR_AUBURN] = {"auburn", {0.1f, 0.03f, 0.015f}, {0.17f, 0.056f, 0.029f}, 0.35f},
+    [HAIR_COLOR_GRAY] = {"gray", {0.25f, 0.25f, 0.255f}, {0.38f, 0.38f, 0.385f}, 0.6f},
+    [HAIR_COLOR_WHITE] = {"white", {0.86f, 0.85f, 0.815f}, {0.9f, 0.89f, 0.86f}, 0.15f},
+    [HAIR_COLOR_BLUE] = {"blue", {0.016f, 0.045f, 0.17f}, {0.03f, 0.11f, 0.34f}, 0.3f},
 };
 
 const char* hair_color_name(hair_color color)
@@ -124,8 +124,8 @@ hair_result hair_look_color(hair_look* look, hair_color color)
 {
     if (!look || (unsigned)color >= HAIR_COLOR_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
-    hair_look       own;
-    hair_result     result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_look own;
+    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
     if (result) return result;
     memcpy(own.root_color, colors[color].root, sizeof own.root_color);
     memcpy(own.tip_color, colors[color].tip, sizeof own.tip_color);
@@ -137,9 +137,9 @@ hair_result hair_look_color(hair_look* look, hair_color color)
 
 struct example {
     const float* positions;
-    uint32_t     vertices;
-    hair_vec3    first, x, z; // across its axis
-    float        length;
+    uint32_t vertices;
+    hair_vec3 first, x, z; // across its axis
+    float length;
 };
 
 static hair_vec3 vertex_of(const struct example* e, uint32_t i)
@@ -156,16 +156,16 @@ static void look_at(const struct example* e, float share, uint32_t* i, float* be
         ++*i;
         link = hair_distance(vertex_of(e, *i), vertex_of(e, *i + 1));
     }
-    float     along = link > 0 ? fminf((at - *before) / link, 1) : 0;
-    hair_vec3 p     = hair_lerp(vertex_of(e, *i), vertex_of(e, *i + 1), along);
-    out[0]          = hair_dot(p, e->x);
-    out[1]          = hair_dot(p, e->z);
+    float along = link > 0 ? fminf((at - *before) / link, 1) : 0;
+    hair_vec3 p = hair_lerp(vertex_of(e, *i), vertex_of(e, *i + 1), along);
+    out[0] = hair_dot(p, e->x);
+    out[1] = hair_dot(p, e->z);
 }
 
 // Its ends are on a line along its axis, so that it can be repeated; the axis goes through its middle.
 static void find_turn(const struct example* e, float turn[2][HAIR_TURN_PLACES], float* radius)
 {
-    float    mean[2] = {0, 0}, before = 0;
+    float mean[2] = {0, 0}, before = 0;
     uint32_t at = 0;
     for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
         float point[2];
@@ -194,17 +194,17 @@ hair_result hair_look_curl_like(hair_look* look, const float* positions, uint32_
 {
     if (!look || !is_usable(positions, vertex_count)) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
-    hair_look       own;
-    hair_result     result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_look own;
+    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
     if (result) return result;
 
-    struct example e     = {.positions = positions, .vertices = vertex_count, .first = hair_load3(positions)};
-    hair_vec3      chord = vertex_of(&e, vertex_count - 1);
-    float          axis  = hair_length(chord), turn[2][HAIR_TURN_PLACES];
+    struct example e = {.positions = positions, .vertices = vertex_count, .first = hair_load3(positions)};
+    hair_vec3 chord = vertex_of(&e, vertex_count - 1);
+    float axis = hair_length(chord), turn[2][HAIR_TURN_PLACES];
     if (!(axis >= 0.001f && axis <= 10)) return HAIR_ERROR_ARGUMENT;
     chord = hair_scale(chord, 1 / axis);
-    e.x   = hair_perpendicular(chord);
-    e.z   = hair_cross(e.x, chord);
+    e.x = hair_perpendicular(chord);
+    e.z = hair_cross(e.x, chord);
     for (uint32_t i = 0; i + 1 < vertex_count; ++i)
         e.length += hair_distance(vertex_of(&e, i), vertex_of(&e, i + 1));
     find_turn(&e, turn, &own.curl_radius);
@@ -214,8 +214,8 @@ hair_result hair_look_curl_like(hair_look* look, const float* positions, uint32_
         own.curl_x[i] = turn[0][i] / unit;
         own.curl_z[i] = turn[1][i] / unit;
     }
-    own.curls           = HAIR_CURLS_EXAMPLE;
+    own.curls = HAIR_CURLS_EXAMPLE;
     own.curl_wavelength = axis;
-    own.curl_turns      = 0;
+    own.curl_turns = 0;
     return HAIR_GIVE(&silent, hair_look, &own, look);
 }

@@ -5,13 +5,13 @@
 // makes the hair heavier. Frizz holds locks apart: they bend as something thicker than a hair.
 static const struct {
     const char* name;
-    float       radius, young, density, flatness, stiffness, damping, friction;
+    float radius, young, density, flatness, stiffness, damping, friction;
 } presets[] = {
     [HAIR_PRESET_NATURAL] = {"natural", 4e-5f, 4e9f, 1300, 1, 1, 4, 0.3f},
-    [HAIR_PRESET_FINE]    = {"fine", 2.7e-5f, 3.5e9f, 1300, 0.9f, 1, 6, 0.25f},
-    [HAIR_PRESET_THICK]   = {"thick", 5.5e-5f, 4.5e9f, 1300, 1, 1, 3, 0.3f},
-    [HAIR_PRESET_WET]     = {"wet", 4e-5f, 1.5e9f, 1800, 1, 1, 8, 0.8f},
-    [HAIR_PRESET_FRIZZY]  = {"frizzy", 4e-5f, 4e9f, 1300, 0.6f, 8, 7, 0.5f},
+    [HAIR_PRESET_FINE] = {"fine", 2.7e-5f, 3.5e9f, 1300, 0.9f, 1, 6, 0.25f},
+    [HAIR_PRESET_THICK] = {"thick", 5.5e-5f, 4.5e9f, 1300, 1, 1, 3, 0.3f},
+    [HAIR_PRESET_WET] = {"wet", 4e-5f, 1.5e9f, 1800, 1, 1, 8, 0.8f},
+    [HAIR_PRESET_FRIZZY] = {"frizzy", 4e-5f, 4e9f, 1300, 0.6f, 8, 7, 0.5f},
 };
 
 const char* hair_preset_name(hair_preset preset)
@@ -23,15 +23,15 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
 {
     if (!physics || (unsigned)preset >= HAIR_PRESET_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
-    hair_physics    own;
-    hair_result     result = HAIR_TAKE(&silent, hair_physics, physics, &own);
+    hair_physics own;
+    hair_result result = HAIR_TAKE(&silent, hair_physics, physics, &own);
     if (result) return result;
-    own.fiber_radius   = presets[preset].radius;
-    own.young          = presets[preset].young;
-    own.fiber_density  = presets[preset].density;
-    own.flatness       = presets[preset].flatness;
+    own.fiber_radius = presets[preset].radius;
+    own.young = presets[preset].young;
+    own.fiber_density = presets[preset].density;
+    own.flatness = presets[preset].flatness;
     own.stiffness_root = own.stiffness_tip = presets[preset].stiffness;
-    own.damping                            = presets[preset].damping;
-    own.friction                           = presets[preset].friction;
+    own.damping = presets[preset].damping;
+    own.friction = presets[preset].friction;
     return HAIR_GIVE(&silent, hair_physics, &own, physics);
 }

@@ -15,8 +15,8 @@ static void include(hair_vec3 at, float around, hair_vec3 bounds[2])
 float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2])
 {
     const hair_groom_info* info = &groom->info;
-    bounds[0]                   = hair_load3(info->lower);
-    bounds[1]                   = hair_load3(info->upper);
+    bounds[0] = hair_load3(info->lower);
+    bounds[1] = hair_load3(info->upper);
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         hair_vec4 root = groom->rest[groom->guides[i].first].position;
         include(hair_v3(root.x, root.y, root.z), GIVE * info->length[2], bounds);
@@ -29,7 +29,7 @@ static void include_ties(const hair_instance* hair, int world, hair_vec3 bounds[
 {
     for (uint32_t i = 0; i < hair->sim.ties.count; ++i) {
         const struct hair_knot* knot = &hair->sim.ties.knot[i];
-        const double*           at   = knot->place;
+        const double* at = knot->place;
         if (knot->world == world)
             include(hair_v3((float)at[0], (float)at[1], (float)at[2]), hair->longest, bounds);
     }
@@ -42,25 +42,25 @@ hair_result hair_get_reach(const hair_instance* hair, float lower[3], float uppe
         return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: lower or upper is NULL",
                          hair->label);
     const struct hair_pose *from = &hair->sim.at_step, *to = &hair->sim.head;
-    hair_quat               a = from->rotation, b = to->rotation;
-    hair_vec3               box[2] = {hair->reach[0], hair->reach[1]};
-    float                   far    = 0;
+    hair_quat a = from->rotation, b = to->rotation;
+    hair_vec3 box[2] = {hair->reach[0], hair->reach[1]};
+    float far = 0;
     include_ties(hair, 0, box);
     for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
     for (int i = 0; i < 16; ++i) { // The corners at both ends.
-        const struct hair_pose* head     = i < 8 ? from : to;
-        hair_vec3               corner   = hair_v3(box[i & 1].x, box[i >> 1 & 1].y, box[i >> 2 & 1].z);
-        hair_vec3               at       = hair_rotate(head->rotation, corner);
-        const float             turned[] = {at.x, at.y, at.z};
+        const struct hair_pose* head = i < 8 ? from : to;
+        hair_vec3 corner = hair_v3(box[i & 1].x, box[i >> 1 & 1].y, box[i >> 2 & 1].z);
+        hair_vec3 at = hair_rotate(head->rotation, corner);
+        const float turned[] = {at.x, at.y, at.z};
         for (int k = 0; k < 3; ++k) {
             float place = (float)(head->position[k] + (double)turned[k]);
-            lower[k]    = fminf(lower[k], place);
-            upper[k]    = fmaxf(upper[k], place);
+            lower[k] = fminf(lower[k], place);
+            upper[k] = fmaxf(upper[k], place);
         }
         far = fmaxf(far, hair_length(corner));
     }
     // Between them a corner bulges out of its chord by r (1 - cos(half the turn)).
-    float     bulge    = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
+    float bulge = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
     hair_vec3 whole[2] = {hair_sub(hair_load3(lower), hair_v3(bulge, bulge, bulge)),
                           hair_add(hair_load3(upper), hair_v3(bulge, bulge, bulge))};
     include_ties(hair, 1, whole);

@@ -79,9 +79,9 @@ static hair_why why_not_simulated(const struct hair_asked* asked, int wanted)
 
 static hair_why why_not(const hair_instance* hair, const struct hair_asked* asked, hair_gl_work work)
 {
-    const struct hair_sim* sim   = &hair->sim;
-    hair_why               shown = why_not_shown(asked);
-    int                    skin  = hair_skin_is_on(sim);
+    const struct hair_sim* sim = &hair->sim;
+    hair_why shown = why_not_shown(asked);
+    int skin = hair_skin_is_on(sim);
     switch (work) {
     case HAIR_GL_WORK_SCALP: return skin ? HAIR_WHY_NOT_CALLED : HAIR_WHY_NOT_WANTED;
     case HAIR_GL_WORK_RIDE: return why_not_simulated(asked, skin);
@@ -114,47 +114,47 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
 // Buffers of an instance by what they are for; those that are not there are 0.
 static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
 {
-    const struct hair_sim*   sim                                  = &hair->sim;
-    const struct hair_draw*  draw                                 = &hair->draw;
-    const struct hair_fluid* air                                  = &sim->blow.fluid;
-    const struct hair_gl*    gl                                   = &hair->context->gl;
-    const GLuint             buffers[HAIR_GL_WORKS][MOST_BUFFERS] = {
-                    [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
-                    [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
-                    [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
-                                           air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
-                                           air->pressure[0].buffer, air->pressure[1].buffer, air->params,
-                                           air->level_params, air->motion, air->hair.grid.buffer, air->hair.wall.buffer,
-                                           air->hair.open.buffer, sim->blow.share, sim->blow.params},
-                    [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
-                                            sim->crowd.push},
-                    [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
-                    [HAIR_GL_WORK_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params, sim->diagnosis.found,
-                                               sim->diagnosis.motion_params},
-                    [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
-                                            sim->history, sim->material, sim->reduction, sim->bend, sim->ties.buffer,
-                                            sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
-                    [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
-                    [HAIR_GL_WORK_FIELD]  = {hair->field.params, hair->field.work, sim->contacts.solid,
-                                             sim->contacts.cell},
-                    [HAIR_GL_WORK_HIT]    = {draw->hits.hit, draw->hits.list},
-                    [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
-                    [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->expanded.shaded,
-                                             draw->motion.buffer, draw->staged.buffer[0], draw->staged.buffer[1],
-                                             draw->staged.buffer[2]},
-                    [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
-                                            draw->self_shadow.light},
-                    [HAIR_GL_WORK_HIDE]  = {draw->hidden.params, draw->hidden.depth, draw->hidden.box},
-                    [HAIR_GL_WORK_LIST]  = {draw->listed.start, draw->listed.strand, draw->listed.command,
-                                            draw->listed.indices[0].index, draw->listed.indices[1].index},
-                    [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
-                                            draw->sorted.index, draw->uv, draw->paint, draw->raster.params,
-                                            draw->raster.nearest, draw->raster.tile},
+    const struct hair_sim* sim = &hair->sim;
+    const struct hair_draw* draw = &hair->draw;
+    const struct hair_fluid* air = &sim->blow.fluid;
+    const struct hair_gl* gl = &hair->context->gl;
+    const GLuint buffers[HAIR_GL_WORKS][MOST_BUFFERS] = {
+        [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
+        [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
+        [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
+                               air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
+                               air->pressure[0].buffer, air->pressure[1].buffer, air->params,
+                               air->level_params, air->motion, air->hair.grid.buffer, air->hair.wall.buffer,
+                               air->hair.open.buffer, sim->blow.share, sim->blow.params},
+        [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
+                                sim->crowd.push},
+        [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
+        [HAIR_GL_WORK_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params, sim->diagnosis.found,
+                                   sim->diagnosis.motion_params},
+        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
+                                sim->history, sim->material, sim->reduction, sim->bend, sim->ties.buffer,
+                                sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
+        [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
+        [HAIR_GL_WORK_FIELD] = {hair->field.params, hair->field.work, sim->contacts.solid,
+                                sim->contacts.cell},
+        [HAIR_GL_WORK_HIT] = {draw->hits.hit, draw->hits.list},
+        [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
+        [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->expanded.shaded,
+                                 draw->motion.buffer, draw->staged.buffer[0], draw->staged.buffer[1],
+                                 draw->staged.buffer[2]},
+        [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
+                                draw->self_shadow.light},
+        [HAIR_GL_WORK_HIDE] = {draw->hidden.params, draw->hidden.depth, draw->hidden.box},
+        [HAIR_GL_WORK_LIST] = {draw->listed.start, draw->listed.strand, draw->listed.command,
+                               draw->listed.indices[0].index, draw->listed.indices[1].index},
+        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
+                                draw->sorted.index, draw->uv, draw->paint, draw->raster.params,
+                                draw->raster.nearest, draw->raster.tile},
     };
     const GLuint textures[HAIR_GL_WORKS][MOST_TEXTURES] = {
-        [HAIR_GL_WORK_WIND]  = {air->air, sim->air.gusts},
+        [HAIR_GL_WORK_WIND] = {air->air, sim->air.gusts},
         [HAIR_GL_WORK_FIELD] = {hair->field.distance, hair->field.number},
-        [HAIR_GL_WORK_HIT]   = {draw->hits.image},
+        [HAIR_GL_WORK_HIT] = {draw->hits.image},
         [HAIR_GL_WORK_COLOR] = {draw->fibres.texture},
     };
     uint64_t bytes = 0;
@@ -179,8 +179,8 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
                               float ms)
 {
     const struct hair_asked* asked = &hair->asked[frame->number % HAIR_GL_FRAMES];
-    hair_report_row          row   = {
-                   .work = hair_gl_work_label(work), .runs = frame->runs[work], .ms = ms, .bytes = bytes_of(hair, work)};
+    hair_report_row row = {
+        .work = hair_gl_work_label(work), .runs = frame->runs[work], .ms = ms, .bytes = bytes_of(hair, work)};
     if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;
     row.why = row.runs ? HAIR_WHY_DONE : why_not(hair, asked, work);
     return row;
@@ -191,9 +191,9 @@ hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* i
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
-    hair_report_info own  = hair_report_info_default();
-    float            ms[HAIR_GL_WORKS];
-    hair_result      result = HAIR_GIVE(host, hair_report_info, &own, info);
+    hair_report_info own = hair_report_info_default();
+    float ms[HAIR_GL_WORKS];
+    hair_result result = HAIR_GIVE(host, hair_report_info, &own, info);
     if (result) return result;
     if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
     if (!rows && capacity)
@@ -205,10 +205,10 @@ hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* i
     result = hair_check_current(hair->context);
     if (result) return result;
     const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
-    *count                            = 0;
+    *count = 0;
     if (!frame) return HAIR_OK;
     own.frame = frame->number;
-    own.age   = hair->ledger.number - frame->number;
+    own.age = hair->ledger.number - frame->number;
     for (int work = 0; work < HAIR_GL_WORKS; ++work) {
         hair_report_row row = row_of(hair, frame, (hair_gl_work)work, ms[work]);
         own.ms += row.ms;

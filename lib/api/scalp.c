@@ -7,9 +7,9 @@
 static hair_result check(const hair_instance* hair, size_t stride, const float* to_world,
                          struct hair_pose* space)
 {
-    const hair_host*         host  = &hair->context->host;
+    const hair_host* host = &hair->context->host;
     const struct hair_seats* seats = hair->sim.skin.seats;
-    *space                         = (struct hair_pose){.rotation = {0, 0, 0, 1}};
+    *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
     if (!seats) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
     if (stride < 12 || stride > LONGEST || stride % 4)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
@@ -22,9 +22,9 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
 static float* take(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
                    hair_result* result)
 {
-    const hair_host* host   = &hair->context->host;
-    float*           packed = hair_alloc(host, count, 3 * sizeof *packed);
-    *result                 = packed ? HAIR_OK : hair_fail_memory(host, "the scalp");
+    const hair_host* host = &hair->context->host;
+    float* packed = hair_alloc(host, count, 3 * sizeof *packed);
+    *result = packed ? HAIR_OK : hair_fail_memory(host, "the scalp");
     for (uint32_t i = 0; i < count && !*result; ++i) {
         const float* p = positions + i * (stride / sizeof *positions);
         for (int k = 0; k < 3; ++k) packed[3 * (size_t)i + (size_t)k] = p[k];
@@ -65,9 +65,9 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
 static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size_t offset, size_t stride,
                                 size_t* from, size_t* size)
 {
-    const struct hair_gl* gl  = &hair->context->gl;
-    GLint64               has = 0, mapped = 0, access = 0;
-    GLint                 most = 0, align = 1;
+    const struct hair_gl* gl = &hair->context->gl;
+    GLint64 has = 0, mapped = 0, access = 0;
+    GLint most = 0, align = 1;
     if (!buffer || !gl->IsBuffer(buffer)) // Asking what is none would raise the host's error flag.
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
                          buffer);
@@ -100,8 +100,8 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose space;
-    size_t           from = 0, size = 0;
-    hair_result      result = check(hair, stride, to_world, &space);
+    size_t from = 0, size = 0;
+    hair_result result = check(hair, stride, to_world, &space);
     if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
     if (result) return result;
     hair_enter(hair);

@@ -42,19 +42,19 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
 
 // What a caller lends a view, checked and copied.
 struct loan {
-    hair_lod   lod;
+    hair_lod lod;
     hair_light light[HAIR_LIGHTS];
 };
 
 // They lie as far apart as the caller's are long.
 static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_light light[HAIR_LIGHTS])
 {
-    const hair_host* host    = &hair->context->host;
-    hair_light       usual   = hair_light_default();
-    const char*      at      = (const char*)view->lights;
-    size_t           stride  = at ? view->lights->made.size : 0;
-    uint32_t         shadows = 0;
-    hair_result      result  = HAIR_OK;
+    const hair_host* host = &hair->context->host;
+    hair_light usual = hair_light_default();
+    const char* at = (const char*)view->lights;
+    size_t stride = at ? view->lights->made.size : 0;
+    uint32_t shadows = 0;
+    hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < view->light_count && !result; ++i) {
         result = HAIR_TAKE(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
         if (!result) result = check_light(hair, &light[i], i);
@@ -81,10 +81,10 @@ static hair_result check_sky(const hair_instance* hair, const float* sky)
 static hair_result take_view(const hair_instance* hair, const hair_view* view, hair_view* own,
                              struct loan* loan)
 {
-    const hair_host* host   = &hair->context->host;
-    hair_result      result = HAIR_TAKE(host, hair_view, view, own);
+    const hair_host* host = &hair->context->host;
+    hair_result result = HAIR_TAKE(host, hair_view, view, own);
     if (!result && own->lod) {
-        result   = HAIR_TAKE(host, hair_lod, own->lod, &loan->lod);
+        result = HAIR_TAKE(host, hair_lod, own->lod, &loan->lod);
         own->lod = &loan->lod;
     }
     if (!result && own->shader && own->shader->context != hair->context)
@@ -109,8 +109,8 @@ static hair_result check_framebuffer(const hair_instance* hair)
 // Only a slice needs the field, and forms, which shaders read from where the field has put them.
 static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_solid_list* list   = &hair->sim.solids.now;
-    int                           needed = view->slice != HAIR_SLICE_NONE;
+    const struct hair_solid_list* list = &hair->sim.solids.now;
+    int needed = view->slice != HAIR_SLICE_NONE;
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->solid[i].form != NULL;
     hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
     if (!result)
@@ -121,7 +121,7 @@ static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 
 static hair_result draw_air(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_sim*   sim   = &hair->sim;
+    const struct hair_sim* sim = &hair->sim;
     const struct hair_fluid* fluid = sim->air.box.w > 0 ? &sim->blow.fluid : NULL;
     if (!sim->air.params) return HAIR_OK;
     return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
@@ -135,10 +135,10 @@ static hair_result meet_solids(hair_instance* hair)
     if (hair_draw_has_met_solids(draw, &hair->smooth)) return HAIR_OK;
     if (draw->led <= 0) {
         hair_result result = draw->look.shadow == HAIR_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        draw->hits.field   = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+        draw->hits.field = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
         return result;
     }
-    int         wanted = draw->look.collision != HAIR_COLLISION_NONE && draw->followers;
+    int wanted = draw->look.collision != HAIR_COLLISION_NONE && draw->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
@@ -176,7 +176,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
 {
     struct hair_asked* asked = hair_asked_now(hair);
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
-    int kind   = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
+    int kind = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
     int unseen = is_out_of_view(hair, view);
     ++asked->views[kind];
     asked->unseen[kind] += (uint32_t)unseen;
@@ -190,9 +190,9 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
-    hair_view     own;
-    struct loan   loan;
-    hair_result   result = take_view(hair, view, &own, &loan);
+    hair_view own;
+    struct loan loan;
+    hair_result result = take_view(hair, view, &own, &loan);
     if (!result) result = hair_check_current(context);
     if (!result) result = hair_check_lent(hair, &own);
     if (!result) result = check_framebuffer(hair);
@@ -220,10 +220,10 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
 
 static hair_result need_programs(hair_instance* hair, const hair_view* view)
 {
-    struct hair_gl*        gl     = &hair->context->gl;
-    const struct hair_sim* sim    = &hair->sim;
-    int                    solids = sim->solids.now.count > 0, shows = view->pass == HAIR_PASS_SOLIDS;
-    hair_result            result = HAIR_OK;
+    struct hair_gl* gl = &hair->context->gl;
+    const struct hair_sim* sim = &hair->sim;
+    int solids = sim->solids.now.count > 0, shows = view->pass == HAIR_PASS_SOLIDS;
+    hair_result result = HAIR_OK;
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_need(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND) return sim->air.params ? hair_gl_need(gl, HAIR_GL_AIR) : HAIR_OK;
     if (solids && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
@@ -239,9 +239,9 @@ hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* r
 {
     if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
-    hair_view       own;
-    struct loan     loan;
-    hair_result     result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
+    hair_view own;
+    struct loan loan;
+    hair_result result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     if (view) own.path = hair_draw_path(&hair->draw, &own);
@@ -266,8 +266,8 @@ static void copy_to_world(const float* from, size_t stride, uint32_t count, cons
 static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t count, size_t stride,
                                const struct hair_pose* head, float* positions)
 {
-    struct hair_gl* gl   = &hair->context->gl;
-    float*          copy = hair_alloc(&gl->host, count, stride * sizeof *copy);
+    struct hair_gl* gl = &hair->context->gl;
+    float* copy = hair_alloc(&gl->host, count, stride * sizeof *copy);
     if (!copy) return hair_fail_memory(&gl->host, "the vertices to read");
     gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * stride * sizeof *copy), copy);
     copy_to_world(copy, stride, count, head, positions);
@@ -311,7 +311,7 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     if (result) return result;
 
     const struct hair_sim* sim = &hair->sim;
-    uint64_t               all = 0;
+    uint64_t all = 0;
     switch (what) {
     case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
     case HAIR_READ_SMOOTH: all = hair->smooth.vertices; break;
@@ -323,7 +323,7 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     if (all > UINT32_MAX)
         return hair_fail(host, HAIR_ERROR_MEMORY, "%s: %llu vertices are too many to read", hair->label,
                          (unsigned long long)all);
-    *count          = (uint32_t)all;
+    *count = (uint32_t)all;
     uint32_t number = *count < capacity ? *count : capacity;
     if (number == 0) return HAIR_OK;
     hair->sim.unseen = 0;

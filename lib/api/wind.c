@@ -26,9 +26,9 @@ static hair_result check_source(const hair_instance* hair, uint32_t i, const hai
 // Binding what is no texture would raise the host's error flag.
 static hair_result check_texture(const hair_instance* hair, GLuint texture)
 {
-    const struct hair_gl* gl     = &hair->context->gl;
-    GLint                 target = 0;
-    hair_result           result = hair_check_current(hair->context);
+    const struct hair_gl* gl = &hair->context->gl;
+    GLint target = 0;
+    hair_result result = hair_check_current(hair->context);
     if (result) return result;
     if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
     if (target == GL_TEXTURE_3D) return HAIR_OK;
@@ -40,22 +40,22 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
-    hair_wind        own;
+    hair_wind own;
     hair_wind_source sources[HAIR_WIND_SOURCES] = {0};
-    hair_result      result                     = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
+    hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
     if (!result && own.source_count && !own.sources)
         result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
                            hair->label, own.source_count);
     for (uint32_t i = 0; !result && i < own.source_count; ++i) {
         sources[i] = own.sources[i];
-        result     = check_source(hair, i, &sources[i]);
+        result = check_source(hair, i, &sources[i]);
     }
     if (!result && own.texture) result = check_texture(hair, own.texture);
     if (result) return result;
     if (memcmp(hair->sim.air.source, sources, own.source_count * sizeof *sources) != 0)
         hair_sleep_stir(&hair->sim);
     memcpy(hair->sim.air.source, sources, own.source_count * sizeof *sources);
-    own.sources    = own.source_count ? hair->sim.air.source : NULL;
+    own.sources = own.source_count ? hair->sim.air.source : NULL;
     hair->sim.wind = own;
     return HAIR_OK;
 }

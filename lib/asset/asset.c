@@ -25,8 +25,8 @@ hair_result hair_check_section(const struct hair_source* source, const char* wha
 hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
                                   uint32_t vertex_count)
 {
-    strands->positions    = hair_alloc(host, vertex_count, 3 * sizeof *strands->positions);
-    strands->vertices     = hair_alloc(host, strand_count, sizeof *strands->vertices);
+    strands->positions = hair_alloc(host, vertex_count, 3 * sizeof *strands->positions);
+    strands->vertices = hair_alloc(host, strand_count, sizeof *strands->vertices);
     strands->strand_count = strand_count;
     strands->vertex_count = vertex_count;
     if (strands->positions && strands->vertices) return HAIR_OK;
@@ -38,8 +38,8 @@ static bool read_colors_of(const unsigned char* at, size_t size, uint32_t vertic
     bool fit = true;
     for (uint32_t i = 0; i < vertices; ++i)
         for (size_t c = 0; c < 3; ++c) {
-            float value               = hair_read_float(at + size * i + 4 * c);
-            fit                       = fit && value >= 0 && value <= 1;
+            float value = hair_read_float(at + size * i + 4 * c);
+            fit = fit && value >= 0 && value <= 1;
             colors[3 * (size_t)i + c] = hair_from_srgb(value);
         }
     return fit;
@@ -48,11 +48,11 @@ static bool read_colors_of(const unsigned char* at, size_t size, uint32_t vertic
 hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t size,
                              struct hair_strands* strands)
 {
-    uint32_t most  = 0;
-    size_t   first = 0;
+    uint32_t most = 0;
+    size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i)
         if (strands->vertices[i] > most) most = strands->vertices[i];
-    float* own      = hair_alloc(source->host, most, 3 * sizeof *own);
+    float* own = hair_alloc(source->host, most, 3 * sizeof *own);
     strands->colors = hair_alloc(source->host, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof *own);
     hair_result result =
         own && strands->colors ? HAIR_OK : hair_fail_memory(source->host, "the colours of a file");
@@ -78,7 +78,7 @@ unsigned char* hair_write_colors(const struct hair_strands* strands, int channel
     const float* p = strands->positions;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         uint32_t vertices = strands->vertices[i];
-        double   length = hair_strand_length(p, vertices), passed = 0;
+        double length = hair_strand_length(p, vertices), passed = 0;
         for (uint32_t k = 0; k < vertices; ++k, p += 3) {
             float color[3];
             if (k) passed += hair_strand_length(p - 3, 2);
@@ -127,9 +127,9 @@ static hair_result decode(const struct hair_source* source, hair_asset* asset)
 {
     hair_result result = decode_raw(source, asset);
     if (result) return result;
-    asset->file_strands  = asset->strands.strand_count;
+    asset->file_strands = asset->strands.strand_count;
     asset->file_vertices = asset->strands.vertex_count;
-    result               = hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs);
+    result = hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs);
     return result ? result : check_cleaned(source, asset);
 }
 
@@ -141,7 +141,7 @@ hair_result hair_asset_decode(const hair_host* host, const hair_import* import, 
     asset->host = *host;
 
     struct hair_source source = {host, import, bytes, size};
-    hair_result        result = decode(&source, asset);
+    hair_result result = decode(&source, asset);
     if (result)
         hair_asset_free(asset);
     else
@@ -156,7 +156,7 @@ hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void*
     if (!hairfile && format != HAIR_FORMAT_TFX4)
         return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
                          "format is %u, not HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4", (unsigned)format);
-    size_t      needed;
+    size_t needed;
     hair_result result = hairfile ? hair_size_hairfile(asset, &needed) : hair_size_tfx4(asset, &needed);
     if (result) return result;
     *size = needed;

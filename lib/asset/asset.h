@@ -6,15 +6,15 @@
 #include "lib/asset/strands.h"
 
 struct hair_asset {
-    hair_host           host;
-    hair_format         format;
-    hair_strands_are    strands_are;
+    hair_host host;
+    hair_format format;
+    hair_strands_are strands_are;
     struct hair_strands strands;
-    float*              scalp_positions; // xyz per vertex; NULL: none
-    uint32_t*           scalp_triangles;
-    uint32_t            scalp_vertex_count, scalp_triangle_count;
-    uint32_t            file_strands, file_vertices;
-    hair_repairs        repairs;
+    float* scalp_positions; // xyz per vertex; NULL: none
+    uint32_t* scalp_triangles;
+    uint32_t scalp_vertex_count, scalp_triangle_count;
+    uint32_t file_strands, file_vertices;
+    hair_repairs repairs;
 };
 
 // `import` has been checked. On failure *out is untouched.
@@ -22,6 +22,6 @@ hair_result hair_asset_decode(const hair_host* host, const hair_import* import, 
                               size_t size, hair_asset** out);
 hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,
                               size_t* size);
-void        hair_asset_free(hair_asset* asset);
+void hair_asset_free(hair_asset* asset);
 
 #endif

@@ -16,15 +16,15 @@ void hair_strand_colors(const float* positions, uint32_t vertices, const float* 
 {
     double length = 0, passed = 0;
     for (uint32_t i = 1; i < vertices; ++i) length += segment(positions + 3 * (size_t)(i - 1));
-    uint32_t at   = 0; // the segment that the place is on
-    double   each = vertices > 1 ? segment(positions) : 0;
+    uint32_t at = 0; // the segment that the place is on
+    double each = vertices > 1 ? segment(positions) : 0;
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k) {
         double place = length * k / (HAIR_STRAND_COLORS - 1);
         while (at + 2 < vertices && place > passed + each) {
             passed += each;
             each = segment(positions + 3 * (size_t)++at);
         }
-        float        t = each > 0 ? (float)fmin(fmax((place - passed) / each, 0), 1) : 0;
+        float t = each > 0 ? (float)fmin(fmax((place - passed) / each, 0), 1) : 0;
         const float *a = colors + 3 * (size_t)at, *b = vertices > 1 ? a + 3 : a;
         for (int c = 0; c < 3; ++c) out[3 * k + c] = a[c] + t * (b[c] - a[c]);
     }
@@ -33,7 +33,7 @@ void hair_strand_colors(const float* positions, uint32_t vertices, const float* 
 void hair_strand_even_colors(const float* colors, uint32_t count, float* out)
 {
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k) {
-        float    at = (float)(count - 1) * (float)k / (HAIR_STRAND_COLORS - 1);
+        float at = (float)(count - 1) * (float)k / (HAIR_STRAND_COLORS - 1);
         uint32_t i = (uint32_t)at, j = i + 1 < count ? i + 1 : i;
         for (int c = 0; c < 3; ++c)
             out[3 * k + c] = colors[3 * i + (uint32_t)c] +
@@ -44,7 +44,7 @@ void hair_strand_even_colors(const float* colors, uint32_t count, float* out)
 void hair_strand_color_at(const float* colors, float t, float out[3])
 {
     float at = fminf(fmaxf(t, 0), 1) * (HAIR_STRAND_COLORS - 1);
-    int   i  = at < HAIR_STRAND_COLORS - 2 ? (int)at : HAIR_STRAND_COLORS - 2;
+    int i = at < HAIR_STRAND_COLORS - 2 ? (int)at : HAIR_STRAND_COLORS - 2;
     for (int c = 0; c < 3; ++c)
         out[c] = colors[3 * i + c] + (at - (float)i) * (colors[3 * i + 3 + c] - colors[3 * i + c]);
 }
@@ -63,7 +63,7 @@ void hair_strand_reverse_colors(float* colors)
 {
     for (int i = 0, j = HAIR_STRAND_COLORS - 1; i < j; ++i, --j)
         for (int c = 0; c < 3; ++c) {
-            float was         = colors[3 * i + c];
+            float was = colors[3 * i + c];
             colors[3 * i + c] = colors[3 * j + c];
             colors[3 * j + c] = was;
         }

@@ -10,10 +10,10 @@
 
 // A file being read.
 struct hair_source {
-    const hair_host*     host;
-    const hair_import*   import;
+    const hair_host* host;
+    const hair_import* import;
     const unsigned char* bytes;
-    size_t               size;
+    size_t size;
 };
 
 // Whether the first bytes are of the format.
@@ -31,8 +31,8 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
 // Bytes needed; HAIR_ERROR_ARGUMENT where the format cannot hold the asset.
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size);
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size);
-void        hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
-void        hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
+void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
+void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
 
 // Fails, naming `what`, unless `count` items of `size` bytes each lie within the file from `offset` on.
 hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,

@@ -47,9 +47,9 @@ static hair_result check_counts(const struct hair_source* source, const struct h
 static hair_result find_arrays(const struct hair_source* source, struct header* header, uint64_t* end)
 {
     const struct {
-        uint32_t    bit, count, size;
+        uint32_t bit, count, size;
         const char* what;
-        uint64_t*   at;
+        uint64_t* at;
     } arrays[] = {
         {SEGMENTS, header->strands, 2, "segments", &header->segments_at},
         {POINTS, header->vertices, 12, "points", &header->points_at},
@@ -97,12 +97,12 @@ static hair_result read_header(const struct hair_source* source, struct header* 
 {
     hair_result result = hair_check_section(source, "header", 0, HEADER, 1);
     if (result) return result;
-    header->strands  = hair_read_u32(source->bytes + 4);
+    header->strands = hair_read_u32(source->bytes + 4);
     header->vertices = hair_read_u32(source->bytes + 8);
-    header->arrays   = hair_read_u32(source->bytes + 12);
+    header->arrays = hair_read_u32(source->bytes + 12);
     header->segments = hair_read_u32(source->bytes + 16);
-    uint64_t end     = 0;
-    result           = check_counts(source, header);
+    uint64_t end = 0;
+    result = check_counts(source, header);
     if (!result) result = find_arrays(source, header, &end);
     if (!result) result = check_sum(source, header);
     if (!result && source->size > end && header->arrays <= KNOWN)
@@ -119,9 +119,9 @@ static hair_result read_radii(const struct hair_source* source, const struct hea
     if (!strands->radii) return hair_fail_memory(source->host, "the radii of a file");
     size_t first = 0;
     for (uint32_t i = 0; i < header->strands; ++i) {
-        size_t root   = source->import->tip_first ? first + strands->vertices[i] - 1 : first;
-        size_t at     = (size_t)header->thickness_at + 4 * root;
-        float  radius = 0.5f * hair_read_float(source->bytes + at);
+        size_t root = source->import->tip_first ? first + strands->vertices[i] - 1 : first;
+        size_t at = (size_t)header->thickness_at + 4 * root;
+        float radius = 0.5f * hair_read_float(source->bytes + at);
         if (!(radius >= 0 && radius * source->import->scale <= 1e6f)) {
             hair_log(source->host, HAIR_LOG_WARNING, "the thickness at byte %zu is %g: no thickness is used",
                      at, (double)(2 * radius));
@@ -137,13 +137,13 @@ static hair_result read_radii(const struct hair_source* source, const struct hea
 
 hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset)
 {
-    struct header        header  = {0};
+    struct header header = {0};
     struct hair_strands* strands = &asset->strands;
-    hair_result          result  = read_header(source, &header);
+    hair_result result = read_header(source, &header);
     if (!result) result = hair_strands_allocate(source->host, strands, header.strands, header.vertices);
     if (result) return result;
 
-    asset->format      = HAIR_FORMAT_HAIR;
+    asset->format = HAIR_FORMAT_HAIR;
     asset->strands_are = HAIR_STRANDS_ALL;
     for (uint32_t i = 0; i < header.strands; ++i) strands->vertices[i] = count_vertices(source, &header, i);
     const unsigned char* points = source->bytes + header.points_at;
@@ -158,14 +158,14 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size)
 {
     const struct hair_strands* strands = &asset->strands;
-    *size                              = HEADER + 2 * (size_t)strands->strand_count +
+    *size = HEADER + 2 * (size_t)strands->strand_count +
             (12 + (strands->radii ? 4u : 0) + (strands->colors ? 12u : 0)) * (size_t)strands->vertex_count;
     return HAIR_OK;
 }
 
 static unsigned char* write_header(const struct hair_strands* strands, unsigned char* at)
 {
-    static const char  info[88] = "hair: metres, +y up, root first";
+    static const char info[88] = "hair: metres, +y up, root first";
     static const float color[3] = {0.1f, 0.04f, 0.02f};
 
     memcpy(at, "HAIR", 4);
@@ -184,7 +184,7 @@ static unsigned char* write_header(const struct hair_strands* strands, unsigned 
 void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes)
 {
     const struct hair_strands* strands = &asset->strands;
-    unsigned char*             at      = write_header(strands, bytes);
+    unsigned char* at = write_header(strands, bytes);
     for (uint32_t i = 0; i < strands->strand_count; ++i) at = hair_write_u16(at, strands->vertices[i] - 1);
     for (size_t i = 0; i < 3 * (size_t)strands->vertex_count; ++i)
         at = hair_write_float(at, strands->positions[i]);

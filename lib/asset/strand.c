@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SHORTEST 1e-5         // m; a tenth of a hair's own width.
+#define SHORTEST 1e-5 // m; a tenth of a hair's own width.
 #define SHORTEST_SEGMENT 1e-5 // Of the strand's length.
 
 static double distance(const float* a, const float* b)
@@ -34,8 +34,8 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices)
 {
     // A second round finds nothing, but for what rounding of the length decides.
     for (;;) {
-        double   least = SHORTEST_SEGMENT * hair_strand_length(positions, vertices);
-        uint32_t kept  = vertices ? 1 : 0;
+        double least = SHORTEST_SEGMENT * hair_strand_length(positions, vertices);
+        uint32_t kept = vertices ? 1 : 0;
         for (size_t i = 1; i < vertices; ++i)
             if (distance(positions + 3 * ((size_t)kept - 1), positions + 3 * i) >= least)
                 copy_vertex(positions + 3 * (size_t)kept++, positions + 3 * i);
@@ -46,10 +46,10 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices)
 
 void hair_strand_resample(const float* positions, uint32_t vertices, float* out, uint32_t count)
 {
-    double   step    = hair_strand_length(positions, vertices) / (count - 1);
-    double   start   = 0; // Distance from the root at which `segment` starts.
+    double step = hair_strand_length(positions, vertices) / (count - 1);
+    double start = 0; // Distance from the root at which `segment` starts.
     uint32_t segment = 0;
-    double   length  = distance(positions, positions + 3);
+    double length = distance(positions, positions + 3);
     for (uint32_t i = 0; i + 1 < count; ++i) {
         double at = step * i;
         while (at > start + length && segment + 2 < vertices) {
@@ -66,11 +66,11 @@ void hair_strand_resample(const float* positions, uint32_t vertices, float* out,
 static uint32_t find_longest(const float* positions, uint32_t vertices)
 {
     uint32_t longest = 0;
-    double   length  = -1;
+    double length = -1;
     for (uint32_t i = 0; i + 1 < vertices; ++i) {
         double own = distance(positions + 3 * (size_t)i, positions + 3 * ((size_t)i + 1));
         if (own > length) {
-            length  = own;
+            length = own;
             longest = i;
         }
     }
@@ -81,7 +81,7 @@ void hair_strand_split(float* positions, uint32_t vertices, uint32_t count)
 {
     for (; vertices < count; ++vertices) {
         size_t longest = find_longest(positions, vertices);
-        float* tail    = positions + 3 * (longest + 1);
+        float* tail = positions + 3 * (longest + 1);
         memmove(tail + 3, tail, 3 * (vertices - longest - 1) * sizeof *tail);
         mix(tail - 3, tail + 3, 0.5, tail);
     }

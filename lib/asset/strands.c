@@ -86,21 +86,21 @@ static void cut(struct hair_strands* strands, struct kept kept)
 static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
 {
     uint32_t begin = (uint32_t)((uint64_t)run * count / wanted);
-    uint32_t end   = (uint32_t)(((uint64_t)run + 1) * count / wanted);
+    uint32_t end = (uint32_t)(((uint64_t)run + 1) * count / wanted);
     return begin + (uint32_t)((double)hair_random(random) * (end - begin));
 }
 
 static void thin_out(const hair_import* import, struct hair_strands* strands)
 {
-    uint32_t count  = strands->strand_count;
+    uint32_t count = strands->strand_count;
     uint32_t wanted = (uint32_t)((double)import->share * count + 0.5);
     if (wanted >= count) return;
     if (wanted == 0) wanted = 1;
 
-    uint32_t    random = import->seed;
-    uint32_t    drawn  = draw(count, wanted, 0, &random);
-    struct kept kept   = {0};
-    size_t      first  = 0;
+    uint32_t random = import->seed;
+    uint32_t drawn = draw(count, wanted, 0, &random);
+    struct kept kept = {0};
+    size_t first = 0;
     for (uint32_t i = 0; i < count && kept.strands < wanted; ++i) {
         uint32_t vertices = strands->vertices[i]; // Before `keep` may write there.
         if (i == drawn) {
@@ -169,12 +169,12 @@ static uint32_t repair_strand(float* p, uint32_t vertices, hair_repairs* repairs
 
 static void repair_all(const hair_import* import, struct hair_strands* strands, hair_repairs* repairs)
 {
-    struct kept kept  = {0};
-    size_t      first = 0;
+    struct kept kept = {0};
+    size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        float*   p        = strands->positions + 3 * first;
+        float* p = strands->positions + 3 * first;
         uint32_t vertices = strands->vertices[i];
-        uint32_t left     = repair_strand(p, vertices, repairs);
+        uint32_t left = repair_strand(p, vertices, repairs);
         if (left > HAIR_STRAND_MAX_VERTICES && import->strand_vertices == 0)
             left = bring_down(p, left, repairs);
         if (left) keep(strands, &kept, i, first, left);
@@ -189,11 +189,11 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
     float* sampled = hair_alloc(host, strands->strand_count, 3 * (size_t)count * sizeof *sampled);
     if (!sampled) return hair_fail_memory(host, "resampled strands");
 
-    struct kept kept  = {0};
-    size_t      first = 0;
+    struct kept kept = {0};
+    size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         uint32_t vertices = strands->vertices[i];
-        float*   out      = sampled + 3 * (size_t)kept.vertices;
+        float* out = sampled + 3 * (size_t)kept.vertices;
         if (sample(strands->positions + 3 * first, vertices, out, count, repairs)) {
             strands->vertices[kept.strands] = count;
             keep_rest(strands, kept.strands, i);
@@ -223,16 +223,16 @@ static hair_result shrink(const hair_host* host, void** memory, size_t count, si
 static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
 {
     void *positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii,
-         *colors       = strands->colors;
+         *colors = strands->colors;
     hair_result result = shrink(host, &positions, strands->vertex_count, 3 * sizeof(float));
     if (!result) result = shrink(host, &vertices, strands->strand_count, sizeof(uint32_t));
     if (!result) result = shrink(host, &radii, strands->strand_count, sizeof(float));
     if (!result)
         result = shrink(host, &colors, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof(float));
     strands->positions = positions;
-    strands->vertices  = vertices;
-    strands->radii     = radii;
-    strands->colors    = colors;
+    strands->vertices = vertices;
+    strands->radii = radii;
+    strands->colors = colors;
     return result;
 }
 
@@ -240,13 +240,13 @@ hair_result hair_strands_clean(const hair_host* host, const hair_import* import,
                                hair_repairs* repairs)
 {
     uint32_t vertices = strands->vertex_count;
-    *repairs          = (hair_repairs){0};
+    *repairs = (hair_repairs){0};
     place(import, strands);
     if (import->tip_first) reverse_all(strands);
     thin_out(import, strands);
     repair_all(import, strands, repairs);
     hair_result result = HAIR_OK;
-    uint32_t    count  = import->strand_vertices == 1 ? 2 : import->strand_vertices;
+    uint32_t count = import->strand_vertices == 1 ? 2 : import->strand_vertices;
     if (count) result = resample_all(host, count, strands, repairs);
     if (!result && strands->vertex_count < vertices / 2) result = shrink_all(host, strands);
     return result;

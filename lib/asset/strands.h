@@ -11,12 +11,12 @@
 #define HAIR_STRAND_COLORS 8 // even places from root to tip
 
 struct hair_strands {
-    float*    positions; // xyz per vertex, root first
-    uint32_t* vertices;  // of each strand
-    float*    radii;     // of each strand at its root, in the unit of the positions; NULL: none known
-    float*    colors;    // linear rgb at HAIR_STRAND_COLORS places of each strand; NULL: none known
-    uint32_t  strand_count;
-    uint32_t  vertex_count;
+    float* positions; // xyz per vertex, root first
+    uint32_t* vertices; // of each strand
+    float* radii; // of each strand at its root, in the unit of the positions; NULL: none known
+    float* colors; // linear rgb at HAIR_STRAND_COLORS places of each strand; NULL: none known
+    uint32_t strand_count;
+    uint32_t vertex_count;
 };
 
 // A foreign point in metres, +y up. Proper rotations: nothing is mirrored.
@@ -37,7 +37,7 @@ static inline hair_vec3 hair_import_point(const hair_import* import, hair_vec3 p
 // left: strand_count 0.
 hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
                                hair_repairs* repairs);
-void        hair_strands_free(const hair_host* host, struct hair_strands* strands);
+void hair_strands_free(const hair_host* host, struct hair_strands* strands);
 
 // Of a polyline: `count` points at equal distances along it, the ends kept. count >= 2.
 void hair_strand_resample(const float* positions, uint32_t vertices, float* out, uint32_t count);
@@ -52,10 +52,10 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices);
 void hair_strand_split(float* positions, uint32_t vertices, uint32_t count);
 
 // colors.c: of colours of each vertex, or of `count` even places, those of HAIR_STRAND_COLORS; of these, the one at t.
-void  hair_strand_colors(const float* positions, uint32_t vertices, const float* colors, float* out);
-void  hair_strand_even_colors(const float* colors, uint32_t count, float* out);
-void  hair_strand_color_at(const float* colors, float t, float out[3]);
-void  hair_strand_reverse_colors(float* colors);
+void hair_strand_colors(const float* positions, uint32_t vertices, const float* colors, float* out);
+void hair_strand_even_colors(const float* colors, uint32_t count, float* out);
+void hair_strand_color_at(const float* colors, float t, float out[3]);
+void hair_strand_reverse_colors(float* colors);
 float hair_from_srgb(float c);
 float hair_to_srgb(float c);
 

@@ -65,8 +65,8 @@ static bool is_no_number(const unsigned char* at, const unsigned char* end)
 {
     static const char* const beginnings[] = {"inf", "nan", "1.#"};
     for (int i = 0; i < 3; ++i) {
-        const unsigned char* own  = at;
-        const char*          word = beginnings[i];
+        const unsigned char* own = at;
+        const char* word = beginnings[i];
         while (own < end && *word && lower(*own) == (unsigned char)*word) ++own, ++word;
         if (!*word) return true;
     }
@@ -92,8 +92,8 @@ static double scale_by_power(double value, int power)
 
 struct digits {
     uint64_t mantissa;
-    int      power; // The number is mantissa times ten to this.
-    bool     any;
+    int power; // The number is mantissa times ten to this.
+    bool any;
 };
 
 // Digits beyond the 19 that 64 bits hold only move the point.
@@ -102,7 +102,7 @@ static const unsigned char* read_digits(const unsigned char* at, const unsigned 
 {
     for (; at < end && is_digit(*at); ++at) {
         digits->any = true;
-        bool room   = digits->mantissa < UINT64_C(1000000000000000000);
+        bool room = digits->mantissa < UINT64_C(1000000000000000000);
         if (room) digits->mantissa = 10 * digits->mantissa + (uint64_t)(*at - '0');
         if (room && fraction && digits->power > -100000) --digits->power;
         if (!room && !fraction && digits->power < 100000) ++digits->power;
@@ -133,19 +133,19 @@ static const unsigned char* read_exponent(const unsigned char* at, const unsigne
 bool hair_token_number(const struct hair_token* token, double* out)
 {
     const unsigned char *at = token->bytes, *end = at + token->size;
-    bool                 negative;
+    bool negative;
     at = read_sign(at, end, &negative);
     if (is_no_number(at, end)) {
         *out = NAN;
         return true;
     }
     struct digits digits = {0};
-    at                   = read_digits(at, end, false, &digits);
+    at = read_digits(at, end, false, &digits);
     if (at < end && *at == '.') at = read_digits(at + 1, end, true, &digits);
     if (!digits.any) return false;
     at = read_exponent(at, end, &digits.power);
     if (at != end) return false;
     double value = scale_by_power((double)digits.mantissa, digits.power);
-    *out         = negative ? -value : value;
+    *out = negative ? -value : value;
     return true;
 }

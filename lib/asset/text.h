@@ -7,17 +7,17 @@
 
 struct hair_text {
     const unsigned char* bytes;
-    size_t               size, at; // at: where the next line begins
+    size_t size, at; // at: where the next line begins
 };
 
 struct hair_line {
     const unsigned char* bytes;
-    size_t               start, at, end; // at: where the next token is looked for
+    size_t start, at, end; // at: where the next token is looked for
 };
 
 struct hair_token {
     const unsigned char* bytes;
-    size_t               at, size; // at: byte in the file
+    size_t at, size; // at: byte in the file
 };
 
 // The next line with a token in it. Lines end in \n, \r\n or \r; "#" and "//" begin a comment, to the end of

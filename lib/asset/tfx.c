@@ -26,15 +26,15 @@
 #define SECTIONS 6
 
 struct section {
-    uint32_t    at; // byte of the offset
-    uint32_t    size, per_vertex;
+    uint32_t at; // byte of the offset
+    uint32_t size, per_vertex;
     const char* what;
 };
 
 struct layout {
-    hair_format    format;
-    uint32_t       header, floats;     // of the header in bytes; of a position
-    uint32_t       colors_at;          // byte of the offset of colours
+    hair_format format;
+    uint32_t header, floats; // of the header in bytes; of a position
+    uint32_t colors_at; // byte of the offset of colours
     struct section sections[SECTIONS]; // positions first
 };
 
@@ -89,7 +89,7 @@ static hair_result read_header(const struct hair_source* source, const struct la
     hair_result result = hair_check_section(source, "header", 0, layout->header, 1);
     if (result) return result;
     *strands = hair_read_u32(source->bytes + 4);
-    *each    = hair_read_u32(source->bytes + 8);
+    *each = hair_read_u32(source->bytes + 8);
     if (*strands == 0) return hair_fail(source->host, HAIR_ERROR_FILE, "the count of strands at byte 4 is 0");
     if (*each < 2)
         return hair_fail(source->host, HAIR_ERROR_FILE,
@@ -106,13 +106,13 @@ static hair_result read_header(const struct hair_source* source, const struct la
 
 static hair_result decode(const struct hair_source* source, const struct layout* layout, hair_asset* asset)
 {
-    uint32_t             count = 0, each = 0;
+    uint32_t count = 0, each = 0;
     struct hair_strands* strands = &asset->strands;
-    hair_result          result  = read_header(source, layout, &count, &each);
+    hair_result result = read_header(source, layout, &count, &each);
     if (!result) result = hair_strands_allocate(source->host, strands, count, count * each);
     if (result) return result;
 
-    asset->format      = layout->format;
+    asset->format = layout->format;
     asset->strands_are = HAIR_STRANDS_GUIDES;
     for (uint32_t i = 0; i < count; ++i) strands->vertices[i] = each;
     const unsigned char* at = source->bytes + hair_read_u32(source->bytes + layout->sections[0].at);
@@ -135,7 +135,7 @@ hair_result hair_decode_tfx4(const struct hair_source* source, hair_asset* asset
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)
 {
     const struct hair_strands* strands = &asset->strands;
-    uint32_t                   each    = strands->vertices[0];
+    uint32_t each = strands->vertices[0];
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         uint32_t vertices = strands->vertices[i];
         if (vertices == each && vertices >= 4 && vertices <= 64 && (vertices & (vertices - 1)) == 0) continue;
@@ -158,13 +158,13 @@ hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)
 void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes)
 {
     const struct hair_strands* strands = &asset->strands;
-    uint32_t                   each    = strands->vertices[0];
+    uint32_t each = strands->vertices[0];
 
     memset(bytes, 0, version4.header);
     unsigned char* at = hair_write_float(bytes, 4);
-    at                = hair_write_u32(at, strands->strand_count);
-    at                = hair_write_u32(at, each);
-    at                = hair_write_u32(at, version4.header);
+    at = hair_write_u32(at, strands->strand_count);
+    at = hair_write_u32(at, each);
+    at = hair_write_u32(at, version4.header);
     hair_write_u32(at, version4.header + 16 * strands->vertex_count);
     if (strands->colors)
         hair_write_u32(bytes + version4.colors_at,

@@ -19,12 +19,12 @@
 
 struct reader {
     const struct hair_source* source;
-    struct hair_text          text;
-    struct hair_strands*      fill; // NULL: count only
-    uint32_t                  strands, vertices;
-    bool                      has_count, warned;
-    uint32_t                  count; // numStrands
-    float                     scale, rotation[3], translation[3];
+    struct hair_text text;
+    struct hair_strands* fill; // NULL: count only
+    uint32_t strands, vertices;
+    bool has_count, warned;
+    uint32_t count; // numStrands
+    float scale, rotation[3], translation[3];
 };
 
 static hair_result complain(const struct reader* reader, size_t at, const char* sentence)
@@ -61,7 +61,7 @@ static hair_result read_finite(const struct reader* reader, struct hair_line* li
 static hair_result read_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
 {
     struct hair_token token;
-    double            value;
+    double value;
     if (!hair_line_next(line, &token)) return complain(reader, line->end, "the line ends before its count");
     if (!hair_token_number(&token, &value) || !(value >= 0 && value <= UINT32_MAX) || value != floor(value))
         return complain(reader, token.at, "stands no count");
@@ -116,7 +116,7 @@ static void turn(const float rotation[3], double p[3])
 {
     static const int order[3] = {2, 0, 1};
     for (int i = 0; i < 3; ++i) {
-        int    axis = order[i], u = (axis + 1) % 3, v = (axis + 2) % 3;
+        int axis = order[i], u = (axis + 1) % 3, v = (axis + 2) % 3;
         double c = cos(rotation[axis]), s = sin(rotation[axis]);
         double x = c * p[u] - s * p[v], y = s * p[u] + c * p[v];
         p[u] = x;
@@ -127,7 +127,7 @@ static void turn(const float rotation[3], double p[3])
 static void place(const struct reader* reader, float* position)
 {
     const float *r = reader->rotation, *t = reader->translation;
-    double       p[3] = {position[0], position[1], position[2]};
+    double p[3] = {position[0], position[1], position[2]};
     for (int i = 0; i < 3; ++i) p[i] *= reader->scale;
     if (r[0] != 0 || r[1] != 0 || r[2] != 0) turn(r, p);
     for (int i = 0; i < 3; ++i) position[i] = (float)(p[i] + t[i]);
@@ -136,7 +136,7 @@ static void place(const struct reader* reader, float* position)
 static hair_result read_vertex(struct reader* reader, size_t strand_at)
 {
     struct hair_line line;
-    float            position[3];
+    float position[3];
     if (!hair_text_next(&reader->text, &line))
         return hair_fail(reader->source->host, HAIR_ERROR_FILE,
                          "the file ends at byte %zu, within the strand at byte %zu", reader->source->size,
@@ -153,7 +153,7 @@ static hair_result read_vertex(struct reader* reader, size_t strand_at)
 
 static hair_result read_strand(struct reader* reader, struct hair_line* line)
 {
-    uint32_t    count  = 0;
+    uint32_t count = 0;
     hair_result result = find_vertex_count(reader, line, &count);
     if (!result && count > UINT32_MAX - reader->vertices)
         result = complain(reader, line->start, "the strand makes too many vertices");
@@ -166,17 +166,17 @@ static hair_result read_strand(struct reader* reader, struct hair_line* line)
 
 static void rewind_to_start(struct reader* reader, struct hair_strands* fill)
 {
-    bool bom         = reader->source->size >= 3 && memcmp(reader->source->bytes, "\xef\xbb\xbf", 3) == 0;
-    reader->text     = (struct hair_text){reader->source->bytes, reader->source->size, bom ? 3 : 0};
-    reader->fill     = fill;
-    reader->strands  = 0;
+    bool bom = reader->source->size >= 3 && memcmp(reader->source->bytes, "\xef\xbb\xbf", 3) == 0;
+    reader->text = (struct hair_text){reader->source->bytes, reader->source->size, bom ? 3 : 0};
+    reader->fill = fill;
+    reader->strands = 0;
     reader->vertices = 0;
 }
 
 static hair_result read_all(struct reader* reader)
 {
     struct hair_line line;
-    hair_result      result = HAIR_OK;
+    hair_result result = HAIR_OK;
     while (!result && hair_text_next(&reader->text, &line)) {
         struct hair_token name;
         if (!hair_line_next(&line, &name)) continue;
@@ -201,9 +201,9 @@ static hair_result check_counts(const struct reader* reader)
 
 bool hair_is_tfx_text(const unsigned char* bytes, size_t size)
 {
-    bool              bom  = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
-    struct hair_text  text = {bytes, size, bom ? 3 : 0};
-    struct hair_line  line;
+    bool bom = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0;
+    struct hair_text text = {bytes, size, bom ? 3 : 0};
+    struct hair_line line;
     struct hair_token name;
     return hair_text_next(&text, &line) && hair_line_next(&line, &name) &&
            (hair_token_is(&name, "version") || hair_token_is(&name, "numStrands"));
@@ -219,9 +219,9 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
         result = hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices);
     if (result) return result;
 
-    asset->format      = HAIR_FORMAT_TFX2;
+    asset->format = HAIR_FORMAT_TFX2;
     asset->strands_are = HAIR_STRANDS_GUIDES;
-    reader.warned      = true;
+    reader.warned = true;
     rewind_to_start(&reader, &asset->strands);
     return read_all(&reader);
 }

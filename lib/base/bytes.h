@@ -31,7 +31,7 @@ static inline uint64_t hair_read_u64(const unsigned char* at)
 static inline float hair_read_float(const unsigned char* at)
 {
     uint32_t bits = hair_read_u32(at);
-    float    value;
+    float value;
     memcpy(&value, &bits, sizeof value);
     return value;
 }
@@ -39,7 +39,7 @@ static inline float hair_read_float(const unsigned char* at)
 static inline double hair_read_double(const unsigned char* at)
 {
     uint64_t bits = hair_read_u64(at);
-    double   value;
+    double value;
     memcpy(&value, &bits, sizeof value);
     return value;
 }

@@ -66,9 +66,9 @@ hair_result hair_fields_take(const hair_host* host, const char* name, const void
     memcpy(own, desc, made.size < fields.size ? made.size : fields.size);
     for (uint32_t i = 0; i < fields.count; ++i) {
         const struct hair_field* field = &fields.field[i];
-        double                   value = read_field(own, field);
-        double                   least = field->type == HAIR_FIELD_FLOAT ? (float)field->min : field->min;
-        double                   most  = field->type == HAIR_FIELD_FLOAT ? (float)field->max : field->max;
+        double value = read_field(own, field);
+        double least = field->type == HAIR_FIELD_FLOAT ? (float)field->min : field->min;
+        double most = field->type == HAIR_FIELD_FLOAT ? (float)field->max : field->max;
         if (!(value >= least && value <= most)) // Written so that NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is %.9g, not in [%.9g, %.9g]", field->name, value,
                              field->min, field->max);

@@ -8,16 +8,16 @@ typedef enum hair_field_type { HAIR_FIELD_FLOAT = 0, HAIR_FIELD_UINT } hair_fiel
 
 // One number of a desc. Enums are unsigned here. No pointers, so that tables are read-only without relocation.
 struct hair_field {
-    char            name[40]; // "hair_physics.damping"
-    uint32_t        offset;
+    char name[40]; // "hair_physics.damping"
+    uint32_t offset;
     hair_field_type type;
-    double          value, min, max; // value: the default
+    double value, min, max; // value: the default
 };
 
 struct hair_fields {
     const struct hair_field* field;
-    uint32_t                 count;
-    uint32_t                 size; // sizeof the struct, as this library knows it
+    uint32_t count;
+    uint32_t size; // sizeof the struct, as this library knows it
 };
 
 // Fill what the caller knows of the struct, all of it or a shorter older one: zeros, `made`, the defaults.

@@ -27,7 +27,7 @@ hair_host hair_host_take(const hair_host* host)
     if (host) own = *host;
     if (!own.alloc || !own.free) {
         own.alloc = default_alloc;
-        own.free  = default_free;
+        own.free = default_free;
     }
     return own;
 }
@@ -35,7 +35,7 @@ hair_host hair_host_take(const hair_host* host)
 void* hair_alloc(const hair_host* host, size_t count, size_t size)
 {
     if (size && count > (PTRDIFF_MAX - HEADER) / size) return NULL;
-    size_t         total = count * size + HEADER;
+    size_t total = count * size + HEADER;
     unsigned char* block = host->alloc(total, HEADER, host->user);
     if (!block) return NULL;
     memset(block, 0, total);
@@ -47,7 +47,7 @@ void hair_free(const hair_host* host, void* memory)
 {
     if (!memory) return;
     unsigned char* block = (unsigned char*)memory - HEADER;
-    size_t         total;
+    size_t total;
     memcpy(&total, block, sizeof total);
     host->free(block, total, host->user);
 }

@@ -16,7 +16,7 @@ hair_host hair_host_take(const hair_host* host);
 // Memory of `count` elements of `size` bytes, aligned to 16, all zero. NULL when the product overflows or the
 // host refuses; a count of 0 gives memory too. The block knows its size, so that free needs none.
 void* hair_alloc(const hair_host* host, size_t count, size_t size);
-void  hair_free(const hair_host* host, void* memory);
+void hair_free(const hair_host* host, void* memory);
 
 // One sentence to the host's log, at most 511 bytes.
 void hair_log(const hair_host* host, hair_log_level level, const char* format, ...) HAIR_PRINTF(3, 4);

@@ -71,7 +71,7 @@ static inline hair_vec3 hair_normalize(hair_vec3 a, hair_vec3 fallback)
 static inline hair_vec3 hair_perpendicular(hair_vec3 a)
 {
     float sign = a.z >= 0 ? 1.0f : -1.0f;
-    float b    = -1 / (sign + a.z);
+    float b = -1 / (sign + a.z);
     return (hair_vec3){1 + sign * a.x * a.x * b, sign * a.x * a.y * b, -sign * a.x};
 }
 
@@ -121,8 +121,8 @@ static inline hair_quat hair_slerp(hair_quat a, hair_quat b, float t)
     float u = 1 - t, v = t;
     if (d < 0.9995f) { // Nearer than that the sine loses digits that the chord keeps.
         float angle = acosf(d);
-        u           = sinf(u * angle) / sinf(angle);
-        v           = sinf(v * angle) / sinf(angle);
+        u = sinf(u * angle) / sinf(angle);
+        v = sinf(v * angle) / sinf(angle);
     }
     v *= s;
     return hair_quat_normalize(
@@ -132,7 +132,7 @@ static inline hair_quat hair_slerp(hair_quat a, hair_quat b, float t)
 // Of the rotation whose columns are the unit vectors x, y, z (Shepperd 1978: divide by the largest component).
 static inline hair_quat hair_quat_from_axes(hair_vec3 x, hair_vec3 y, hair_vec3 z)
 {
-    float     trace = x.x + y.y + z.z;
+    float trace = x.x + y.y + z.z;
     hair_quat q;
     if (trace > 0)
         q = (hair_quat){y.z - z.y, z.x - x.z, x.y - y.x, 1 + trace};
@@ -158,7 +158,7 @@ static inline void hair_mat4_multiply(const float a[16], const float b[16], floa
 static inline uint32_t hair_hash(uint32_t x)
 {
     uint32_t state = x * 747796405u + 2891336453u;
-    uint32_t word  = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+    uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
     return (word >> 22) ^ word;
 }
 

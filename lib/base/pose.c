@@ -4,17 +4,17 @@
 int hair_pose_from_matrix(const float m[16], struct hair_pose* out)
 {
     hair_vec3 x = hair_load3(m), y = hair_load3(m + 4), z = hair_load3(m + 8);
-    float     worst    = fabsf(hair_dot(hair_cross(x, y), z) - 1); // NaN and infinity end up here too.
-    float     errors[] = {hair_dot(x, x) - 1,
-                          hair_dot(y, y) - 1,
-                          hair_dot(z, z) - 1,
-                          hair_dot(x, y),
-                          hair_dot(y, z),
-                          hair_dot(z, x),
-                          m[3],
-                          m[7],
-                          m[11],
-                          m[15] - 1};
+    float worst = fabsf(hair_dot(hair_cross(x, y), z) - 1); // NaN and infinity end up here too.
+    float errors[] = {hair_dot(x, x) - 1,
+                      hair_dot(y, y) - 1,
+                      hair_dot(z, z) - 1,
+                      hair_dot(x, y),
+                      hair_dot(y, z),
+                      hair_dot(z, x),
+                      m[3],
+                      m[7],
+                      m[11],
+                      m[15] - 1};
     if (!(worst <= 1e-3f)) return 0;
     for (int i = 0; i < (int)(sizeof errors / sizeof *errors); ++i)
         if (!(fabsf(errors[i]) <= 1e-3f)) return 0;

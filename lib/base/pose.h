@@ -5,7 +5,7 @@
 #include "lib/base/math.h"
 
 struct hair_pose {
-    double    position[3];
+    double position[3];
     hair_quat rotation;
 };
 

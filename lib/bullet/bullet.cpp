@@ -19,9 +19,9 @@ hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_b
     if (!out) return hair_fail(&own, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_bullet* bullet = static_cast<hair_bullet*>(hair_alloc(&own, 1, sizeof *bullet));
     if (!bullet) return hair_fail_memory(&own, "Bullet's solids");
-    bullet->host       = own;
+    bullet->host = own;
     bullet->resolution = 64;
-    *out               = bullet;
+    *out = bullet;
     return HAIR_OK;
 }
 
@@ -40,12 +40,12 @@ hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* c
                                 size_t size)
 {
     if (count <= *capacity) return HAIR_OK;
-    const uint32_t most  = count < 32 ? 32 : count + count / 2;
-    void*          grown = hair_alloc(host, most, size);
+    const uint32_t most = count < 32 ? 32 : count + count / 2;
+    void* grown = hair_alloc(host, most, size);
     if (!grown) return hair_fail_memory(host, "Bullet's solids");
     if (*array) std::memcpy(grown, *array, *capacity * size);
     hair_free(host, *array);
-    *array    = grown;
+    *array = grown;
     *capacity = most;
     return HAIR_OK;
 }
@@ -85,8 +85,8 @@ const hair_solid* hair_bullet_solids(const hair_bullet* bullet, uint32_t* count)
 static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
 {
     const uint32_t before = bullet->count;
-    bullet->visits        = 0;
-    hair_result result    = hair_bullet_add(bullet, shape, taking);
+    bullet->visits = 0;
+    hair_result result = hair_bullet_add(bullet, shape, taking);
     if (result && !taking.is_quiet) bullet->count = before;
     return result;
 }
@@ -112,14 +112,14 @@ hair_result hair_bullet_take_shape(hair_bullet* bullet, const btCollisionShape* 
 
 static hair_result take_object(hair_bullet* bullet, const btCollisionObject* object, bool is_quiet)
 {
-    const btBroadphaseProxy* proxy    = object->getBroadphaseHandle();
-    const int                unique   = proxy ? proxy->m_uniqueId : 0;
-    const btCollisionShape*  shape    = object->getCollisionShape();
-    float                    friction = object->getFriction();
+    const btBroadphaseProxy* proxy = object->getBroadphaseHandle();
+    const int unique = proxy ? proxy->m_uniqueId : 0;
+    const btCollisionShape* shape = object->getCollisionShape();
+    float friction = object->getFriction();
     hair_taking taking = {object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0,
                           is_quiet};
-    taking.key         = hair_bullet_print(0xcbf29ce484222325u, &object, sizeof object);
-    taking.key         = hair_bullet_print(taking.key, &unique, sizeof unique);
+    taking.key = hair_bullet_print(0xcbf29ce484222325u, &object, sizeof object);
+    taking.key = hair_bullet_print(taking.key, &unique, sizeof unique);
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "the object has no shape");
     return take(bullet, shape, taking);
 }
@@ -137,9 +137,9 @@ namespace
 {
 struct hits : btBroadphaseAabbCallback {
     hair_bullet* bullet = nullptr;
-    hair_result  result = HAIR_OK;
-    btVector3    lower, upper;
-    int          groups = -1;
+    hair_result result = HAIR_OK;
+    btVector3 lower, upper;
+    int groups = -1;
 
     // Whether to go on.
     bool process(const btBroadphaseProxy* proxy) override
@@ -180,10 +180,10 @@ hair_result hair_bullet_take_world(hair_bullet* bullet, const btCollisionWorld* 
             return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "bounds are from %g to %g along axis %d",
                              static_cast<double>(lower[k]), static_cast<double>(upper[k]), k);
     hits found;
-    found.bullet      = bullet;
-    found.groups      = groups;
-    found.lower       = btVector3(lower[0], lower[1], lower[2]);
-    found.upper       = btVector3(upper[0], upper[1], upper[2]);
+    found.bullet = bullet;
+    found.groups = groups;
+    found.lower = btVector3(lower[0], lower[1], lower[2]);
+    found.upper = btVector3(upper[0], upper[1], upper[2]);
     bullet->hit_count = 0;
     // Bullet's broadphase is not const, but a test changes nothing in it.
     const_cast<btCollisionWorld*>(world)->getBroadphase()->aabbTest(found.lower, found.upper, found);
@@ -191,7 +191,7 @@ hair_result hair_bullet_take_world(hair_bullet* bullet, const btCollisionWorld* 
     if (bullet->hit_count) std::qsort(bullet->hits, bullet->hit_count, sizeof *bullet->hits, compare);
     for (uint32_t i = 0; i < bullet->hit_count; ++i) {
         const btBroadphaseProxy* proxy = static_cast<const btBroadphaseProxy*>(bullet->hits[i]);
-        hair_result              result =
+        hair_result result =
             take_object(bullet, static_cast<const btCollisionObject*>(proxy->m_clientObject), true);
         if (result && result != HAIR_ERROR_ARGUMENT) return result;
     }

@@ -31,13 +31,13 @@ hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, u
 static hair_result rebuild(hair_bullet* bullet, uint32_t capacity, uint32_t rounds,
                            const btCollisionShape* shape)
 {
-    hair_met* old    = bullet->met;
-    uint32_t  before = bullet->met_capacity;
-    void*     memory = hair_alloc(&bullet->host, capacity, sizeof *old);
+    hair_met* old = bullet->met;
+    uint32_t before = bullet->met_capacity;
+    void* memory = hair_alloc(&bullet->host, capacity, sizeof *old);
     if (!memory) return hair_fail_memory(&bullet->host, "the forms of shapes");
-    bullet->met          = static_cast<hair_met*>(memory);
+    bullet->met = static_cast<hair_met*>(memory);
     bullet->met_capacity = capacity;
-    bullet->met_count    = 0;
+    bullet->met_count = 0;
     for (uint32_t i = 0; i < before; ++i) {
         if (!old[i].shape) continue;
         if (bullet->round - old[i].round > rounds || old[i].shape == shape) {
@@ -55,8 +55,8 @@ hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape,
                              hair_form* form)
 {
     if (2 * (bullet->met_count + 1) > bullet->met_capacity) {
-        uint32_t    capacity = bullet->met_capacity ? 2 * bullet->met_capacity : 64;
-        hair_result result   = rebuild(bullet, capacity, UINT32_MAX, nullptr);
+        uint32_t capacity = bullet->met_capacity ? 2 * bullet->met_capacity : 64;
+        hair_result result = rebuild(bullet, capacity, UINT32_MAX, nullptr);
         if (result) return result;
     }
     hair_met* met = &bullet->met[place_of(bullet, shape)];

@@ -14,7 +14,7 @@ namespace
 // Points whose hull it is, and what is to be added all round.
 struct cloud {
     hair_mesh mesh;
-    float     rounding;
+    float rounding;
 };
 
 // The i-th of DIRECTIONS along Fibonacci's spiral.
@@ -40,12 +40,12 @@ struct mesh_points : btInternalTriangleIndexCallback {
 // points over a sphere. Where its scale is not uniform Bullet scales the spheres, and so are the points.
 static void add_spheres(const btMultiSphereShape* shape, cloud* out)
 {
-    const btVector3& s       = shape->getLocalScaling();
-    bool             uniform = s.x() == s.y() && s.y() == s.z() && s.x() > 0;
-    btScalar         least = shape->getSphereCount() ? BT_LARGE_FLOAT : 0, most = 0;
+    const btVector3& s = shape->getLocalScaling();
+    bool uniform = s.x() == s.y() && s.y() == s.z() && s.x() > 0;
+    btScalar least = shape->getSphereCount() ? BT_LARGE_FLOAT : 0, most = 0;
     for (int i = 0; i < shape->getSphereCount(); ++i) {
         least = btMin(least, shape->getSphereRadius(i));
-        most  = btMax(most, shape->getSphereRadius(i));
+        most = btMax(most, shape->getSphereRadius(i));
     }
     if (!uniform) least = 0;
     out->rounding = static_cast<float>(uniform ? least * s.x() : btScalar(0));
@@ -119,12 +119,12 @@ static bool as_capsule(const hair_mesh& points, hair_solid* solid, btQuaternion*
         (round % 2 ? a : b) = far;
     }
     const btVector3 start = vertex(points, a), axis = vertex(points, b) - start;
-    const btScalar  length = axis.length(), close = btScalar(1e-6) * length;
+    const btScalar length = axis.length(), close = btScalar(1e-6) * length;
     for (uint32_t i = 0; i < points.vertex_count && length > 0; ++i)
         if ((vertex(points, i) - start).cross(axis / length).length() > close) return false;
     const btVector3 middle = start + axis / 2;
     for (int k = 0; k < 3; ++k) solid->position[k] = static_cast<float>(middle[k]);
-    solid->shape   = length > 0 ? HAIR_SHAPE_CAPSULE : HAIR_SHAPE_SPHERE;
+    solid->shape = length > 0 ? HAIR_SHAPE_CAPSULE : HAIR_SHAPE_SPHERE;
     solid->size[0] = 0;
     solid->size[1] = static_cast<float>(length / 2);
     *turn = length > 0 ? shortestArcQuat(btVector3(0, 1, 0), axis / length) : btQuaternion::getIdentity();
@@ -139,8 +139,8 @@ static void close_hull(const hair_mesh& points, hair_mesh* out)
     for (int i = 0; i < hull.vertices.size(); ++i) out->add_vertex(hull.vertices[i]);
     for (int i = 0; i < hull.faces.size(); ++i) {
         const btConvexHullComputer::Edge* first = &hull.edges[hull.faces[i]];
-        const uint32_t                    apex  = static_cast<uint32_t>(first->getSourceVertex());
-        for (const btConvexHullComputer::Edge* edge                    = first->getNextEdgeOfFace();
+        const uint32_t apex = static_cast<uint32_t>(first->getSourceVertex());
+        for (const btConvexHullComputer::Edge* edge = first->getNextEdgeOfFace();
              edge->getTargetVertex() != first->getSourceVertex(); edge = edge->getNextEdgeOfFace())
             out->add_triangle(apex, static_cast<uint32_t>(edge->getSourceVertex()),
                               static_cast<uint32_t>(edge->getTargetVertex()));
@@ -152,7 +152,7 @@ static uint64_t print_of(const cloud& points)
 {
     uint64_t print = hair_bullet_print(0xcbf29ce484222325u, points.mesh.positions,
                                        3 * sizeof(float) * points.mesh.vertex_count);
-    print          = hair_bullet_print(print, &points.rounding, sizeof points.rounding);
+    print = hair_bullet_print(print, &points.rounding, sizeof points.rounding);
     return print > 1 ? print : 2;
 }
 
@@ -165,18 +165,18 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
     for (uint32_t i = 0; i < 3 * points.mesh.vertex_count; ++i)
         if (!(std::fabs(points.mesh.positions[i]) <= 1e6f))
             return hair_bullet_wrong(bullet, shape, taking, "has a point that is not within 1e6 m");
-    hair_solid   solid = hair_solid_default();
+    hair_solid solid = hair_solid_default();
     btQuaternion turn;
     if (as_capsule(points.mesh, &solid, &turn)) {
         solid.size[0] = points.rounding; // As a radius, all of it.
         return hair_bullet_add_solid(bullet, shape, taking, solid, turn);
     }
-    const uint64_t   print = print_of(points);
-    const hair_met*  met   = hair_bullet_find(bullet, shape, print);
-    const hair_form* form  = met ? met->form : nullptr;
+    const uint64_t print = print_of(points);
+    const hair_met* met = hair_bullet_find(bullet, shape, print);
+    const hair_form* form = met ? met->form : nullptr;
     if (!met) {
         hair_mesh hull = {};
-        hull.host      = &bullet->host;
+        hull.host = &bullet->host;
         close_hull(points.mesh, &hull);
         hair_result result = hull.result
                                  ? hull.result
@@ -189,7 +189,7 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
 
 hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking)
 {
-    cloud points     = {};
+    cloud points = {};
     points.mesh.host = &bullet->host;
     gather(shape, &points);
     hair_result result = points.mesh.result ? points.mesh.result : add_points(bullet, shape, taking, points);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #define MOST_TRIANGLES 16777216u // of a form
-#define DEPTH 0.1f               // of a height field below its lowest point, as a share of its longest side
+#define DEPTH 0.1f // of a height field below its lowest point, as a share of its longest side
 
 // Meshes ----------------------------------------------------------------------------------------------------
 
@@ -30,7 +30,7 @@ void hair_mesh::add_triangle(uint32_t a, uint32_t b, uint32_t c)
         result = hair_bullet_reserve(host, &array, &triangle_room, triangle_count + 1, 3 * sizeof(uint32_t));
     triangles = static_cast<uint32_t*>(array);
     if (result) return;
-    triangles[3 * triangle_count]     = a;
+    triangles[3 * triangle_count] = a;
     triangles[3 * triangle_count + 1] = b;
     triangles[3 * triangle_count + 2] = c;
     ++triangle_count;
@@ -48,15 +48,15 @@ hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* s
                                   const hair_mesh& mesh, float room, const hair_form** out)
 {
     hair_form_desc desc = hair_form_desc_default();
-    hair_form*     form = nullptr;
-    desc.host           = &bullet->host;
-    desc.positions      = mesh.positions;
-    desc.triangles      = mesh.triangles;
-    desc.vertex_count   = mesh.vertex_count;
+    hair_form* form = nullptr;
+    desc.host = &bullet->host;
+    desc.positions = mesh.positions;
+    desc.triangles = mesh.triangles;
+    desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
-    desc.resolution     = bullet->resolution;
-    desc.room           = room;
-    hair_result result  = HAIR_OK;
+    desc.resolution = bullet->resolution;
+    desc.room = room;
+    hair_result result = HAIR_OK;
     if (mesh.triangle_count && mesh.positions) result = hair_form_create(&desc, &form);
     if (result && result != HAIR_ERROR_ARGUMENT) return result;
     result = hair_bullet_keep(bullet, shape, print, form);
@@ -73,10 +73,10 @@ hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* sh
         return taking.is_quiet ? HAIR_ERROR_ARGUMENT
                                : hair_bullet_wrong(bullet, shape, taking, "has triangles that make no form");
     hair_solid solid = hair_solid_default();
-    solid.shape      = HAIR_SHAPE_FORM;
-    solid.form       = form;
-    solid.rounding   = rounding;
-    solid.scale      = scale;
+    solid.shape = HAIR_SHAPE_FORM;
+    solid.form = form;
+    solid.rounding = rounding;
+    solid.scale = scale;
     return hair_bullet_add_solid(bullet, shape, taking, solid, btQuaternion::getIdentity());
 }
 
@@ -109,30 +109,30 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 {
     const uint32_t up = static_cast<uint32_t>(field->getUpAxis()), u = (up + 1) % 3, v = (up + 2) % 3;
     const uint32_t surface = mesh->triangle_count;
-    float          least[3], most[3];
+    float least[3], most[3];
     for (uint32_t k = 0; k < 3; ++k) least[k] = INFINITY, most[k] = -INFINITY;
     for (uint32_t i = 0; i < 3 * mesh->vertex_count; ++i) {
         least[i % 3] = std::fmin(least[i % 3], mesh->positions[i]);
-        most[i % 3]  = std::fmax(most[i % 3], mesh->positions[i]);
+        most[i % 3] = std::fmax(most[i % 3], mesh->positions[i]);
     }
     const float floor = least[up] - DEPTH * std::fmax(most[u] - least[u], most[v] - least[v]);
     for (uint32_t t = 0; t < surface && !mesh->result; ++t) {
         const uint32_t below = mesh->vertex_count;
-        btVector3      corner[3];
+        btVector3 corner[3];
         for (uint32_t k = 0; k < 3; ++k) {
             const float* at = mesh->positions + 3 * mesh->triangles[3 * t + k];
-            corner[k]       = btVector3(at[0], at[1], at[2]);
+            corner[k] = btVector3(at[0], at[1], at[2]);
         }
         for (int k = 0; k < 3; ++k) {
-            btVector3 at             = corner[k];
+            btVector3 at = corner[k];
             at[static_cast<int>(up)] = floor;
             mesh->add_vertex(at);
         }
         mesh->add_triangle(below + 2, below + 1, below);
         for (uint32_t k = 0; k < 3; ++k) {
             const btVector3 &a = corner[k], &b = corner[(k + 1) % 3];
-            const int        i = static_cast<int>(u), j = static_cast<int>(v);
-            const bool       rim = (a[i] == b[i] && (a[i] == least[u] || a[i] == most[u])) ||
+            const int i = static_cast<int>(u), j = static_cast<int>(v);
+            const bool rim = (a[i] == b[i] && (a[i] == least[u] || a[i] == most[u])) ||
                              (a[j] == b[j] && (a[j] == least[v] || a[j] == most[v]));
             if (!rim) continue;
             const uint32_t top = mesh->triangles[3 * t + k], next = mesh->triangles[3 * t + (k + 1) % 3];
@@ -149,11 +149,11 @@ static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, co
 {
     float numbers[10];
     for (int k = 0; k < 3; ++k) {
-        numbers[k]     = static_cast<float>(lower[k]);
+        numbers[k] = static_cast<float>(lower[k]);
         numbers[3 + k] = static_cast<float>(upper[k]);
         numbers[6 + k] = static_cast<float>(shape->getLocalScaling()[k]);
     }
-    numbers[9]     = static_cast<float>(shape->getMargin());
+    numbers[9] = static_cast<float>(shape->getMargin());
     uint64_t print = hair_bullet_print(0xcbf29ce484222325u, numbers, sizeof numbers);
     return print > 1 ? print : 2;
 }
@@ -178,7 +178,7 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
     shape->processAllTriangles(&triangles, lower, upper);
     if (triangles.count > MOST_TRIANGLES / 3) return refuse(bullet, shape, taking, print, triangles.count);
     hair_mesh mesh = {};
-    mesh.host      = &bullet->host;
+    mesh.host = &bullet->host;
     gatherer gatherer;
     gatherer.mesh = &mesh;
     shape->processAllTriangles(&gatherer, lower, upper);
@@ -195,12 +195,12 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
 hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking)
 {
     // One mesh that many shapes scale evenly is one form.
-    const btConcaveShape* own   = shape;
-    float                 scale = 1;
+    const btConcaveShape* own = shape;
+    float scale = 1;
     if (shape->getShapeType() == SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE) {
         const btVector3& s = shape->getLocalScaling();
         if (s.x() == s.y() && s.y() == s.z() && s.x() > 0) {
-            own   = static_cast<const btScaledBvhTriangleMeshShape*>(shape)->getChildShape();
+            own = static_cast<const btScaledBvhTriangleMeshShape*>(shape)->getChildShape();
             scale = static_cast<float>(s.x());
         }
     }
@@ -210,9 +210,9 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
         if (!(lower[k] <= upper[k]) || !(btFabs(lower[k]) <= btScalar(1e6)) ||
             !(btFabs(upper[k]) <= btScalar(1e6)))
             return hair_bullet_wrong(bullet, shape, taking, "has bounds that are not within 1e6 m");
-    const uint64_t   print = print_of(own, lower, upper);
-    const hair_met*  met   = hair_bullet_find(bullet, own, print);
-    const hair_form* form  = met ? met->form : nullptr;
+    const uint64_t print = print_of(own, lower, upper);
+    const hair_met* met = hair_bullet_find(bullet, own, print);
+    const hair_form* form = met ? met->form : nullptr;
     if (!met) {
         hair_result result = make(bullet, own, taking, print, lower, upper, &form);
         if (result) return result;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 // One that holds itself would never end.
-#define DEEPEST 16    // compounds in compounds
+#define DEEPEST 16 // compounds in compounds
 #define MOST 1048576u // shapes of an object
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,
@@ -59,11 +59,11 @@ hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* s
             return hair_bullet_wrong(bullet, shape, taking, "has no size");
     solid.rotation[0] = q.x(), solid.rotation[1] = q.y(), solid.rotation[2] = q.z(),
     solid.rotation[3] = q.w();
-    solid.friction    = taking.friction;
-    uint64_t key      = hair_bullet_print(taking.key, &solid.shape, sizeof solid.shape);
-    solid.key         = key ? key : 1;
+    solid.friction = taking.friction;
+    uint64_t key = hair_bullet_print(taking.key, &solid.shape, sizeof solid.shape);
+    solid.key = key ? key : 1;
 
-    void*       solids = bullet->solids;
+    void* solids = bullet->solids;
     hair_result result =
         hair_bullet_reserve(&bullet->host, &solids, &bullet->capacity, bullet->count + 1, sizeof solid);
     bullet->solids = static_cast<hair_solid*>(solids);
@@ -89,7 +89,7 @@ static float size_of(btScalar without_margin)
 static hair_result add_box(hair_bullet* bullet, const btBoxShape* box, const hair_taking& taking)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = HAIR_SHAPE_BOX;
+    solid.shape = HAIR_SHAPE_BOX;
     for (int k = 0; k < 3; ++k) solid.size[k] = size_of(box->getHalfExtentsWithoutMargin()[k]);
     solid.rounding = box->getMargin();
     return hair_bullet_add_solid(bullet, box, taking, solid, btQuaternion::getIdentity());
@@ -98,9 +98,9 @@ static hair_result add_box(hair_bullet* bullet, const btBoxShape* box, const hai
 static hair_result add_capsule(hair_bullet* bullet, const btCapsuleShape* capsule, const hair_taking& taking)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = HAIR_SHAPE_CAPSULE;
-    solid.size[0]    = capsule->getRadius();
-    solid.size[1]    = capsule->getHalfHeight();
+    solid.shape = HAIR_SHAPE_CAPSULE;
+    solid.size[0] = capsule->getRadius();
+    solid.size[1] = capsule->getHalfHeight();
     return hair_bullet_add_solid(bullet, capsule, taking, solid, turn_to(capsule->getUpAxis()));
 }
 
@@ -108,13 +108,13 @@ static hair_result add_capsule(hair_bullet* bullet, const btCapsuleShape* capsul
 static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cylinder,
                                 const hair_taking& taking)
 {
-    const btVector3& half  = cylinder->getHalfExtentsWithoutMargin();
-    const int        up    = cylinder->getUpAxis();
-    hair_solid       solid = hair_solid_default();
-    solid.shape            = HAIR_SHAPE_CYLINDER;
-    solid.size[0]          = size_of(half[up == 0 ? 1 : 0]);
-    solid.size[1]          = size_of(half[up]);
-    solid.rounding         = cylinder->getMargin();
+    const btVector3& half = cylinder->getHalfExtentsWithoutMargin();
+    const int up = cylinder->getUpAxis();
+    hair_solid solid = hair_solid_default();
+    solid.shape = HAIR_SHAPE_CYLINDER;
+    solid.size[0] = size_of(half[up == 0 ? 1 : 0]);
+    solid.size[1] = size_of(half[up]);
+    solid.rounding = cylinder->getMargin();
     return hair_bullet_add_solid(bullet, cylinder, taking, solid, turn_to(up));
 }
 
@@ -122,17 +122,17 @@ static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cyli
 static hair_result add_cone(hair_bullet* bullet, const btConeShape* cone, const hair_taking& taking)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = HAIR_SHAPE_CONE;
-    solid.size[0]    = cone->getRadius();
-    solid.size[1]    = cone->getHeight() / 2;
-    solid.rounding   = cone->getMargin();
+    solid.shape = HAIR_SHAPE_CONE;
+    solid.size[0] = cone->getRadius();
+    solid.size[1] = cone->getHeight() / 2;
+    solid.rounding = cone->getMargin();
     return hair_bullet_add_solid(bullet, cone, taking, solid, turn_to(cone->getConeUpIndex()));
 }
 
 static hair_result add_sphere(hair_bullet* bullet, const btSphereShape* sphere, const hair_taking& taking)
 {
     hair_solid solid = hair_solid_default();
-    solid.size[0]    = sphere->getRadius();
+    solid.size[0] = sphere->getRadius();
     return hair_bullet_add_solid(bullet, sphere, taking, solid, btQuaternion::getIdentity());
 }
 
@@ -142,7 +142,7 @@ static hair_result add_plane(hair_bullet* bullet, const btStaticPlaneShape* plan
     if (!(std::fabs(normal.length2() - 1) < btScalar(1e-3)))
         return hair_bullet_wrong(bullet, plane, taking, "has a normal that is not of length 1");
     hair_solid solid = hair_solid_default();
-    solid.shape      = HAIR_SHAPE_PLANE;
+    solid.shape = HAIR_SHAPE_PLANE;
     for (int k = 0; k < 3; ++k) solid.position[k] = normal[k] * plane->getPlaneConstant();
     return hair_bullet_add_solid(bullet, plane, taking, solid,
                                  shortestArcQuat(btVector3(0, 1, 0), normal.normalized()));
@@ -159,8 +159,8 @@ static hair_result add_compound(hair_bullet* bullet, const btCompoundShape* comp
         if (++bullet->visits > MOST)
             return hair_bullet_wrong(bullet, compound, taking, "has more than 1048576 children");
         hair_taking child = taking;
-        child.transform   = taking.transform * compound->getChildTransform(i);
-        child.key         = hair_bullet_print(taking.key, &i, sizeof i);
+        child.transform = taking.transform * compound->getChildTransform(i);
+        child.key = hair_bullet_print(taking.key, &i, sizeof i);
         ++child.depth;
         hair_result result = hair_bullet_add(bullet, compound->getChildShape(i), child);
         if (result && (!taking.is_quiet || result != HAIR_ERROR_ARGUMENT)) return result;

@@ -19,11 +19,11 @@ static hair_result make_room(const hair_host* host, struct hair_cells* cells, ui
     hair_free(host, cells->bounds);
     hair_free(host, cells->member);
     cells->contact = hair_alloc(host, room, sizeof *cells->contact);
-    cells->solid   = hair_alloc(host, room, sizeof *cells->solid);
-    cells->bounds  = hair_alloc(host, room, sizeof *cells->bounds);
-    cells->member  = hair_alloc(host, room, sizeof *cells->member);
-    int whole      = cells->contact && cells->solid && cells->bounds && cells->member;
-    cells->room    = whole ? room : 0;
+    cells->solid = hair_alloc(host, room, sizeof *cells->solid);
+    cells->bounds = hair_alloc(host, room, sizeof *cells->bounds);
+    cells->member = hair_alloc(host, room, sizeof *cells->member);
+    int whole = cells->contact && cells->solid && cells->bounds && cells->member;
+    cells->room = whole ? room : 0;
     return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
 }
 
@@ -45,8 +45,8 @@ static struct hair_cell_bounds box_around(const struct hair_contact* contact, co
                                           int end)
 {
     const hair_vec4 *at = &contact->body.position[end], *q = &contact->body.rotation[end];
-    hair_quat        turn = {q->x, q->y, q->z, q->w};
-    hair_vec3        middle, half;
+    hair_quat turn = {q->x, q->y, q->z, q->w};
+    hair_vec3 middle, half;
     if (solid->shape <= HAIR_SHAPE_CAPSULE) {
         const hair_vec4* ends = end ? contact->around.end : contact->around.start;
         return (struct hair_cell_bounds){
@@ -69,8 +69,8 @@ static struct hair_cell_bounds box_around(const struct hair_contact* contact, co
 static float bulge_of(const struct hair_contact* contact, const hair_solid* solid)
 {
     const hair_vec4 *a = &contact->body.rotation[0], *b = &contact->body.rotation[1];
-    float            x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, w = b->w - a->w;
-    hair_vec3        middle, half;
+    float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, w = b->w - a->w;
+    hair_vec3 middle, half;
     hair_solid_extent(solid, &middle, &half);
     return (hair_length(middle) + hair_length(half)) * fminf(4 * (x * x + y * y + z * z + w * w), 2);
 }
@@ -84,8 +84,8 @@ static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, con
     for (int k = 0; k < 3; ++k) {
         float lower = a.lower[k] + desc->share_start * (b.lower[k] - a.lower[k]);
         float upper = a.upper[k] + desc->share_start * (b.upper[k] - a.upper[k]);
-        b.lower[k]  = fminf(lower, b.lower[k]) - around;
-        b.upper[k]  = fmaxf(upper, b.upper[k]) + around;
+        b.lower[k] = fminf(lower, b.lower[k]) - around;
+        b.upper[k] = fmaxf(upper, b.upper[k]) + around;
     }
     return b;
 }
@@ -94,13 +94,13 @@ static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, con
 static hair_vec4 ball_of(const struct hair_capsule* around, const struct hair_cells_desc* desc)
 {
     hair_vec4 ball = {0, 0, 0, 0};
-    float     half = 0, moved = 0;
+    float half = 0, moved = 0;
     ball.x = 0.5f * (around->end[0].x + around->end[1].x);
     ball.y = 0.5f * (around->end[0].y + around->end[1].y);
     ball.z = 0.5f * (around->end[0].z + around->end[1].z);
     for (int k = 0; k < 2; ++k) {
         const hair_vec4 *a = &around->start[k], *b = &around->end[k];
-        half  = fmaxf(half, hair_length(hair_v3(b->x - ball.x, b->y - ball.y, b->z - ball.z)));
+        half = fmaxf(half, hair_length(hair_v3(b->x - ball.x, b->y - ball.y, b->z - ball.z)));
         moved = fmaxf(moved, hair_length(hair_v3(b->x - a->x, b->y - a->y, b->z - a->z)));
     }
     ball.w =
@@ -112,22 +112,22 @@ hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
                               const struct hair_solids* solids, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, const struct hair_cells_desc* desc)
 {
-    cells->contacts    = 0;
-    cells->bodies      = 0;
+    cells->contacts = 0;
+    cells->bodies = 0;
     hair_result result = make_room(host, cells, solids->now.count);
     for (uint32_t i = 0; i < solids->now.count && !result; ++i) {
         const hair_solid* solid = &solids->now.solid[i];
         if (solid->shape == HAIR_SHAPE_FORM && !solid->form) continue;
-        struct hair_contact     contact = hair_solids_contact(solids, i, head_before, head_now);
-        struct hair_cell_bounds bounds  = bounds_of(&contact, solid, desc);
-        int                     far     = 0;
+        struct hair_contact contact = hair_solids_contact(solids, i, head_before, head_now);
+        struct hair_cell_bounds bounds = bounds_of(&contact, solid, desc);
+        int far = 0;
         for (int k = 0; k < 3; ++k)
             far |= !(bounds.lower[k] <= desc->reach && bounds.upper[k] >= -desc->reach);
         if (far) continue;
-        contact.ball                    = ball_of(&contact.around, desc);
+        contact.ball = ball_of(&contact.around, desc);
         cells->contact[cells->contacts] = contact;
-        cells->bounds[cells->contacts]  = bounds;
-        cells->solid[cells->contacts]   = i;
+        cells->bounds[cells->contacts] = bounds;
+        cells->solid[cells->contacts] = i;
         int walked = solid->shape > HAIR_SHAPE_CAPSULE, is_long = solid->shape > HAIR_SHAPE_SPHERE;
         cells->member[cells->contacts] =
             cells->contacts | (walked ? HAIR_MEMBER_WALKED : 0) | (is_long ? HAIR_MEMBER_LONG : 0);

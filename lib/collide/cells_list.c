@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_CELLS 32         // along an axis
+#define MOST_CELLS 32 // along an axis
 #define MOST_PAIRS (1u << 21) // of a solid and a cell, unless there are more solids
 
 static hair_shape shape_of(const struct hair_contact* contact)
@@ -28,7 +28,7 @@ static void lay_grid(struct hair_cells* cells, const struct hair_cells_desc* des
         if (!(lower[k] < upper[k])) lower[k] = 0, upper[k] = 0;
         longest = fmaxf(longest, upper[k] - lower[k]);
     }
-    cells->size  = scale * fmaxf(longest / MOST_CELLS, desc->give);
+    cells->size = scale * fmaxf(longest / MOST_CELLS, desc->give);
     cells->lower = hair_load3(lower);
     for (int k = 0; k < 3; ++k)
         cells->cells[k] =
@@ -41,12 +41,12 @@ struct range {
 
 static struct range range_of(const struct hair_cells* cells, const struct hair_cell_bounds* bounds)
 {
-    const float  lower[3] = {cells->lower.x, cells->lower.y, cells->lower.z};
+    const float lower[3] = {cells->lower.x, cells->lower.y, cells->lower.z};
     struct range range;
     for (int k = 0; k < 3; ++k) {
-        float most     = (float)(cells->cells[k] - 1);
+        float most = (float)(cells->cells[k] - 1);
         range.first[k] = (uint32_t)fminf(fmaxf((bounds->lower[k] - lower[k]) / cells->size, 0), most);
-        range.last[k]  = (uint32_t)fminf(fmaxf((bounds->upper[k] - lower[k]) / cells->size, 0), most);
+        range.last[k] = (uint32_t)fminf(fmaxf((bounds->upper[k] - lower[k]) / cells->size, 0), most);
     }
     return range;
 }
@@ -66,7 +66,7 @@ static float from_axis(hair_vec3 at, const hair_vec4 ends[2])
 {
     hair_vec3 a = {ends[0].x, ends[0].y, ends[0].z}, b = {ends[1].x, ends[1].y, ends[1].z};
     hair_vec3 axis = hair_sub(b, a), arm = hair_sub(at, a);
-    float     t = hair_dot(arm, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
+    float t = hair_dot(arm, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
     return hair_length(hair_sub(arm, hair_scale(axis, fminf(fmaxf(t, 0), 1))));
 }
 
@@ -85,7 +85,7 @@ static float moved_by(const hair_vec4* from, const hair_vec4* to)
 static float reach_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
 {
     const struct hair_capsule* around = &cells->contact[i].around;
-    float                      moved =
+    float moved =
         fmaxf(moved_by(&around->start[0], &around->end[0]), moved_by(&around->start[1], &around->end[1]));
     return fmaxf(around->start[0].w, around->end[0].w) + desc->margin + desc->give +
            (1 - desc->share_start) * moved + 0.87f * cells->size;
@@ -95,27 +95,27 @@ static float reach_of(const struct hair_cells* cells, const struct hair_cells_de
 
 struct pairs {
     uint32_t *cell, *contact; // each contact with all of its cells, one after the other
-    uint32_t  count;
+    uint32_t count;
 };
 
 // What of a contact says which cells it has: a segment, and how far from it their middles may be.
 struct span {
     hair_vec3 from, axis;
-    float     over, reach; // over: 1 / the square of the axis' length
+    float over, reach; // over: 1 / the square of the axis' length
 };
 
 static struct span span_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
 {
-    const hair_vec4* end  = cells->contact[i].around.end;
-    hair_vec3        from = {end[0].x, end[0].y, end[0].z}, to = {end[1].x, end[1].y, end[1].z};
-    hair_vec3        axis = hair_sub(to, from);
+    const hair_vec4* end = cells->contact[i].around.end;
+    hair_vec3 from = {end[0].x, end[0].y, end[0].z}, to = {end[1].x, end[1].y, end[1].z};
+    hair_vec3 axis = hair_sub(to, from);
     return (struct span){from, axis, 1 / fmaxf(hair_dot(axis, axis), 1e-20f), reach_of(cells, desc, i)};
 }
 
 static int is_within(const struct span* span, hair_vec3 at)
 {
     hair_vec3 arm = hair_sub(at, span->from);
-    float     t   = hair_dot(arm, span->axis) * span->over; // Without fminf and fmaxf, which are calls.
+    float t = hair_dot(arm, span->axis) * span->over; // Without fminf and fmaxf, which are calls.
     hair_vec3 off = hair_sub(arm, hair_scale(span->axis, t < 0 ? 0 : t > 1 ? 1 : t));
     return hair_dot(off, off) <= span->reach * span->reach;
 }
@@ -124,14 +124,14 @@ static int is_within(const struct span* span, hair_vec3 at)
 static int narrow(const struct hair_cells* cells, const struct span* span, hair_vec3 start, uint32_t first,
                   uint32_t* from, uint32_t* to)
 {
-    hair_vec3 arm    = hair_sub(start, span->from);
-    float     square = span->reach * span->reach - arm.y * arm.y - arm.z * arm.z;
+    hair_vec3 arm = hair_sub(start, span->from);
+    float square = span->reach * span->reach - arm.y * arm.y - arm.z * arm.z;
     if (square < 0) return 0;
     float half = sqrtf(square), low = (-arm.x - half) / cells->size, high = (-arm.x + half) / cells->size;
     if (high < 0) return 0;
-    *from       = low > 0 ? first + (uint32_t)ceilf(low - 1e-3f) : first;
+    *from = low > 0 ? first + (uint32_t)ceilf(low - 1e-3f) : first;
     uint32_t up = first + (uint32_t)(high + 1e-3f);
-    *to         = up < *to ? up : *to;
+    *to = up < *to ? up : *to;
     return *from <= *to;
 }
 
@@ -140,10 +140,10 @@ static void find_pairs(const struct hair_cells* cells, const struct hair_cells_d
                        struct pairs* out)
 {
     for (uint32_t i = 0; i < cells->contacts; ++i) {
-        int          all  = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE, is_ball;
-        struct span  span = span_of(cells, desc, i);
-        struct range r    = range_of(cells, &cells->bounds[i]);
-        is_ball           = !all && hair_dot(span.axis, span.axis) == 0;
+        int all = shape_of(&cells->contact[i]) == HAIR_SHAPE_PLANE, is_ball;
+        struct span span = span_of(cells, desc, i);
+        struct range r = range_of(cells, &cells->bounds[i]);
+        is_ball = !all && hair_dot(span.axis, span.axis) == 0;
         for (uint32_t z = r.first[2]; z <= r.last[2]; ++z)
             for (uint32_t y = r.first[1]; y <= r.last[1]; ++y) {
                 uint32_t from = r.first[0], to = r.last[0];
@@ -153,7 +153,7 @@ static void find_pairs(const struct hair_cells* cells, const struct hair_cells_d
                     if (!all && !is_ball && !is_within(&span, middle_of(cells, x, y, z))) continue;
                     uint32_t cell = x + cells->cells[0] * (y + cells->cells[1] * z);
                     ++number[cell + 1];
-                    out->cell[out->count]      = cell;
+                    out->cell[out->count] = cell;
                     out->contact[out->count++] = i;
                 }
             }
@@ -161,7 +161,7 @@ static void find_pairs(const struct hair_cells* cells, const struct hair_cells_d
 }
 
 struct candidate {
-    float    distance;
+    float distance;
     uint32_t contact;
 };
 
@@ -178,14 +178,14 @@ static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t
     uint32_t first = 0, last = count;
     while (last - first > 1 && first < kept) {
         struct candidate middle = candidate[first + (last - 1 - first) / 2];
-        uint32_t         i = first, k = last - 1;
+        uint32_t i = first, k = last - 1;
         for (;; ++i, --k) {
             while (by_distance(&candidate[i], &middle) < 0) ++i;
             while (by_distance(&middle, &candidate[k]) < 0) --k;
             if (i >= k) break;
             struct candidate other = candidate[i];
-            candidate[i]           = candidate[k];
-            candidate[k]           = other;
+            candidate[i] = candidate[k];
+            candidate[k] = other;
         }
         // All up to k are no farther than what is behind.
         if (k + 1 >= kept)
@@ -209,11 +209,11 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
                        const uint32_t* contact, uint32_t count, struct candidate* candidate,
                        struct candidate* sorted)
 {
-    uint32_t  x = cell % cells->cells[0], yz = cell / cells->cells[0], rounds = 0, kept = 0;
+    uint32_t x = cell % cells->cells[0], yz = cell / cells->cells[0], rounds = 0, kept = 0;
     hair_vec3 middle = middle_of(cells, x, yz % cells->cells[1], yz / cells->cells[1]);
     for (uint32_t i = 0; i < count; ++i) {
         const hair_vec4* ends = cells->contact[contact[i]].around.end;
-        candidate[i]          = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
+        candidate[i] = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
     }
     if (count > HAIR_CELL_SOLIDS) {
         memcpy(sorted, candidate, count * sizeof *sorted);
@@ -247,8 +247,8 @@ static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
 static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* desc, const uint32_t* end,
                         const uint32_t* sorted, struct candidate* candidate, uint32_t longest)
 {
-    uint32_t all    = cells->cells[0] * cells->cells[1] * cells->cells[2];
-    cells->entries  = all + 1;
+    uint32_t all = cells->cells[0] * cells->cells[1] * cells->cells[2];
+    cells->entries = all + 1;
     cells->entry[0] = cells->entries;
     cells->rounds = cells->longest = cells->left_out = 0;
     for (uint32_t cell = 0; cell < all; ++cell) {
@@ -272,10 +272,10 @@ static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* 
 static hair_result sort(const hair_host* host, struct hair_cells* cells, const struct hair_cells_desc* desc,
                         uint32_t most)
 {
-    uint32_t  all = cells->cells[0] * cells->cells[1] * cells->cells[2], longest = 0;
+    uint32_t all = cells->cells[0] * cells->cells[1] * cells->cells[2], longest = 0;
     uint32_t* numbers = hair_alloc(host, (size_t)all + 1 + 3 * (size_t)most, sizeof *numbers);
     if (!numbers) return hair_fail_memory(host, "what guides collide with");
-    uint32_t *   end = numbers, *sorted = end + all + 1;
+    uint32_t *end = numbers, *sorted = end + all + 1;
     struct pairs pairs = {sorted + most, sorted + 2 * (size_t)most, 0};
     find_pairs(cells, desc, end, &pairs);
     for (uint32_t i = 0; i < all; ++i) {
@@ -286,10 +286,10 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
     for (uint32_t i = 0; i < pairs.count; ++i) sorted[end[pairs.cell[i]]++] = pairs.contact[i];
 
     struct candidate* candidate = hair_alloc(host, 2 * (size_t)longest, sizeof *candidate);
-    uint32_t          room      = all + 1 + pairs.count;
+    uint32_t room = all + 1 + pairs.count;
     if (room > cells->entry_room) {
         hair_free(host, cells->entry);
-        cells->entry      = hair_alloc(host, room + room / 2, sizeof *cells->entry);
+        cells->entry = hair_alloc(host, room + room / 2, sizeof *cells->entry);
         cells->entry_room = cells->entry ? room + room / 2 : 0;
     }
     int whole = candidate && cells->entry;
@@ -304,7 +304,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
 static int is_still(const struct hair_contact* contact)
 {
     const struct hair_capsule* around = &contact->around;
-    const struct hair_body*    body   = &contact->body;
+    const struct hair_body* body = &contact->body;
     return !memcmp(around->start, around->end, sizeof around->start) &&
            !memcmp(&body->rotation[0], &body->rotation[1], sizeof body->rotation[0]);
 }
@@ -316,7 +316,7 @@ static int is_as_before(const struct hair_cells* cells, const struct hair_cells_
     if (!cells->entries || cells->contacts != cells->last_contacts) return 0;
     if (cells->contacts && memcmp(cells->contact, cells->last, cells->contacts * sizeof *cells->last))
         return 0;
-    int same             = made_for.share_start == desc->share_start;
+    int same = made_for.share_start == desc->share_start;
     made_for.share_start = desc->share_start;
     for (uint32_t i = 0; i < cells->contacts && !same; ++i)
         if (!is_still(&cells->contact[i])) return 0;
@@ -327,13 +327,13 @@ static hair_result keep(const hair_host* host, struct hair_cells* cells, const s
 {
     if (cells->contacts > cells->last_room) {
         hair_free(host, cells->last);
-        cells->last      = hair_alloc(host, cells->room, sizeof *cells->last);
+        cells->last = hair_alloc(host, cells->room, sizeof *cells->last);
         cells->last_room = cells->last ? cells->room : 0;
         if (!cells->last) return hair_fail_memory(host, "what guides collide with");
     }
     if (cells->contacts) memcpy(cells->last, cells->contact, cells->contacts * sizeof *cells->last);
     cells->last_contacts = cells->contacts;
-    cells->made_for      = *desc;
+    cells->made_for = *desc;
     return HAIR_OK;
 }
 
@@ -344,7 +344,7 @@ hair_result hair_cells_list(const hair_host* host, struct hair_cells* cells,
     if (!*changed) return HAIR_OK;
     cells->entries = 0;
     uint64_t pairs, most = cells->contacts > MOST_PAIRS ? cells->contacts : MOST_PAIRS;
-    float    scale = 1;
+    float scale = 1;
     do {
         lay_grid(cells, desc, scale);
         pairs = count_pairs(cells);

@@ -21,7 +21,7 @@ static hair_quat turn_of(const hair_solid* solid)
 void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* half)
 {
     const float* size = solid->size;
-    *middle           = hair_v3(0, 0, 0);
+    *middle = hair_v3(0, 0, 0);
     switch (solid->shape) {
     case HAIR_SHAPE_CAPSULE: *half = hair_v3(size[0], size[0] + size[1], size[0]); return;
     case HAIR_SHAPE_BOX: *half = hair_load3(size); return;
@@ -33,14 +33,14 @@ void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* ha
     }
     hair_vec3 lower = hair_load3(solid->form->info.lower), upper = hair_load3(solid->form->info.upper);
     *middle = hair_scale(hair_lerp(lower, upper, 0.5f), solid->scale);
-    *half   = hair_scale(hair_sub(upper, lower), 0.5f * solid->scale);
+    *half = hair_scale(hair_sub(upper, lower), 0.5f * solid->scale);
 }
 
 // Without rounding.
 static float radius_around(const hair_solid* solid)
 {
     const float* size = solid->size;
-    hair_vec3    middle, half;
+    hair_vec3 middle, half;
     switch (solid->shape) {
     case HAIR_SHAPE_FORM: hair_solid_extent(solid, &middle, &half); return hair_length(half);
     case HAIR_SHAPE_BOX: return hair_length(hair_load3(size));
@@ -55,9 +55,9 @@ static float radius_around(const hair_solid* solid)
 static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
 {
     hair_vec3 center = from_head(solid, head), middle, sides;
-    float     half   = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
-    float     radius = radius_around(solid) + solid->rounding;
-    hair_vec3 axis   = hair_rotate(turn_of(solid), hair_v3(0, half, 0));
+    float half = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
+    float radius = radius_around(solid) + solid->rounding;
+    hair_vec3 axis = hair_rotate(turn_of(solid), hair_v3(0, half, 0));
     if (solid->shape == HAIR_SHAPE_FORM) {
         hair_solid_extent(solid, &middle, &sides);
         center = hair_add(center, hair_rotate(turn_of(solid), middle));
@@ -72,13 +72,13 @@ static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
 {
     hair_quat a = turn_of(from), b = turn_of(to);
     hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
-    hair_vec3 v    = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
-    float     sine = hair_length(v);
-    float     angle = 2 * atan2f(sine, fabsf(turn.w));
-    hair_vec3 spin  = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
+    hair_vec3 v = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
+    float sine = hair_length(v);
+    float angle = 2 * atan2f(sine, fabsf(turn.w));
+    hair_vec3 spin = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
     if (to->shape == HAIR_SHAPE_CAPSULE) {
         hair_vec3 axis = hair_rotate(b, hair_v3(0, 1, 0));
-        spin           = hair_scale(axis, hair_dot(spin, axis));
+        spin = hair_scale(axis, hair_dot(spin, axis));
     }
     return (hair_vec4){spin.x, spin.y, spin.z, 0};
 }
@@ -104,7 +104,7 @@ static float distance_of(const hair_solid* solid, const struct hair_pose* head)
     hair_vec4 end[2];
     place(solid, head, end);
     hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
-    float     t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
+    float t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
     return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
 }
 
@@ -112,7 +112,7 @@ static float distance_of(const hair_solid* solid, const struct hair_pose* head)
 static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head, hair_shape last,
                        uint32_t chosen[HAIR_STEP_SOLIDS])
 {
-    float    distance[HAIR_STEP_SOLIDS];
+    float distance[HAIR_STEP_SOLIDS];
     uint32_t count = 0, farthest = 0;
     for (uint32_t i = 0; i < solids->now.count; ++i) {
         const hair_solid* solid = &solids->now.solid[i];
@@ -137,11 +137,11 @@ static struct hair_body body_of(const hair_solid* before, const hair_solid* now,
 {
     hair_vec3 a = from_head(before, head_before), b = from_head(now, head_now);
     hair_quat p = turn_of(before), q = turn_of(now);
-    float     side = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
+    float side = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
     return (struct hair_body){
         .position = {{a.x, a.y, a.z, now->rounding}, {b.x, b.y, b.z, now->friction}},
         .rotation = {{side * p.x, side * p.y, side * p.z, side * p.w}, {q.x, q.y, q.z, q.w}},
-        .size     = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
+        .size = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
 }
 
 static uint32_t fill(const struct hair_solids* solids, const struct hair_pose* head_before,
@@ -150,9 +150,9 @@ static uint32_t fill(const struct hair_solids* solids, const struct hair_pose* h
 {
     uint32_t chosen[HAIR_STEP_SOLIDS], count = choose(solids, head_now, last, chosen);
     for (uint32_t i = 0; i < count; ++i) {
-        const hair_solid *now    = &solids->now.solid[chosen[i]],
+        const hair_solid *now = &solids->now.solid[chosen[i]],
                          *before = hair_solids_before(solids, chosen[i]);
-        around[i]                = capsule_of(before, now, head_before, head_now);
+        around[i] = capsule_of(before, now, head_before, head_now);
         if (out) out[i] = body_of(before, now, head_before, head_now);
     }
     return count;
@@ -174,17 +174,17 @@ uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_
 struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32_t i,
                                         const struct hair_pose* head_before, const struct hair_pose* head_now)
 {
-    const hair_solid* now    = &solids->now.solid[i];
-    hair_solid        before = *hair_solids_before(solids, i);
+    const hair_solid* now = &solids->now.solid[i];
+    hair_solid before = *hair_solids_before(solids, i);
     before.form = now->form, before.scale = now->scale; // It may have had another.
     struct hair_contact contact = {.around = capsule_of(&before, now, head_before, head_now),
-                                   .body   = body_of(&before, now, head_before, head_now)};
+                                   .body = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_FORM) return contact;
     const hair_form* form = now->form;
-    contact.body.size     = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_FORM};
-    contact.grid          = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
-    contact.nodes_x       = form->size[0];
-    contact.nodes_y       = form->size[1];
-    contact.nodes_z       = form->size[2];
+    contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_FORM};
+    contact.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
+    contact.nodes_x = form->size[0];
+    contact.nodes_y = form->size[1];
+    contact.nodes_z = form->size[2];
     return contact;
 }

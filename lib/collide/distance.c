@@ -25,7 +25,7 @@ static const double up[3] = {0, 1, 0};
 
 static double to_capsule(double radius, double half, const double p[3], double gradient[3])
 {
-    const double out[3]  = {p[0], p[1] - clamp(p[1], -half, half), p[2]};
+    const double out[3] = {p[0], p[1] - clamp(p[1], -half, half), p[2]};
     const double away[3] = {1, 0, 0};
     return direction(out, half > 0 ? away : up, gradient) - radius;
 }
@@ -33,9 +33,9 @@ static double to_capsule(double radius, double half, const double p[3], double g
 static double to_box(const float size[3], const double p[3], double gradient[3])
 {
     double out[3], q[3], deepest = -INFINITY;
-    int    face = 0;
+    int face = 0;
     for (int k = 0; k < 3; ++k) {
-        q[k]   = fabs(p[k]) - (double)size[k];
+        q[k] = fabs(p[k]) - (double)size[k];
         out[k] = copysign(fmax(q[k], 0), p[k]);
         if (q[k] > deepest) deepest = q[k], face = k;
     }
@@ -52,11 +52,11 @@ struct profile {
 
 static void edge(const double p[2], const double a[2], const double b[2], struct profile* nearest)
 {
-    double d[2]   = {b[0] - a[0], b[1] - a[1]};
+    double d[2] = {b[0] - a[0], b[1] - a[1]};
     double length = d[0] * d[0] + d[1] * d[1];
-    double t      = length > 0 ? clamp(((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length, 0, 1) : 0;
+    double t = length > 0 ? clamp(((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / length, 0, 1) : 0;
     double out[2] = {p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1]};
-    double far    = sqrt(out[0] * out[0] + out[1] * out[1]);
+    double far = sqrt(out[0] * out[0] + out[1] * out[1]);
     if (far < nearest->distance) *nearest = (struct profile){far, {out[0], out[1]}};
 }
 
@@ -78,20 +78,20 @@ static double revolve(struct profile nearest, int inside, const double flank[2],
 
 static double to_cylinder(double radius, double half, const double p[3], double gradient[3])
 {
-    const double   at[2] = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]}, flank[2] = {1, 0};
-    const double   profile[4][2] = {{0, -half}, {radius, -half}, {radius, half}, {0, half}};
-    struct profile nearest       = {INFINITY, {0, 0}};
+    const double at[2] = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]}, flank[2] = {1, 0};
+    const double profile[4][2] = {{0, -half}, {radius, -half}, {radius, half}, {0, half}};
+    struct profile nearest = {INFINITY, {0, 0}};
     for (int k = 0; k < 3; ++k) edge(at, profile[k], profile[k + 1], &nearest);
     return revolve(nearest, at[0] < radius && fabs(at[1]) < half, flank, p, gradient);
 }
 
 static double to_cone(double radius, double half, const double p[3], double gradient[3])
 {
-    const double   at[2]         = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]};
-    const double   slant         = sqrt(radius * radius + 4 * half * half);
-    const double   flank[2]      = {slant > 0 ? 2 * half / slant : 1, slant > 0 ? radius / slant : 0};
-    const double   profile[3][2] = {{0, -half}, {radius, -half}, {0, half}};
-    struct profile nearest       = {INFINITY, {0, 0}};
+    const double at[2] = {sqrt(p[0] * p[0] + p[2] * p[2]), p[1]};
+    const double slant = sqrt(radius * radius + 4 * half * half);
+    const double flank[2] = {slant > 0 ? 2 * half / slant : 1, slant > 0 ? radius / slant : 0};
+    const double profile[3][2] = {{0, -half}, {radius, -half}, {0, half}};
+    struct profile nearest = {INFINITY, {0, 0}};
     for (int k = 0; k < 2; ++k) edge(at, profile[k], profile[k + 1], &nearest);
     int inside = at[1] > -half && at[0] * flank[0] + (at[1] - half) * flank[1] < 0;
     return revolve(nearest, inside, flank, p, gradient);
@@ -100,9 +100,9 @@ static double to_cone(double radius, double half, const double p[3], double grad
 double hair_distance_to_shape(hair_shape shape, const float size[3], const double point[3],
                               double gradient[3])
 {
-    double  own[3];
+    double own[3];
     double* out = gradient ? gradient : own;
-    double  a = (double)size[0], b = (double)size[1];
+    double a = (double)size[0], b = (double)size[1];
     switch (shape) {
     case HAIR_SHAPE_SPHERE: return to_capsule(a, 0, point, out);
     case HAIR_SHAPE_CAPSULE: return to_capsule(a, b, point, out);
@@ -123,13 +123,13 @@ static double interpolate(const hair_form* form, const double at[3], double slop
     for (int k = 0; k < 3; ++k) {
         double x = (at[k] - (double)form->origin[k]) / (double)form->voxel;
         double i = clamp(floor(x), 0, form->size[k] - 2);
-        t[k]     = clamp(x - i, 0, 1);
+        t[k] = clamp(x - i, 0, 1);
         node += (size_t)i * step[k];
     }
     double value = 0;
     slope[0] = slope[1] = slope[2] = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        int    x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+        int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
         double u = x ? t[0] : 1 - t[0], v = y ? t[1] : 1 - t[1], w = z ? t[2] : 1 - t[2];
         double d = (double)form->distance[node + (size_t)x + (size_t)y * step[1] + (size_t)z * step[2]];
         value += u * v * w * d;
@@ -142,7 +142,7 @@ static double interpolate(const hair_form* form, const double at[3], double slop
 
 double hair_distance_to_form(const hair_form* form, const double point[3], double gradient[3])
 {
-    double  own[3], inside[3], slope[3], beyond = 0;
+    double own[3], inside[3], slope[3], beyond = 0;
     double* out = gradient ? gradient : own;
     for (int k = 0; k < 3; ++k) {
         double first = (double)form->origin[k], last = first + (double)form->voxel * (form->size[k] - 1);
@@ -165,7 +165,7 @@ static void rotate(const float q[4], double sign, const double v[3], double out[
     double norm = 0, u[3];
     for (int k = 0; k < 4; ++k) norm += (double)q[k] * (double)q[k];
     for (int k = 0; k < 3; ++k) u[k] = sign * (double)q[k] / sqrt(norm);
-    double w    = (double)q[3] / sqrt(norm);
+    double w = (double)q[3] / sqrt(norm);
     double t[3] = {2 * (u[1] * v[2] - u[2] * v[1]), 2 * (u[2] * v[0] - u[0] * v[2]),
                    2 * (u[0] * v[1] - u[1] * v[0])};
     double r[3] = {v[0] + w * t[0] + u[1] * t[2] - u[2] * t[1], v[1] + w * t[1] + u[2] * t[0] - u[0] * t[2],

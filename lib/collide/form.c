@@ -8,11 +8,11 @@
 
 #include <string.h>
 
-#define LEAST_SIZE 1e-6f     // m: of a mesh
+#define LEAST_SIZE 1e-6f // m: of a mesh
 #define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
-#define MOST_VOXELS 256      // along the longest side
-#define MOST_WORK 500000000  // triangles and boxes looked at
-#define SWEEPS 8             // each way along the three axes
+#define MOST_VOXELS 256 // along the longest side
+#define MOST_WORK 500000000 // triangles and boxes looked at
+#define SWEEPS 8 // each way along the three axes
 
 static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
 {
@@ -45,15 +45,15 @@ static float farthest_from_origin(const struct hair_triangles* t)
 // How fine, and how thick a shell is, so that neither makes more nodes than the resolution says, nor room many more.
 static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles* t, hair_form_info* info)
 {
-    float side      = longest(hair_sub(t->bounds.upper, t->bounds.lower));
-    float voxels    = (float)(desc->voxel > 0 ? MOST_VOXELS : desc->resolution);
+    float side = longest(hair_sub(t->bounds.upper, t->bounds.lower));
+    float voxels = (float)(desc->voxel > 0 ? MOST_VOXELS : desc->resolution);
     float thickness = info->closed ? 0 : desc->thickness;
-    info->voxel     = fmaxf(desc->voxel, (side + thickness) / voxels);
+    info->voxel = fmaxf(desc->voxel, (side + thickness) / voxels);
     if (!info->closed && thickness < 2 * info->voxel) {
         info->voxel = fmaxf(desc->voxel, side / (voxels - 2));
-        thickness   = 2 * info->voxel;
+        thickness = 2 * info->voxel;
     }
-    info->voxel     = fmaxf(info->voxel, (side + thickness + 2 * desc->room) / MOST_VOXELS);
+    info->voxel = fmaxf(info->voxel, (side + thickness + 2 * desc->room) / MOST_VOXELS);
     info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel);
 }
 
@@ -72,20 +72,20 @@ static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triang
                          "hair_form_desc: the mesh is %g m long but up to %g m from its origin: too far for "
                          "voxels of %g m",
                          (double)side, (double)far, (double)form->voxel);
-    float       room      = form->info.thickness / 2 + desc->room + HAIR_FORM_PADDING * form->voxel;
-    const float lower[3]  = {t->bounds.lower.x, t->bounds.lower.y, t->bounds.lower.z};
-    const float upper[3]  = {t->bounds.upper.x, t->bounds.upper.y, t->bounds.upper.z};
+    float room = form->info.thickness / 2 + desc->room + HAIR_FORM_PADDING * form->voxel;
+    const float lower[3] = {t->bounds.lower.x, t->bounds.lower.y, t->bounds.lower.z};
+    const float upper[3] = {t->bounds.upper.x, t->bounds.upper.y, t->bounds.upper.z};
     const float center[3] = {t->center.x, t->center.y, t->center.z};
     for (int k = 0; k < 3; ++k) {
-        form->size[k]       = (uint32_t)ceilf((upper[k] - lower[k] + 2 * room) / form->voxel) + 1;
-        form->info.size[k]  = form->size[k];
+        form->size[k] = (uint32_t)ceilf((upper[k] - lower[k] + 2 * room) / form->voxel) + 1;
+        form->info.size[k] = form->size[k];
         form->info.lower[k] = center[k] + lower[k] - form->info.thickness / 2;
         form->info.upper[k] = center[k] + upper[k] + form->info.thickness / 2;
         // The mesh in the middle of it.
         form->origin[k] = center[k] - form->voxel * (float)(form->size[k] - 1) / 2;
     }
-    size_t nodes     = (size_t)form->size[0] * form->size[1] * form->size[2];
-    form->distance   = hair_alloc(host, nodes, sizeof *form->distance);
+    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
+    form->distance = hair_alloc(host, nodes, sizeof *form->distance);
     form->info.bytes = sizeof *form + nodes * sizeof *form->distance;
     return form->distance ? HAIR_OK : hair_fail_memory(host, "a form's distances");
 }
@@ -119,16 +119,16 @@ static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint3
         for (at[1] = 0; at[1] < form->size[1]; ++at[1]) {
             if (t->work > MOST_WORK) return too_much(form, t);
             for (uint32_t i = 0; i < form->size[0]; ++i) { // There and back, so that the next is a neighbour.
-                at[0]              = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
-                hair_vec3 place    = place_of(form, t, at);
-                float     distance = HAIR_FORM_BAND * form->voxel;
-                uint32_t  found    = UINT32_MAX;
+                at[0] = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
+                hair_vec3 place = place_of(form, t, at);
+                float distance = HAIR_FORM_BAND * form->voxel;
+                uint32_t found = UINT32_MAX;
                 if (last != UINT32_MAX) {
                     float guess = hair_triangles_distance(t, last, place);
                     if (guess < distance) distance = guess, found = last;
                 }
                 hair_triangles_find(t, place, &distance, &found);
-                size_t node   = node_of(form, at);
+                size_t node = node_of(form, at);
                 nearest[node] = last = found;
                 form->distance[node] = found == UINT32_MAX ? INFINITY : distance;
             }
@@ -144,19 +144,19 @@ static void take(hair_form* form, const struct hair_triangles* t, uint32_t* near
     float distance = hair_triangles_distance(t, nearest[from], place);
     if (distance >= form->distance[node]) return;
     form->distance[node] = distance;
-    nearest[node]        = nearest[from];
+    nearest[node] = nearest[from];
 }
 
 // From the nodes before it along each axis; bits of `backwards` turn the axes.
 static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, int backwards)
 {
     const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
-    uint32_t     i[3], at[3];
+    uint32_t i[3], at[3];
     for (i[2] = 0; i[2] < form->size[2]; ++i[2])
         for (i[1] = 0; i[1] < form->size[1]; ++i[1])
             for (i[0] = 0; i[0] < form->size[0]; ++i[0]) {
                 for (int k = 0; k < 3; ++k) at[k] = backwards >> k & 1 ? form->size[k] - 1 - i[k] : i[k];
-                size_t    node  = node_of(form, at);
+                size_t node = node_of(form, at);
                 hair_vec3 place = place_of(form, t, at);
                 for (int k = 0; k < 3; ++k)
                     if (i[k])
@@ -167,8 +167,8 @@ static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nea
 
 static hair_result measure(hair_form* form, struct hair_triangles* t)
 {
-    size_t      nodes   = (size_t)form->size[0] * form->size[1] * form->size[2];
-    uint32_t*   nearest = hair_alloc(&form->host, nodes, sizeof *nearest);
+    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
+    uint32_t* nearest = hair_alloc(&form->host, nodes, sizeof *nearest);
     hair_result result =
         nearest ? measure_near(form, t, nearest) : hair_fail_memory(&form->host, "a form's triangles");
     for (int i = 0; i < SWEEPS && !result; ++i) sweep(form, t, nearest, i % 8);
@@ -182,24 +182,24 @@ enum { UNKNOWN, OUTSIDE, INSIDE };
 
 struct sides {
     const hair_form* form;
-    unsigned char*   side;  // of each node
-    uint32_t*        stack; // nodes whose neighbours are to be told
-    size_t           depth;
+    unsigned char* side; // of each node
+    uint32_t* stack; // nodes whose neighbours are to be told
+    size_t depth;
 };
 
 static void tell(struct sides* sides, size_t node, unsigned char side)
 {
-    sides->side[node]            = side;
+    sides->side[node] = side;
     sides->stack[sides->depth++] = (uint32_t)node; // Once each: it was unknown.
 }
 
 // All that is on the same side as what is on the stack.
 static void spread(struct sides* sides)
 {
-    const hair_form* form    = sides->form;
-    const size_t     step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
+    const hair_form* form = sides->form;
+    const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     while (sides->depth > 0) {
-        size_t       node  = sides->stack[--sides->depth];
+        size_t node = sides->stack[--sides->depth];
         const size_t at[3] = {node % step[1], node / step[1] % form->size[1], node / step[2]};
         for (int k = 0; k < 6; ++k) {
             int axis = k / 2;
@@ -214,10 +214,10 @@ static void spread(struct sides* sides)
 
 static hair_result find_sides(hair_form* form, struct hair_triangles* t)
 {
-    size_t       nodes = (size_t)form->size[0] * form->size[1] * form->size[2], node = 0;
+    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2], node = 0;
     struct sides sides = {.form = form};
-    sides.side         = hair_alloc(&form->host, nodes, sizeof *sides.side);
-    sides.stack        = hair_alloc(&form->host, nodes, sizeof *sides.stack);
+    sides.side = hair_alloc(&form->host, nodes, sizeof *sides.side);
+    sides.stack = hair_alloc(&form->host, nodes, sizeof *sides.stack);
     hair_result result =
         sides.side && sides.stack ? HAIR_OK : hair_fail_memory(&form->host, "the inside of a form");
     uint32_t at[3];
@@ -249,9 +249,9 @@ static uint64_t mark_of(const hair_form* form)
 {
     const unsigned char* parts[] = {(const unsigned char*)form->size, (const unsigned char*)form->origin,
                                     (const unsigned char*)&form->voxel, (const unsigned char*)form->distance};
-    size_t               nodes   = (size_t)form->size[0] * form->size[1] * form->size[2];
-    size_t               words[] = {3, 3, 1, nodes};
-    uint64_t             mark    = 0xcbf29ce484222325u; // FNV-1a, a word at a time
+    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
+    size_t words[] = {3, 3, 1, nodes};
+    uint64_t mark = 0xcbf29ce484222325u; // FNV-1a, a word at a time
     for (int k = 0; k < 4; ++k)
         for (size_t i = 0; i < words[k]; ++i) {
             uint32_t word;
@@ -272,7 +272,7 @@ static hair_result fill(const hair_form_desc* desc, struct hair_triangles* t, ha
                          desc->triangle_count);
     form->info.unused = desc->triangle_count - t->count;
     form->info.closed = (uint32_t)hair_triangles_are_closed(t);
-    result            = lay_grid(desc, t, form);
+    result = lay_grid(desc, t, form);
     if (!result) result = measure(form, t);
     if (result) return result;
     if (form->info.closed) return find_sides(form, t);
@@ -289,8 +289,8 @@ hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, h
     hair_form* form = hair_alloc(host, 1, sizeof *form);
     if (!form) return hair_fail_memory(host, "a form");
     struct hair_triangles triangles = {0};
-    form->host                      = *host;
-    form->info                      = hair_form_info_default();
+    form->host = *host;
+    form->info = hair_form_info_default();
     atomic_init(&form->holders, 1);
     result = fill(desc, &triangles, form);
     hair_triangles_free(host, &triangles);
@@ -299,7 +299,7 @@ hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, h
         return result;
     }
     form->mark = mark_of(form);
-    *out       = form;
+    *out = form;
     return HAIR_OK;
 }
 

@@ -9,13 +9,13 @@
 
 // Immutable once made, but for how many hold it.
 struct hair_form {
-    hair_host      host; // whose memory it is
-    atomic_uint    holders;
+    hair_host host; // whose memory it is
+    atomic_uint holders;
     hair_form_info info;
-    uint64_t       mark;      // of its content: two forms of one mark are the same shape
-    uint32_t       size[3];   // nodes along x, y, z
-    float          origin[3]; // of the first node, m
-    float          voxel;     // from node to node, m
+    uint64_t mark; // of its content: two forms of one mark are the same shape
+    uint32_t size[3]; // nodes along x, y, z
+    float origin[3]; // of the first node, m
+    float voxel; // from node to node, m
     // m, below 0 inside; node (i, j, k) is at i + size[0] (j + size[1] k). The surface, and the room
     // around it, stay HAIR_FORM_PADDING voxels away from the grid's faces. Exact up to HAIR_FORM_BAND voxels from the mesh, beyond it as good as exact.
     float* distance;

@@ -12,7 +12,7 @@ struct place {
 static int compare(const void* a, const void* b)
 {
     const struct place *x = a, *y = b;
-    int                 by_key = (x->key > y->key) - (x->key < y->key);
+    int by_key = (x->key > y->key) - (x->key < y->key);
     return by_key ? by_key : (x->index > y->index) - (x->index < y->index);
 }
 

@@ -49,7 +49,7 @@ static hair_result check(const hair_host* host, const hair_solid* solid, uint32_
 {
     const struct {
         const char* name;
-        float       value, min, max;
+        float value, min, max;
     } numbers[] = {{"position[0]", solid->position[0], -1e9f, 1e9f},
                    {"position[1]", solid->position[1], -1e9f, 1e9f},
                    {"position[2]", solid->position[2], -1e9f, 1e9f},
@@ -80,12 +80,12 @@ static hair_solid solid_at(const hair_solid* from, uint32_t i, size_t stride)
 static hair_result reserve(const hair_host* host, struct hair_solid_list* list, uint32_t count)
 {
     if (count <= list->capacity) return HAIR_OK;
-    uint32_t    capacity = count < 8 ? 8 : count + count / 2;
-    hair_solid* grown    = hair_alloc(host, capacity, sizeof *grown);
+    uint32_t capacity = count < 8 ? 8 : count + count / 2;
+    hair_solid* grown = hair_alloc(host, capacity, sizeof *grown);
     if (!grown) return hair_fail_memory(host, "solids");
     if (list->count) memcpy(grown, list->solid, list->count * sizeof *grown);
     hair_free(host, list->solid);
-    list->solid    = grown;
+    list->solid = grown;
     list->capacity = capacity;
     return HAIR_OK;
 }
@@ -100,7 +100,7 @@ static hair_result reserve_all(const hair_host* host, struct hair_solids* solids
     if (!pair) return hair_fail_memory(host, "solids");
     if (solids->now.count) memcpy(pair, solids->pair, solids->now.count * sizeof *pair);
     hair_free(host, solids->pair);
-    solids->pair     = pair;
+    solids->pair = pair;
     solids->capacity = solids->now.capacity;
     return HAIR_OK;
 }
@@ -124,9 +124,9 @@ static void count_contacts(struct hair_solids* solids)
         forms += solid->shape == HAIR_SHAPE_FORM && solid->form;
     }
     solids->contacts = bodies + forms;
-    solids->forms    = forms;
+    solids->forms = forms;
     solids->capsules = capsules < HAIR_STEP_SOLIDS ? capsules : HAIR_STEP_SOLIDS;
-    solids->bodies   = bodies < HAIR_STEP_SOLIDS ? bodies : HAIR_STEP_SOLIDS;
+    solids->bodies = bodies < HAIR_STEP_SOLIDS ? bodies : HAIR_STEP_SOLIDS;
 }
 
 static hair_result check_list(const hair_host* host, const hair_solid* from, uint32_t count, size_t stride)
@@ -140,7 +140,7 @@ static hair_result check_list(const hair_host* host, const hair_solid* from, uin
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "solid stride is %zu, not in [%zu, 4096]", stride,
                          sizeof(hair_solid));
     for (uint32_t i = 0; i < count; ++i) {
-        hair_solid  solid  = solid_at(from, i, stride);
+        hair_solid solid = solid_at(from, i, stride);
         hair_result result = check(host, &solid, i);
         if (result) return result;
     }
@@ -209,7 +209,7 @@ void hair_solids_free(const hair_host* host, struct hair_solids* solids)
 const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t i)
 {
     const hair_solid* now = &solids->now.solid[i];
-    uint32_t          k   = solids->pair[i];
+    uint32_t k = solids->pair[i];
     if (k >= solids->before.count) return now;
     const hair_solid* before = &solids->before.solid[k];
     return before->shape == now->shape ? before : now;

@@ -11,18 +11,18 @@
 // Holds the forms of its solids.
 struct hair_solid_list {
     hair_solid* solid;
-    uint32_t    count, capacity;
+    uint32_t count, capacity;
 };
 
 struct hair_solids {
     struct hair_solid_list now, before; // before: at the last step; it has room for as many as there are now
-    uint32_t*              pair;        // of each now: its place in before, or HAIR_UNPAIRED
-    uint32_t               capacity;    // of pair
-    uint32_t               capsules;    // what hair_solids_capsules will return,
-    uint32_t               bodies;      // and what hair_solids_bodies will
-    uint32_t               contacts;    // all but forms without their mesh,
-    uint32_t               forms;       // and the forms among them
-    int                    changed;     // since `before` was
+    uint32_t* pair; // of each now: its place in before, or HAIR_UNPAIRED
+    uint32_t capacity; // of pair
+    uint32_t capsules; // what hair_solids_capsules will return,
+    uint32_t bodies; // and what hair_solids_bodies will
+    uint32_t contacts; // all but forms without their mesh,
+    uint32_t forms; // and the forms among them
+    int changed; // since `before` was
 };
 
 #define HAIR_UNPAIRED UINT32_MAX
@@ -34,7 +34,7 @@ hair_result hair_solids_set(const hair_host* host, struct hair_solids* solids, c
 // The same of both lists at once, of solids that were saved: a form may be missing, and then its solid touches nothing.
 hair_result hair_solids_restore(const hair_host* host, struct hair_solids* solids, const hair_solid* now,
                                 uint32_t count, const hair_solid* before, uint32_t count_before);
-void        hair_solids_free(const hair_host* host, struct hair_solids* solids);
+void hair_solids_free(const hair_host* host, struct hair_solids* solids);
 
 // Where the i-th was at the last step: itself where it was not there.
 const hair_solid* hair_solids_before(const struct hair_solids* solids, uint32_t i);

@@ -56,26 +56,26 @@ static void sort(uint64_t* keys, uint64_t* other, uint32_t count)
 {
     for (int round = 0; round < ROUNDS; ++round) {
         uint32_t start[1 << DIGIT] = {0}, at = 0;
-        int      shift = 32 + DIGIT * round;
+        int shift = 32 + DIGIT * round;
         for (uint32_t i = 0; i < count; ++i) ++start[keys[i] >> shift & ((1 << DIGIT) - 1)];
         for (uint32_t k = 0; k < 1 << DIGIT; ++k) {
             uint32_t size = start[k];
-            start[k]      = at;
+            start[k] = at;
             at += size;
         }
         for (uint32_t i = 0; i < count; ++i) other[start[keys[i] >> shift & ((1 << DIGIT) - 1)]++] = keys[i];
         uint64_t* swap = keys;
-        keys           = other;
-        other          = swap;
+        keys = other;
+        other = swap;
     }
 }
 
 static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
 {
-    uint64_t* keys       = hair_alloc(host, 2 * (size_t)t->count, sizeof *keys);
+    uint64_t* keys = hair_alloc(host, 2 * (size_t)t->count, sizeof *keys);
     uint32_t(*sorted)[3] = hair_alloc(host, t->count, sizeof *sorted);
-    hair_vec3 size       = hair_sub(t->bounds.upper, t->bounds.lower);
-    float     scale      = (float)(1 << DIGIT) / fmaxf(fmaxf(size.x, size.y), fmaxf(size.z, 1e-30f));
+    hair_vec3 size = hair_sub(t->bounds.upper, t->bounds.lower);
+    float scale = (float)(1 << DIGIT) / fmaxf(fmaxf(size.x, size.y), fmaxf(size.z, 1e-30f));
     if (!keys || !sorted) {
         hair_free(host, keys);
         hair_free(host, sorted);
@@ -102,34 +102,34 @@ static uint32_t leaf_of(const struct hair_triangles* t, uint32_t node)
 
 static void make_leaf(struct hair_triangles* t, uint32_t node)
 {
-    uint32_t        first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
-    struct hair_box box   = {corner(t, first, 0), corner(t, first, 0)};
-    hair_vec3       area = {0, 0, 0}, center = {0, 0, 0};
-    float           weight = 0;
+    uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
+    struct hair_box box = {corner(t, first, 0), corner(t, first, 0)};
+    hair_vec3 area = {0, 0, 0}, center = {0, 0, 0};
+    float weight = 0;
     for (uint32_t i = first; i < first + HAIR_TRIANGLES_PER_LEAF && i < t->count; ++i) {
         hair_vec3 a = corner(t, i, 0), b = corner(t, i, 1), c = corner(t, i, 2);
-        hair_vec3 own  = hair_scale(hair_cross(hair_sub(b, a), hair_sub(c, a)), 0.5f);
-        float     size = hair_length(own);
-        box.lower      = least(least(box.lower, a), least(b, c));
-        box.upper      = most(most(box.upper, a), most(b, c));
-        area           = hair_add(area, own);
-        center         = hair_add(center, hair_scale(hair_add(a, hair_add(b, c)), size / 3));
+        hair_vec3 own = hair_scale(hair_cross(hair_sub(b, a), hair_sub(c, a)), 0.5f);
+        float size = hair_length(own);
+        box.lower = least(least(box.lower, a), least(b, c));
+        box.upper = most(most(box.upper, a), most(b, c));
+        area = hair_add(area, own);
+        center = hair_add(center, hair_scale(hair_add(a, hair_add(b, c)), size / 3));
         weight += size;
     }
-    t->box[node]           = box;
-    t->dipole[node].area   = area;
+    t->box[node] = box;
+    t->dipole[node].area = area;
     t->dipole[node].radius = weight; // Until the boxes are done.
     t->dipole[node].center = weight > 0 ? hair_scale(center, 1 / weight) : box.lower;
 }
 
 static void join(struct hair_triangles* t, uint32_t node)
 {
-    const struct hair_box *   a = &t->box[2 * node + 1], *b = &t->box[2 * node + 2];
+    const struct hair_box *a = &t->box[2 * node + 1], *b = &t->box[2 * node + 2];
     const struct hair_dipole *x = &t->dipole[2 * node + 1], *y = &t->dipole[2 * node + 2];
-    float                     weight = x->radius + y->radius;
-    t->box[node]                     = (struct hair_box){least(a->lower, b->lower), most(a->upper, b->upper)};
-    t->dipole[node].area             = hair_add(x->area, y->area);
-    t->dipole[node].radius           = weight;
+    float weight = x->radius + y->radius;
+    t->box[node] = (struct hair_box){least(a->lower, b->lower), most(a->upper, b->upper)};
+    t->dipole[node].area = hair_add(x->area, y->area);
+    t->dipole[node].radius = weight;
     t->dipole[node].center = weight > 0 ? hair_lerp(x->center, y->center, y->radius / weight) : x->center;
 }
 
@@ -157,15 +157,15 @@ static void find_bounds(struct hair_triangles* t)
             bounds.upper = most(bounds.upper, corner(t, i, k));
         }
     hair_vec3 half = hair_scale(hair_sub(bounds.upper, bounds.lower), 0.5f);
-    t->center      = hair_add(bounds.lower, half);
-    t->bounds      = (struct hair_box){hair_sub(bounds.lower, t->center), hair_sub(bounds.upper, t->center)};
+    t->center = hair_add(bounds.lower, half);
+    t->bounds = (struct hair_box){hair_sub(bounds.lower, t->center), hair_sub(bounds.upper, t->center)};
 }
 
 hair_result hair_triangles_build(const hair_host* host, const float* positions, const uint32_t* indices,
                                  uint32_t count, struct hair_triangles* out)
 {
     struct hair_triangles t = {.positions = positions};
-    hair_result           result;
+    hair_result result;
     t.indices = hair_alloc(host, count, sizeof *t.indices);
     if (!t.indices) return hair_fail_memory(host, "a form's triangles");
     for (uint32_t i = 0; i < count; ++i) {
@@ -177,9 +177,9 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
         find_bounds(&t);
         t.leaves = (t.count + HAIR_TRIANGLES_PER_LEAF - 1) / HAIR_TRIANGLES_PER_LEAF;
         for (t.lowest = 1; 2 * t.lowest <= 2 * t.leaves - 1;) t.lowest *= 2;
-        t.box    = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
+        t.box = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
         t.dipole = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.dipole);
-        result   = t.box && t.dipole ? put_in_order(host, &t) : hair_fail_memory(host, "a form's triangles");
+        result = t.box && t.dipole ? put_in_order(host, &t) : hair_fail_memory(host, "a form's triangles");
         if (result) {
             hair_triangles_free(host, &t);
             return result;
@@ -203,8 +203,8 @@ void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles
 static float squared_to_segment(hair_vec3 p, hair_vec3 a, hair_vec3 b)
 {
     hair_vec3 d = hair_sub(b, a), out = hair_sub(p, a);
-    float     t = hair_dot(out, d) / fmaxf(hair_dot(d, d), 1e-37f);
-    out         = hair_sub(out, hair_scale(d, fminf(fmaxf(t, 0), 1)));
+    float t = hair_dot(out, d) / fmaxf(hair_dot(d, d), 1e-37f);
+    out = hair_sub(out, hair_scale(d, fminf(fmaxf(t, 0), 1)));
     return hair_dot(out, out);
 }
 
@@ -213,7 +213,7 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
     hair_vec3 a = corner(t, place, 0), b = corner(t, place, 1), c = corner(t, place, 2);
     hair_vec3 ab = hair_sub(b, a), bc = hair_sub(c, b), ca = hair_sub(a, c);
     hair_vec3 normal = hair_cross(ca, ab);
-    float     size   = hair_dot(normal, normal);
+    float size = hair_dot(normal, normal);
     // Over the triangle, when it is on the same side of all three edges.
     if (size > 1e-37f && hair_dot(hair_cross(normal, ab), hair_sub(p, a)) >= 0 &&
         hair_dot(hair_cross(normal, bc), hair_sub(p, b)) >= 0 &&
@@ -228,7 +228,7 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
 static float squared_to_box(const struct hair_box* box, hair_vec3 p)
 {
     hair_vec3 zero = {0, 0, 0};
-    hair_vec3 out  = most(most(hair_sub(box->lower, p), hair_sub(p, box->upper)), zero);
+    hair_vec3 out = most(most(hair_sub(box->lower, p), hair_sub(p, box->upper)), zero);
     return hair_dot(out, out);
 }
 
@@ -241,21 +241,21 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
 {
     struct {
         uint32_t node;
-        float    squared;
-    } stack[64]    = {{0, 0}};
+        float squared;
+    } stack[64] = {{0, 0}};
     uint32_t depth = 1, found = UINT32_MAX;
-    float    squared = *distance * *distance;
+    float squared = *distance * *distance;
     while (depth > 0) {
         uint32_t node = stack[--depth].node;
         if (stack[depth].squared >= squared) continue;
         ++t->work;
         if (node < t->leaves - 1) {
             uint32_t a = 2 * node + 1, b = a + 1;
-            float    to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
-            int      b_first       = to_b < to_a; // The nearer one goes on top.
-            stack[depth].node      = b_first ? a : b;
+            float to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
+            int b_first = to_b < to_a; // The nearer one goes on top.
+            stack[depth].node = b_first ? a : b;
             stack[depth++].squared = b_first ? to_a : to_b;
-            stack[depth].node      = b_first ? b : a;
+            stack[depth].node = b_first ? b : a;
             stack[depth++].squared = b_first ? to_b : to_a;
             continue;
         }
@@ -268,7 +268,7 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
     }
     if (found == UINT32_MAX) return;
     *distance = sqrtf(squared);
-    *nearest  = found;
+    *nearest = found;
 }
 
 // Winding ---------------------------------------------------------------------------------------------------
@@ -290,11 +290,11 @@ static float solid_angle(const struct hair_triangles* t, uint32_t place, hair_ve
 float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
 {
     uint32_t stack[64] = {0}, depth = 1;
-    float    sum = 0;
+    float sum = 0;
     while (depth > 0) {
-        uint32_t                  node   = stack[--depth];
+        uint32_t node = stack[--depth];
         const struct hair_dipole* dipole = &t->dipole[node];
-        hair_vec3                 to     = hair_sub(dipole->center, point);
+        hair_vec3 to = hair_sub(dipole->center, point);
         ++t->work;
         float far = hair_length(to);
         if (far > FROM_AFAR * dipole->radius) {
@@ -324,7 +324,7 @@ static uint64_t mix(uint64_t x)
 static uint64_t hash_of(hair_vec3 p)
 {
     uint64_t hash = 0x9e3779b97f4a7c15u;
-    float    v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 is 0.
+    float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 is 0.
     for (int k = 0; k < 3; ++k) {
         uint32_t bits;
         memcpy(&bits, &v[k], sizeof bits);
@@ -340,7 +340,7 @@ int hair_triangles_are_closed(const struct hair_triangles* t)
     uint64_t sum = 0;
     for (uint32_t i = 0; i < t->count; ++i) {
         uint64_t v[4] = {hash_of(corner(t, i, 0)), hash_of(corner(t, i, 1)), hash_of(corner(t, i, 2))};
-        v[3]          = v[0];
+        v[3] = v[0];
         for (int k = 0; k < 3; ++k) {
             uint64_t edge = mix(mix(v[k] < v[k + 1] ? v[k] : v[k + 1]) + (v[k] < v[k + 1] ? v[k + 1] : v[k]));
             sum += v[k] < v[k + 1] ? edge : 0 - edge;

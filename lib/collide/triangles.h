@@ -7,9 +7,9 @@
 
 // A node's triangles from afar: one dipole.
 struct hair_dipole {
-    hair_vec3 area;   // the sum of their area vectors
+    hair_vec3 area; // the sum of their area vectors
     hair_vec3 center; // weighted by area
-    float     radius; // no vertex is farther from the centre
+    float radius; // no vertex is farther from the centre
 };
 
 struct hair_box {
@@ -18,16 +18,16 @@ struct hair_box {
 
 // Positions are from `center`, so that floats resolve what is small but far from the origin.
 struct hair_triangles {
-    const float*    positions;
-    hair_vec3       center;
+    const float* positions;
+    hair_vec3 center;
     struct hair_box bounds; // from the centre
-    uint32_t        count;  // of those that have three different corners; the others are left out
+    uint32_t count; // of those that have three different corners; the others are left out
     uint32_t (*indices)[3]; // along a space-filling curve; leaves are HAIR_TRIANGLES_PER_LEAF of them each
-    uint32_t            leaves;
-    uint32_t            lowest; // the first node of the tree's lowest level, plus 1: a power of two
-    struct hair_box*    box;    // of 2 leaves - 1 nodes: the children of i are 2 i + 1 and 2 i + 2
+    uint32_t leaves;
+    uint32_t lowest; // the first node of the tree's lowest level, plus 1: a power of two
+    struct hair_box* box; // of 2 leaves - 1 nodes: the children of i are 2 i + 1 and 2 i + 2
     struct hair_dipole* dipole;
-    uint64_t            work; // nodes and triangles looked at so far
+    uint64_t work; // nodes and triangles looked at so far
 };
 
 #define HAIR_TRIANGLES_PER_LEAF 4
@@ -36,7 +36,7 @@ struct hair_triangles {
 // afterwards there is no tree.
 hair_result hair_triangles_build(const hair_host* host, const float* positions, const uint32_t* indices,
                                  uint32_t count, struct hair_triangles* out);
-void        hair_triangles_free(const hair_host* host, struct hair_triangles* triangles);
+void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles);
 
 // From a point, which is from the centre, to one of them.
 float hair_triangles_distance(const struct hair_triangles* triangles, uint32_t place, hair_vec3 point);

@@ -4,7 +4,7 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-#define ARROWS 40   // along the longest side
+#define ARROWS 40 // along the longest side
 #define AROUND 1.5f // of the box, and of air so much: as far as the fluid goes unless the wind says
 
 // That of the wind, or else of a source, or of what only a texture knows, 1 m/s.
@@ -17,7 +17,7 @@ static float grey_speed(const hair_wind* wind)
 
 static void widen(struct hair_shown_params* params, int i)
 {
-    float      more   = 0.5f * (AROUND - 1);
+    float more = 0.5f * (AROUND - 1);
     hair_vec4 *corner = &params->corner, *side = &params->side[i];
     *corner =
         (hair_vec4){corner->x - more * side->x, corner->y - more * side->y, corner->z - more * side->z, 0};
@@ -27,8 +27,8 @@ static void widen(struct hair_shown_params* params, int i)
 static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* wind, const hair_view* view,
                              struct hair_shown_params* params)
 {
-    const hair_slice slice   = view->slice ? view->slice : HAIR_SLICE_Z;
-    uint32_t         longest = 0, along[2];
+    const hair_slice slice = view->slice ? view->slice : HAIR_SLICE_Z;
+    uint32_t longest = 0, along[2];
     for (int k = 0; k < 3; ++k) longest = box->bricks[k] > longest ? box->bricks[k] : longest;
     hair_draw_write_slice(box, slice, view->slice_at, params);
     for (uint32_t i = 0; i < 2; ++i) {
@@ -44,12 +44,12 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
                           const struct hair_fluid* fluid, const struct hair_field_box* box,
                           const struct hair_pose* head, const hair_view* view)
 {
-    struct hair_gl*          gl     = draw->gl;
-    GLuint                   buffer = 0; // Made each time: who looks at no air has none.
-    hair_vec4                turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
+    struct hair_gl* gl = draw->gl;
+    GLuint buffer = 0; // Made each time: who looks at no air has none.
+    hair_vec4 turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     struct hair_shown_params params = {.rotation = turn};
-    struct hair_draw_params  own;
-    hair_result              result = hair_gl_need(gl, HAIR_GL_AIR);
+    struct hair_draw_params own;
+    hair_result result = hair_gl_need(gl, HAIR_GL_AIR);
     if (!result) result = hair_gl_uniform(gl, "hair shown", sizeof params, &buffer);
     if (result) return result;
     uint32_t arrows = write_arrows(box, wind, view, &params);

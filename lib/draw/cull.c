@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define GIVE 1.1f   // as in glsl/detail.glsl
+#define GIVE 1.1f // as in glsl/detail.glsl
 #define WIDEST 16.0 // that a map and the groom make a strand, as a multiple
-#define EDGE 8.0    // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
+#define EDGE 8.0 // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
 
 double hair_draw_edge(float pixels, float jitter)
 {
@@ -15,18 +15,18 @@ double hair_draw_edge(float pixels, float jitter)
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom)
 {
     struct hair_extent* extent = &draw->extent;
-    extent->lower              = hair_v3(INFINITY, INFINITY, INFINITY);
-    extent->upper              = hair_v3(-INFINITY, -INFINITY, -INFINITY);
+    extent->lower = hair_v3(INFINITY, INFINITY, INFINITY);
+    extent->upper = hair_v3(-INFINITY, -INFINITY, -INFINITY);
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
         hair_vec4 root = groom->rest[groom->guides[i].first].position;
-        extent->lower  = hair_v3(fminf(extent->lower.x, root.x), fminf(extent->lower.y, root.y),
-                                 fminf(extent->lower.z, root.z));
-        extent->upper  = hair_v3(fmaxf(extent->upper.x, root.x), fmaxf(extent->upper.y, root.y),
-                                 fmaxf(extent->upper.z, root.z));
-        extent->reach  = fmaxf(extent->reach, groom->guides[i].arc_length);
+        extent->lower = hair_v3(fminf(extent->lower.x, root.x), fminf(extent->lower.y, root.y),
+                                fminf(extent->lower.z, root.z));
+        extent->upper = hair_v3(fmaxf(extent->upper.x, root.x), fmaxf(extent->upper.y, root.y),
+                                fmaxf(extent->upper.z, root.z));
+        extent->reach = fmaxf(extent->reach, groom->guides[i].arc_length);
     }
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
-        extent->reach  = fmaxf(extent->reach, groom->patches[i].reach);
+        extent->reach = fmaxf(extent->reach, groom->patches[i].reach);
         extent->length = fmaxf(extent->length, groom->patches[i].length);
     }
 }
@@ -58,10 +58,10 @@ static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)
 // In double, since far out the head's place and what it is multiplied by nearly cancel.
 static void find_corner(const hair_view* view, const struct hair_pose* head, hair_vec3 corner, double clip[4])
 {
-    hair_vec3    at       = hair_rotate(head->rotation, corner);
+    hair_vec3 at = hair_rotate(head->rotation, corner);
     const double world[4] = {head->position[0] + (double)at.x, head->position[1] + (double)at.y,
                              head->position[2] + (double)at.z, 1};
-    double       eye[4]   = {0};
+    double eye[4] = {0};
     for (int i = 0; i < 16; ++i) eye[i % 4] += (double)view->view[i] * world[i / 4];
     for (int i = 0; i < 4; ++i) clip[i] = 0;
     for (int i = 0; i < 16; ++i) clip[i % 4] += (double)view->projection[i] * eye[i / 4];
@@ -81,10 +81,10 @@ static unsigned find_outside(const double clip[4], const double edge[2])
 int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
                              const hair_view* view)
 {
-    const struct hair_gl* gl          = draw->gl;
-    GLfloat               viewport[4] = {0};
-    double                edge[2], reach = reach_of(draw, view->lod);
-    unsigned              outside = (1u << SIDES) - 1;
+    const struct hair_gl* gl = draw->gl;
+    GLfloat viewport[4] = {0};
+    double edge[2], reach = reach_of(draw, view->lod);
+    unsigned outside = (1u << SIDES) - 1;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
@@ -101,21 +101,21 @@ int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pos
 void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
                            const hair_mat4* to_texture, float window[4])
 {
-    float  matrix[16], all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    float matrix[16], all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     double reach = reach_of(draw, lod);
     memcpy(matrix, to_texture, sizeof matrix);
     for (int i = 0; i < 8; ++i) {
-        hair_vec3 at        = hair_rotate(head->rotation, corner_of(&draw->extent, reach, i));
-        float     placed[4] = {at.x, at.y, at.z, 1}, out[4] = {0};
+        hair_vec3 at = hair_rotate(head->rotation, corner_of(&draw->extent, reach, i));
+        float placed[4] = {at.x, at.y, at.z, 1}, out[4] = {0};
         for (int k = 0; k < 16; ++k) out[k % 4] += matrix[k] * placed[k / 4];
         if (!(out[3] > 0)) return; // Beside the eye, hair may be anywhere.
         for (int k = 0; k < 2; ++k) {
-            all[k]     = fminf(all[k], out[k] / out[3]);
+            all[k] = fminf(all[k], out[k] / out[3]);
             all[2 + k] = fmaxf(all[2 + k], out[k] / out[3]);
         }
     }
     for (int k = 0; k < 2; ++k) {
-        window[k]     = fmaxf(window[k], all[k]);
+        window[k] = fmaxf(window[k], all[k]);
         window[2 + k] = fminf(window[2 + k], all[2 + k]);
     }
 }

@@ -8,7 +8,7 @@
 // The half space { p : edge w(p) + sign row(p) >= 0 } of clip space, with a unit normal.
 static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
-    float     p[4];
+    float p[4];
     hair_vec4 plane = {0, 0, 0, EVERYWHERE};
     for (int i = 0; i < 4; ++i) p[i] = edge * clip[4 * i + 3] + sign * clip[4 * i + row];
     float length = hair_length(hair_v3(p[0], p[1], p[2]));
@@ -20,14 +20,14 @@ static hair_vec4 find_side(const float clip[16], int row, float sign, float edge
 // Beyond the picture's edges by what strands are widened.
 static void write_sides(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
 {
-    float   matrix[16], projection[16], clip[16];
+    float matrix[16], projection[16], clip[16];
     GLfloat viewport[4] = {0};
     draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     memcpy(matrix, &out->view, sizeof matrix);
     memcpy(projection, &out->view_to_clip, sizeof projection);
     hair_mat4_multiply(projection, matrix, clip);
     for (int i = 0; i < 4; ++i) {
-        float edge           = (float)hair_draw_edge(viewport[2 + i / 2], view->jitter[i / 2]);
+        float edge = (float)hair_draw_edge(viewport[2 + i / 2], view->jitter[i / 2]);
         out->sides.column[i] = find_side(clip, i / 2, i % 2 ? -1 : 1, edge);
     }
     out->culls = 1;
@@ -41,7 +41,7 @@ static float find_scale(const struct hair_draw* draw, const float projection[16]
     return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
 }
 
-#define CELL 2.0f  // pixels: as fine as light need be
+#define CELL 2.0f // pixels: as fine as light need be
 #define LED 0.005f // m: what leads followers round solids moves them so far
 
 // Nearest to the eye; everywhere with an orthographic projection.
@@ -50,22 +50,22 @@ static float pixels_of(const struct hair_draw* draw, const struct hair_pose* hea
     const hair_vec3 middle =
         hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
     hair_mat4 matrix = hair_mat4_from_head(view->view, head);
-    float     in_eye[16], clip[16];
+    float in_eye[16], clip[16];
     memcpy(in_eye, &matrix, sizeof in_eye);
     hair_mat4_multiply(view->projection, in_eye, clip);
     hair_vec3 along = hair_v3(clip[3], clip[7], clip[11]);
-    float     w     = hair_dot(along, middle) + clip[15] - hair_length(along) * draw->reach.w;
+    float w = hair_dot(along, middle) + clip[15] - hair_length(along) * draw->reach.w;
     return find_scale(draw, view->projection) / fmaxf(w, 1e-6f);
 }
 
 void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view)
 {
     const hair_lod* lod = view ? view->lod : NULL;
-    draw->pixels        = 0;
-    draw->led           = 1;
+    draw->pixels = 0;
+    draw->led = 1;
     if (!lod || !lod->dynamic || hair_draw_expands(view)) return;
     draw->pixels = fmaxf(lod->importance * pixels_of(draw, head, view), 1e-6f);
-    draw->led    = fminf(fmaxf(LED * draw->pixels - 1, 0), 1);
+    draw->led = fminf(fmaxf(LED * draw->pixels - 1, 0), 1);
 }
 
 float hair_draw_cell(const struct hair_draw* draw, const hair_view* view)
@@ -86,21 +86,21 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
                             struct hair_draw_params* out)
 {
     const hair_lod* lod = view ? view->lod : NULL;
-    out->chunks         = hair_draw_chunks(draw, find_share(draw, lod));
-    out->strand_share   = lod ? lod->strands : 1;
-    out->segment_share  = lod ? lod->segments : 1;
-    out->width_power    = lod ? lod->width : 0;
+    out->chunks = hair_draw_chunks(draw, find_share(draw, lod));
+    out->strand_share = lod ? lod->strands : 1;
+    out->segment_share = lod ? lod->segments : 1;
+    out->width_power = lod ? lod->width : 0;
     if (!lod || !lod->dynamic) return;
     out->pixels_per_unit = find_scale(draw, view->projection);
-    out->strand_pixels   = lod->strand_pixels / fmaxf(lod->importance, 1e-6f);
-    out->segment_pixels  = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
-    out->least_share     = lod->least;
-    out->hidden_share    = lod->hidden;
+    out->strand_pixels = lod->strand_pixels / fmaxf(lod->importance, 1e-6f);
+    out->segment_pixels = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
+    out->least_share = lod->least;
+    out->hidden_share = lod->hidden;
     // Where roots are held, no strand leaves its patch's reach; where they are free there is no saying.
     if (draw->bounded) write_sides(draw, view, out);
     if (lod->hidden < 1 && draw->bounded) {
         hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->skull.x, draw->skull.y, draw->skull.z));
-        out->skull   = (hair_vec4){at.x, at.y, at.z, draw->skull.w};
+        out->skull = (hair_vec4){at.x, at.y, at.z, draw->skull.w};
     }
 }
 

@@ -5,14 +5,14 @@
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
                              const struct hair_sim* sim)
 {
-    draw->gl              = gl;
-    draw->guides          = sim->guides;
+    draw->gl = gl;
+    draw->guides = sim->guides;
     draw->smooth_vertices = sim->smooth_vertices;
-    draw->followers       = groom->info.follower_count;
-    draw->patches         = groom->info.patch_count;
-    draw->map_sets        = groom->map_sets;
-    draw->skull           = groom->skull;
-    draw->seats           = hair_seats_hold(groom->seats);
+    draw->followers = groom->info.follower_count;
+    draw->patches = groom->info.patch_count;
+    draw->map_sets = groom->map_sets;
+    draw->skull = groom->skull;
+    draw->seats = hair_seats_hold(groom->seats);
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
     hair_draw_find_extent(draw, groom);
@@ -63,10 +63,10 @@ void hair_draw_destroy(struct hair_draw* draw)
 
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
 {
-    struct hair_gl* gl         = draw->gl;
-    GLuint          textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
-                                  draw->follower_texture, draw->patch_texture,      0,
-                                  draw->hits.hit_texture, draw->hits.repair_texture};
+    struct hair_gl* gl = draw->gl;
+    GLuint textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
+                         draw->follower_texture, draw->patch_texture,      0,
+                         draw->hits.hit_texture, draw->hits.repair_texture};
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
@@ -92,7 +92,7 @@ static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture)
 void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t               count = hair_view_maps(view, maps);
+    uint32_t count = hair_view_maps(view, maps);
     for (GLuint i = 0; i < count; ++i) {
         bind_map(draw->gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
         bind_map(draw->gl, HAIR_UNIT_BODY + i, maps[i].body);
@@ -110,9 +110,9 @@ static uint32_t batch_size(const struct hair_draw* draw)
 
 void hair_draw_patches(struct hair_draw* draw)
 {
-    struct hair_gl* gl    = draw->gl;
-    uint32_t        batch = batch_size(draw);
-    uint32_t        parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
+    struct hair_gl* gl = draw->gl;
+    uint32_t batch = batch_size(draw);
+    uint32_t parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
     parts *= (draw->most_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
     for (uint32_t first = 0; first < draw->patches; first += batch) {
@@ -123,19 +123,19 @@ void hair_draw_patches(struct hair_draw* draw)
 
 // What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded or staged with before, 0: nothing.
 struct drawn {
-    hair_gl_pass            pass, shade_pass;
-    GLuint                  program, shade;
-    int                     hides; // patches may be hidden, as `hide` has it
+    hair_gl_pass pass, shade_pass;
+    GLuint program, shade;
+    int hides; // patches may be hidden, as `hide` has it
     struct hair_hide_params hide;
     // Of pixels that are made by compute: where, and whether there are none.
     struct hair_raster_params raster;
-    int                       nowhere;
+    int nowhere;
 };
 
 static const hair_gl_pass row_of_path[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
-                                           [HAIR_PATH_INSTANCED]    = HAIR_GL_INSTANCED,
-                                           [HAIR_PATH_EXPANDED]     = HAIR_GL_EXPANDED,
-                                           [HAIR_PATH_COMPUTED]     = HAIR_GL_COMPOSE};
+                                           [HAIR_PATH_INSTANCED] = HAIR_GL_INSTANCED,
+                                           [HAIR_PATH_EXPANDED] = HAIR_GL_EXPANDED,
+                                           [HAIR_PATH_COMPUTED] = HAIR_GL_COMPOSE};
 
 static int is_textured(const struct hair_draw* draw, const hair_view* view)
 {
@@ -199,7 +199,7 @@ static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* v
     if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
     if (hair_draw_stages(view)) {
         int sides = hair_draw_stages_sides(view);
-        *shade    = hair_gl_with(sides ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
+        *shade = hair_gl_with(sides ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
         return hair_gl_with(sides ? HAIR_GL_STAGED : row, features);
     }
     if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
@@ -210,7 +210,7 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
                                 struct drawn* out)
 {
     hair_result result = HAIR_OK;
-    out->pass          = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
+    out->pass = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
     if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
     if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
     if (out->shade_pass) result = need_program(draw, out->shade_pass, shader, &out->shade);
@@ -220,14 +220,14 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
                                     struct hair_gl_shader* shader, int may_meet)
 {
-    struct hair_gl* gl      = draw->gl;
-    int             meets   = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
-    int             lit     = hair_draw_lit(draw, view) > 0;
-    hair_gl_pass    hides   = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
-    hair_gl_pass    expand  = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
-    hair_gl_pass    strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
-    hair_result     result  = HAIR_OK;
-    GLuint          program;
+    struct hair_gl* gl = draw->gl;
+    int meets = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
+    int lit = hair_draw_lit(draw, view) > 0;
+    hair_gl_pass hides = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
+    hair_gl_pass expand = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
+    hair_gl_pass strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
+    hair_result result = HAIR_OK;
+    GLuint program;
     if (view->path != HAIR_PATH_TESSELLATION)
         result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
@@ -261,9 +261,9 @@ static void draw_guides(struct hair_draw* draw)
 static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view,
                            const struct hair_draw_params* params, struct drawn* with)
 {
-    struct hair_gl*   gl       = draw->gl;
-    int               listed   = view->path != HAIR_PATH_TESSELLATION;
-    int               computed = view->path == HAIR_PATH_COMPUTED;
+    struct hair_gl* gl = draw->gl;
+    int listed = view->path != HAIR_PATH_TESSELLATION;
+    int computed = view->path == HAIR_PATH_COMPUTED;
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
@@ -294,9 +294,9 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
 static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                                struct drawn* out)
 {
-    hair_gl_pass with   = out->pass & RASTER_FEATURES;
-    hair_result  result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
-    out->nowhere        = !hair_draw_find_raster(draw, head, view, &out->raster);
+    hair_gl_pass with = out->pass & RASTER_FEATURES;
+    hair_result result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
+    out->nowhere = !hair_draw_find_raster(draw, head, view, &out->raster);
     return result || out->nowhere ? result : hair_draw_need_raster(draw, with, &out->raster);
 }
 
@@ -305,8 +305,8 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
                               const struct hair_pose* head, const hair_view* view,
                               struct hair_gl_shader* shader, struct drawn* out)
 {
-    int motion         = view->pass == HAIR_PASS_MOTION;
-    out->hides         = hair_draw_find_hiding(draw, head, view, &out->hide);
+    int motion = view->pass == HAIR_PASS_MOTION;
+    out->hides = hair_draw_find_hiding(draw, head, view, &out->hide);
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
@@ -330,8 +330,8 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
-    int          guides = view->pass == HAIR_PASS_GUIDES;
-    struct drawn with   = {0};
+    int guides = view->pass == HAIR_PASS_GUIDES;
+    struct drawn with = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =
         guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
@@ -341,7 +341,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
     if (!guides && view->path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
-    params.textured   = (uint32_t)is_textured(draw, view);
+    params.textured = (uint32_t)is_textured(draw, view);
     params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);

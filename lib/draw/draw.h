@@ -15,7 +15,7 @@
 
 // The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
 struct hair_fibres {
-    GLuint            texture;
+    GLuint texture;
     struct hair_fibre of;
 };
 
@@ -25,7 +25,7 @@ void hair_look_soak(hair_look* look);
 // How far hair gets whose roots are held, in the head's frame: from the box of roots, and how long it is. m
 struct hair_extent {
     hair_vec3 lower, upper;
-    float     reach, length;
+    float reach, length;
 };
 
 // What only some views need: it is made when one first does, and freed once for long none has.
@@ -46,64 +46,64 @@ enum {
 
 struct hair_draw {
     struct hair_gl* gl;
-    uint32_t        frame;                           // as tidy.c was told,
-    uint32_t        used[HAIR_DRAW_PARTS];           // and in which each was last needed
-    hair_look       look;                            // soaked
-    GLuint          follower, patch, params;         // buffers
-    GLuint          follower_texture, patch_texture; // the first two, for stages without storage buffers
-    uint32_t        followers, patches, smooth_vertices, guides;
-    uint32_t        most_isolines; // of a patch
-    uint32_t        map_sets;
-    uint32_t        driver;  // row of paths.inl
-    hair_vec4       skull;   // of the groom
-    int             bounded; // roots are held: no strand leaves its patch's reach
+    uint32_t frame; // as tidy.c was told,
+    uint32_t used[HAIR_DRAW_PARTS]; // and in which each was last needed
+    hair_look look; // soaked
+    GLuint follower, patch, params; // buffers
+    GLuint follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t followers, patches, smooth_vertices, guides;
+    uint32_t most_isolines; // of a patch
+    uint32_t map_sets;
+    uint32_t driver; // row of paths.inl
+    hair_vec4 skull; // of the groom
+    int bounded; // roots are held: no strand leaves its patch's reach
     int held; // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
     // Of the view: how many pixels a metre is at most to its level of detail, 0: that does not matter; and the share of what
     // leads followers round solids that it shows.
-    float                   pixels, led;
-    uint32_t                seated; // for which run of smooth.comp followers are
-    struct hair_extent      extent;
-    struct hair_hits        hits;
-    struct hair_listed      listed;
-    struct hair_expanded    expanded;
-    struct hair_fibres      fibres;
-    struct hair_motion      motion;
-    struct hair_sorted      sorted;
-    struct hair_raster      raster;
-    struct hair_staged      staged;
+    float pixels, led;
+    uint32_t seated; // for which run of smooth.comp followers are
+    struct hair_extent extent;
+    struct hair_hits hits;
+    struct hair_listed listed;
+    struct hair_expanded expanded;
+    struct hair_fibres fibres;
+    struct hair_motion motion;
+    struct hair_sorted sorted;
+    struct hair_raster raster;
+    struct hair_staged staged;
     struct hair_self_shadow self_shadow;
-    struct hair_hidden      hidden;
-    struct hair_seats*      seats;                // where roots are on the scalp; NULL: there is none
-    GLuint                  uv, uv_texture;       // 0 until they are needed
-    GLuint                  paint, paint_texture; // colours of the groom; 0: it has none
-    hair_vec4               reach; // where hair can be, in the head's frame: a ball, w: its radius, m
+    struct hair_hidden hidden;
+    struct hair_seats* seats; // where roots are on the scalp; NULL: there is none
+    GLuint uv, uv_texture; // 0 until they are needed
+    GLuint paint, paint_texture; // colours of the groom; 0: it has none
+    hair_vec4 reach; // where hair can be, in the head's frame: a ball, w: its radius, m
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
                              const struct hair_sim* sim);
-void        hair_draw_destroy(struct hair_draw* draw);
+void hair_draw_destroy(struct hair_draw* draw);
 
 // seats.c: make ready for a skinned scalp; and put followers where it has them, once they are smooth.
 hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim);
-void        hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
+void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
 
 // hits.c: find the followers that are inside solids, and lead them out, before either of the below. `field`: NULL: no
 // solid is near. margin: what guides keep from solids, m.
 hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
                                   const struct hair_solid_field* field, float margin);
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
-int         hair_draw_has_met_solids(const struct hair_draw*   draw,
-                                     const struct hair_smooth* smooth); // since they moved
-void        hair_draw_free_hits(struct hair_draw* draw);
+int hair_draw_has_met_solids(const struct hair_draw* draw,
+                             const struct hair_smooth* smooth); // since they moved
+void hair_draw_free_hits(struct hair_draw* draw);
 // prepass.c: with everything bound that makes followers, leave the first vertex inside in hits.image.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
-void        hair_draw_run_prepass(struct hair_draw* draw);
-void        hair_draw_patches(struct hair_draw* draw); // all of them, with the program that is current
+void hair_draw_run_prepass(struct hair_draw* draw);
+void hair_draw_patches(struct hair_draw* draw); // all of them, with the program that is current
 // The program of `pass` that the look asks for; and of a pass that draws or expands, that heeds what was found where there was
 // a solid.
 hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
-hair_result  hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
 // Buffers, textures and parameters of passes that make followers.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 
@@ -111,28 +111,28 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
 
 // places.c: where roots are by the scalp's uvs, of a groom that has them.
-int         hair_draw_has_uvs(const struct hair_draw* draw);
+int hair_draw_has_uvs(const struct hair_draw* draw);
 hair_result hair_draw_need_uvs(struct hair_draw* draw);
-void        hair_draw_free_uvs(struct hair_draw* draw);
+void hair_draw_free_uvs(struct hair_draw* draw);
 
 // fibres.c: the table that colour needs, with the look as it is.
 hair_result hair_draw_need_fibres(struct hair_draw* draw);
-void        hair_draw_free_fibres(struct hair_draw* draw);
+void hair_draw_free_fibres(struct hair_draw* draw);
 
 // self_shadow.c: find what light comes to vertices, if the look wants that for `view`; and how many numbers of each vertex
 // there are then, else 0. The texture of those, and the host's shadow maps, where shaders look for them.
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
                                  const struct hair_pose* head, const hair_view* view);
-uint32_t    hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
-void        hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
-void        hair_draw_free_self_shadow(struct hair_draw* draw);
+uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
+void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
+void hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // listed.c: what draws without a tessellator, and what OpenGL draws their segments by. With everything bound that makes
 // followers, list those that are drawn; draw them with the program that is current, by their ends or `paired` by both sides
 // of those.
 hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
 hair_result hair_draw_make_indices(struct hair_draw* draw, int paired);
-void        hair_draw_free_listed(struct hair_draw* draw);
+void hair_draw_free_listed(struct hair_draw* draw);
 // Unless they are listed, as `params` and the smoothed guides have them; without those that are hidden, where that was asked.
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params, int hides);
@@ -140,7 +140,7 @@ void hair_draw_listed(struct hair_draw* draw, int paired);
 
 // path.c: look the driver up; the path that `view` is drawn by, found once, since GL may be asked for its viewport: all else
 // reads it from view->path.
-void      hair_draw_find_fastest(struct hair_draw* draw);
+void hair_draw_find_fastest(struct hair_draw* draw);
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
 // Whether the path takes vertices of all followers, that are written once; or has its own. Whether a view wants shares of pixels,
 int hair_draw_expands(const hair_view* view);
@@ -159,8 +159,8 @@ void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const 
 
 // cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
-int  hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
-                              const hair_view* view);
+int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                             const hair_view* view);
 
 // All programs that drawing so runs, also once followers have met solids where there `may_meet` any.
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
@@ -183,40 +183,40 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
 // expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
 // drawn: parameters of a view, then only of those that it draws, each time. Whether those of all are there; and how many
 // work groups of a pass over such a share of them are for each patch.
-size_t      hair_draw_count_vertices(const struct hair_draw* draw); // of all followers
+size_t hair_draw_count_vertices(const struct hair_draw* draw); // of all followers
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn);
-int         hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
-uint32_t    hair_draw_chunks(const struct hair_draw* draw, double share);
-void        hair_draw_free_expanded(struct hair_draw* draw);
-void        hair_draw_bind_expanded(struct hair_draw* draw);
+int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
+uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
+void hair_draw_free_expanded(struct hair_draw* draw);
+void hair_draw_bind_expanded(struct hair_draw* draw);
 
 // shaded.c: whether a view's vertices are shaded before they are drawn; room for that; and do it, with everything bound that draws.
-int         hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
+int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
 hair_result hair_draw_need_shaded(struct hair_draw* draw);
-void        hair_draw_free_shaded(struct hair_draw* draw);
-void        hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
+void hair_draw_free_shaded(struct hair_draw* draw);
+void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
 // motion.c: with vertices that are up to date, begin a frame, or go on with it; before vertices are written anew, keep those
 // that the frame before has shown; what was seen goes along with a head that is teleported.
 hair_result hair_draw_need_motion(struct hair_draw* draw);
-void        hair_draw_free_motion(struct hair_draw* draw);
-void        hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame);
-void        hair_draw_keep_shown(struct hair_draw* draw);
+void hair_draw_free_motion(struct hair_draw* draw);
+void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame);
+void hair_draw_keep_shown(struct hair_draw* draw);
 void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
 void hair_draw_bind_motion(struct hair_draw* draw);
 
 // sorted.c: segments of the strands that are listed from far to near; drawn with the program that is current, blended.
 hair_result hair_draw_need_sorted(struct hair_draw* draw);
-void        hair_draw_free_sorted(struct hair_draw* draw);
-void        hair_draw_sort(struct hair_draw* draw);
-void        hair_draw_sorted(struct hair_draw* draw);
+void hair_draw_free_sorted(struct hair_draw* draw);
+void hair_draw_sort(struct hair_draw* draw);
+void hair_draw_sorted(struct hair_draw* draw);
 
 // staged.c: room for vertices of listed strands as a view wants them; write them, and have them read in place of those that are
 // expanded.
 hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view);
-void        hair_draw_free_staged(struct hair_draw* draw);
-void        hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
+void hair_draw_free_staged(struct hair_draw* draw);
+void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 
 // raster.c: where in the window hair is to be looked for, and with what samples; 0: nowhere. `with`: HAIR_GL_WITH(DEPTH),
 // else colour too, and HAIR_GL_WITH(WIDENED) of what is staged. Buffers for that; with everything bound that draws expanded strands, find what their samples see; and
@@ -225,9 +225,9 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
                           struct hair_raster_params* out);
 hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                                   const struct hair_raster_params* params);
-void        hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params);
-void        hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
-void        hair_draw_free_raster(struct hair_draw* draw);
+void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params);
+void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
+void hair_draw_free_raster(struct hair_draw* draw);
 
 // hidden.c: whether `view` has what may hide hair; and where, if hair can be there at all. Programs and buffers for that; and with
 // everything bound that makes followers, find what patches are hidden.
@@ -235,12 +235,12 @@ int hair_draw_hides(const hair_view* view);
 int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_hide_params* out);
 hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
-void        hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params);
-void        hair_draw_free_hidden(struct hair_draw* draw);
+void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params);
+void hair_draw_free_hidden(struct hair_draw* draw);
 
 // blend.c: from one to the other, what is drawn is blended by its alpha and writes no depth.
 struct hair_blend {
-    GLint     equation[2], factor[4];
+    GLint equation[2], factor[4];
     GLboolean blends, writes_depth;
 };
 void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was);

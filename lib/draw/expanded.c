@@ -13,9 +13,9 @@ size_t hair_draw_count_vertices(const struct hair_draw* draw)
 
 static hair_result make(struct hair_draw* draw)
 {
-    struct hair_gl*       gl       = draw->gl;
+    struct hair_gl* gl = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
-    size_t                vertices = hair_draw_count_vertices(draw);
+    size_t vertices = hair_draw_count_vertices(draw);
     if (expanded->vertices == vertices) return HAIR_OK;
     hair_draw_free_expanded(draw);
     hair_result result =
@@ -43,7 +43,7 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &expanded->position);
     hair_gl_free_buffer(draw->gl, &expanded->tangent);
     expanded->vertices = 0;
-    expanded->there    = 0;
+    expanded->there = 0;
     hair_draw_free_shaded(draw);
     hair_draw_free_motion(draw);
 }
@@ -73,10 +73,10 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
                                     const struct hair_draw_params* drawn)
 {
     draw->used[HAIR_DRAW_EXPANDED] = draw->frame;
-    struct hair_gl*       gl       = draw->gl;
+    struct hair_gl* gl = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
-    hair_gl_pass          pass     = HAIR_GL_EXPAND;
-    hair_result           result   = make(draw);
+    hair_gl_pass pass = HAIR_GL_EXPAND;
+    hair_result result = make(draw);
     if (!result) result = hair_draw_need(draw, &pass);
     if (result || is_fresh(draw, smooth)) return result;
     struct hair_draw_params params;
@@ -94,8 +94,8 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, NULL);
     ++expanded->writes;
     expanded->there = !drawn->drawn_only;
-    expanded->met   = draw->hits.met;
-    expanded->made  = gl->made;
+    expanded->met = draw->hits.met;
+    expanded->made = gl->made;
     return HAIR_OK;
 }
 
@@ -107,10 +107,10 @@ void hair_draw_bind_expanded(struct hair_draw* draw)
 
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)
 {
-    struct hair_gl* gl       = draw->gl;
-    int             kept     = draw->expanded.vertices > 0;
-    size_t          count    = hair_draw_count_vertices(draw);
-    hair_vec4*      vertices = hair_alloc(&gl->host, count, sizeof *vertices);
+    struct hair_gl* gl = draw->gl;
+    int kept = draw->expanded.vertices > 0;
+    size_t count = hair_draw_count_vertices(draw);
+    hair_vec4* vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
     hair_result result = hair_draw_need_expanded(draw, smooth, NULL);
     if (!result)

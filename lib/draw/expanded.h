@@ -5,12 +5,12 @@
 #include "lib/gl/gl.h"
 
 struct hair_expanded {
-    GLuint   position, tangent, shaded; // buffers, as in shared.h; 0 until they are needed
-    GLuint   position_texture, tangent_texture, shaded_texture; // of them, for what draws
-    size_t   vertices;                                          // that there is room for
-    int      there;     // vertices of all followers have been written,
+    GLuint position, tangent, shaded; // buffers, as in shared.h; 0 until they are needed
+    GLuint position_texture, tangent_texture, shaded_texture; // of them, for what draws
+    size_t vertices; // that there is room for
+    int there; // vertices of all followers have been written,
     uint32_t met, made; // for these counts of hair_hits.met and hair_gl.made
-    uint32_t writes;    // of vertices, so far
+    uint32_t writes; // of vertices, so far
 };
 
 #endif

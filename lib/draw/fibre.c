@@ -7,14 +7,14 @@
 #define PI 3.14159265358979
 #define LOBES 4
 #define ANGLES 64 // along the fibre
-#define RAYS 96   // over the width of the fibre, by angle from its middle: close where it grazes
+#define RAYS 96 // over the width of the fibre, by angle from its middle: close where it grazes
 
 void hair_fibre_variances(float roughness, float out[3])
 {
     float b = 0.726f * roughness + 0.812f * roughness * roughness + 3.7f * powf(roughness, 20);
-    out[0]  = b * b;
-    out[1]  = 0.25f * out[0];
-    out[2]  = 4 * out[0];
+    out[0] = b * b;
+    out[1] = 0.25f * out[0];
+    out[2] = 4 * out[0];
 }
 
 float hair_fibre_scale(float roughness)
@@ -38,7 +38,7 @@ static double to_logistic(double x, double scale)
 // Of an angle, distributed by a logistic that is cut at half a turn to each side, `kept` of it: the density, 1/radian.
 static double logistic(double x, double scale, double kept)
 {
-    x        = x - 2 * PI * floor((x + PI) / (2 * PI));
+    x = x - 2 * PI * floor((x + PI) / (2 * PI));
     double e = exp(-fabs(x) / scale);
     return e / (scale * (1 + e) * (1 + e)) / kept;
 }
@@ -52,15 +52,15 @@ struct ray {
 static struct ray trace(double in, double cos_d, double index)
 {
     struct ray ray;
-    double     sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
-    double     bravais = index * cos_t / cos_d; // Index as seen across the fibre.
-    double     inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
-    double     leg            = 2 * cos(inside) / cos_t;
-    double     through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
+    double sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
+    double bravais = index * cos_t / cos_d; // Index as seen across the fibre.
+    double inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
+    double leg = 2 * cos(inside) / cos_t;
+    double through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
     for (int p = 0; p < LOBES; ++p) {
         ray.share[p] = through[p] * 0.5 * PI / RAYS * cos(in);
         ray.angle[p] = 2 * p * inside - 2 * in + p * PI;
-        ray.path[p]  = p * leg;
+        ray.path[p] = p * leg;
     }
     return ray;
 }
@@ -74,7 +74,7 @@ static double cosine_of(int row)
 static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
 {
     double scale = (double)hair_fibre_scale(fibre->around);
-    double kept  = to_logistic(PI, scale) - to_logistic(-PI, scale);
+    double kept = to_logistic(PI, scale) - to_logistic(-PI, scale);
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
         struct ray rays[RAYS];
         for (int i = 0; i < RAYS; ++i)
@@ -112,10 +112,10 @@ static hair_vec4 send(const hair_fibre_table table, int row, double mu, const fl
     double on = 0, back = 0, on_variance = 0, back_variance = 0;
     for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
         const hair_vec4 *w = &table[0][row][column], *l = &table[1][row][column];
-        double           share   = (double)column / (HAIR_FIBRE_COLUMNS - 1);
-        double           weight  = weight_of(column);
-        double           lobe[4] = {(double)w->x, (double)w->y * exp(-mu * (double)l->x),
-                                    (double)w->z * exp(-mu * (double)l->y), (double)w->w * exp(-mu * (double)l->z)};
+        double share = (double)column / (HAIR_FIBRE_COLUMNS - 1);
+        double weight = weight_of(column);
+        double lobe[4] = {(double)w->x, (double)w->y * exp(-mu * (double)l->x),
+                          (double)w->z * exp(-mu * (double)l->y), (double)w->w * exp(-mu * (double)l->z)};
         for (int p = 0; p < LOBES; ++p) {
             double v = (double)variance[p < 2 ? p : 2];
             on += weight * share * lobe[p];
@@ -145,7 +145,7 @@ static double longitudinal(double light, double eye, double variance)
     double m =
         exp(log_bessel(cos(light) * cos(eye) * r) - (sin(light) * sin(eye) + 1) * r) * r / (1 - exp(-2 * r));
     double grazing = sqrt(s * (0.304161 + s * (-0.101796 + s * (1.961349 - 1.543683 * s))));
-    double normal  = 1 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
+    double normal = 1 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
     double g = pow(grazing, 3), n = pow(normal, 3) - g;
     return m * pow((g + n * pow(cos(light), 3)) * (g + n * pow(cos(eye), 3)), -1.0 / 6);
 }
@@ -155,19 +155,19 @@ static double longitudinal(double light, double eye, double variance)
 static void balance(hair_fibre_table table, const float variance[3])
 {
     static const double finest = 4 * (PI / ANGLES) * (PI / ANGLES); // What the sums below resolve.
-    double              lobe[HAIR_FIBRE_ROWS][LOBES] = {{0}}, pair[ANGLES][ANGLES], factor[ANGLES];
+    double lobe[HAIR_FIBRE_ROWS][LOBES] = {{0}}, pair[ANGLES][ANGLES], factor[ANGLES];
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row)
         for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
-            const hair_vec4* w      = &table[0][row][column];
-            double           weight = weight_of(column);
+            const hair_vec4* w = &table[0][row][column];
+            double weight = weight_of(column);
             lobe[row][0] += weight * (double)w->x, lobe[row][1] += weight * (double)w->y;
             lobe[row][2] += weight * ((double)w->z + (double)w->w);
         }
     for (int i = 0; i < ANGLES; ++i)
         for (int k = 0; k < ANGLES; ++k) {
             double light = angle_of(i), eye = angle_of(k),
-                   at  = cos(0.5 * (light - eye)) * (HAIR_FIBRE_ROWS - 1);
-            int row    = at < HAIR_FIBRE_ROWS - 2 ? (int)at : HAIR_FIBRE_ROWS - 2;
+                   at = cos(0.5 * (light - eye)) * (HAIR_FIBRE_ROWS - 1);
+            int row = at < HAIR_FIBRE_ROWS - 2 ? (int)at : HAIR_FIBRE_ROWS - 2;
             pair[i][k] = 0;
             for (int p = 0; p < 3; ++p)
                 pair[i][k] += (lobe[row][p] + (at - row) * (lobe[row + 1][p] - lobe[row][p])) * PI / ANGLES *
@@ -183,7 +183,7 @@ static void balance(hair_fibre_table table, const float variance[3])
     }
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
         double at = (acos((double)row / (HAIR_FIBRE_ROWS - 1)) / PI + 0.5) * ANGLES - 0.5;
-        int    k  = at < ANGLES - 2 ? (int)at : ANGLES - 2;
+        int k = at < ANGLES - 2 ? (int)at : ANGLES - 2;
         for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column)
             table[1][row][column].w = (float)(factor[k] + fmin(at - k, 1) * (factor[k + 1] - factor[k]));
     }
@@ -197,7 +197,7 @@ void hair_fibre_fill(const struct hair_fibre* fibre, hair_fibre_table table)
     balance(table, variance);
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row)
         for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
-            double x  = (double)column / (HAIR_FIBRE_COLUMNS - 1);
+            double x = (double)column / (HAIR_FIBRE_COLUMNS - 1);
             double mu = x < 1 ? HAIR_FIBRE_MU * x / (1 - x) : 1e4;
             table[2][row][column] =
                 send((const hair_vec4(*)[HAIR_FIBRE_ROWS][HAIR_FIBRE_COLUMNS])table, row, mu, variance);

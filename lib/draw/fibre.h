@@ -8,8 +8,8 @@
 // What it depends on.
 struct hair_fibre {
     float around; // roughness, [0.05, 1]
-    float along;  // the same
-    float index;  // of refraction
+    float along; // the same
+    float index; // of refraction
 };
 
 // Lobes: R reflected, TT through, TRT reflected inside once, and all that are reflected inside more often.

@@ -8,9 +8,9 @@
 hair_result hair_draw_need_fibres(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_FIBRES] = draw->frame;
-    struct hair_fibres* fibres   = &draw->fibres;
-    struct hair_gl*     gl       = draw->gl;
-    struct hair_fibre   of       = {draw->look.roughness[1], draw->look.roughness[0], REFRACTION};
+    struct hair_fibres* fibres = &draw->fibres;
+    struct hair_gl* gl = draw->gl;
+    struct hair_fibre of = {draw->look.roughness[1], draw->look.roughness[0], REFRACTION};
     if (fibres->texture && memcmp(&of, &fibres->of, sizeof of) == 0) return HAIR_OK;
 
     static const uint32_t size[3] = {HAIR_FIBRE_COLUMNS, HAIR_FIBRE_ROWS, HAIR_FIBRE_LAYERS};

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define BESIDE 2.0f           // pixels, by which what is drawn of a strand may be wider than the strand
+#define BESIDE 2.0f // pixels, by which what is drawn of a strand may be wider than the strand
 #define ROUNDED 2.3841858e-7f // 2^-22: what arithmetic leaves of depth; a texture may leave less
 
 int hair_draw_hides(const hair_view* view)
@@ -43,7 +43,7 @@ static int is_given(const float matrix[16])
 static void find_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                       const hair_mat4* own, float clip[16])
 {
-    float     projection[16], placed[16];
+    float projection[16], placed[16];
     hair_mat4 given = hair_mat4_from_head(view->depth_matrix, head);
     memcpy(placed, own, sizeof placed);
     hair_draw_project(draw, view, projection);
@@ -60,27 +60,27 @@ static void find_size(struct hair_gl* gl, GLuint texture, struct hair_hide_param
     gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_WIDTH, &size[0]);
     gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_HEIGHT, &size[1]);
     gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_SIZE, &bits);
-    out->width  = (uint32_t)size[0];
+    out->width = (uint32_t)size[0];
     out->height = (uint32_t)size[1];
-    out->slack  = fmaxf(ROUNDED, ldexpf(1, -bits));
+    out->slack = fmaxf(ROUNDED, ldexpf(1, -bits));
 }
 
 // Texels of the first level that hair reaches to, where that can be told; else all of them.
 static int find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_hide_params* out)
 {
-    float          window[4] = {0, 0, 1, 1};
-    const float    beside[2] = {out->beside_x, out->beside_y};
-    const uint32_t size[2]   = {out->width, out->height};
-    uint32_t       first[2], end[2];
+    float window[4] = {0, 0, 1, 1};
+    const float beside[2] = {out->beside_x, out->beside_y};
+    const uint32_t size[2] = {out->width, out->height};
+    uint32_t first[2], end[2];
     if (draw->held) hair_draw_find_window(draw, head, view->lod, &out->to_texture, window);
     for (int k = 0; k < 2; ++k) {
-        float    texels = (float)size[k] / HAIR_HIDE_FIRST;
-        uint32_t most   = (size[k] + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
-        float    from = fmaxf(window[k] - beside[k], 0), to = fminf(window[2 + k] + beside[k], 1);
+        float texels = (float)size[k] / HAIR_HIDE_FIRST;
+        uint32_t most = (size[k] + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
+        float from = fmaxf(window[k] - beside[k], 0), to = fminf(window[2 + k] + beside[k], 1);
         if (!(from < to)) return 0;
         first[k] = (uint32_t)(from * texels);
-        end[k]   = (uint32_t)(to * texels) + 1;
+        end[k] = (uint32_t)(to * texels) + 1;
         if (end[k] > most) end[k] = most;
         if (first[k] >= end[k]) first[k] = end[k] - 1;
     }
@@ -93,10 +93,10 @@ static int find_texels(const struct hair_draw* draw, const struct hair_pose* hea
 int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_hide_params* out)
 {
-    struct hair_gl* gl  = draw->gl;
-    hair_mat4       own = hair_mat4_from_head(view->view, head);
-    float           clip[16], to_texture[16], matrix[16], range[2];
-    GLfloat         viewport[4] = {0};
+    struct hair_gl* gl = draw->gl;
+    hair_mat4 own = hair_mat4_from_head(view->view, head);
+    float clip[16], to_texture[16], matrix[16], range[2];
+    GLfloat viewport[4] = {0};
     memset(out, 0, sizeof *out);
     if (!hair_draw_hides(view)) return 0;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
@@ -107,32 +107,32 @@ int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* 
     out->sign = hair_draw_find_sign(gl);
     for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
     memcpy(&out->to_texture, matrix, sizeof matrix);
-    out->most     = fmaxf(out->sign * range[0], out->sign * range[1]);
-    out->thick    = (float)hair_draw_thickest(draw, view->lod);
+    out->most = fmaxf(out->sign * range[0], out->sign * range[1]);
+    out->thick = (float)hair_draw_thickest(draw, view->lod);
     out->beside_x = BESIDE / fmaxf(viewport[2], 1) + 1 / (float)out->width;
     out->beside_y = BESIDE / fmaxf(viewport[3], 1) + 1 / (float)out->height;
-    out->clips    = !is_given(view->depth_matrix);
-    out->guides   = draw->guides;
+    out->clips = !is_given(view->depth_matrix);
+    out->guides = draw->guides;
     return out->sign != 0 && find_texels(draw, head, view, out);
 }
 
 hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params)
 {
     draw->used[HAIR_DRAW_HIDDEN] = draw->frame;
-    struct hair_gl*     gl       = draw->gl;
-    struct hair_hidden* hidden   = &draw->hidden;
-    size_t              texels   = hair_pyramid_texels(params->columns, params->rows);
-    size_t              boxes    = (size_t)draw->guides * HAIR_HIDE_PARTS * 2;
-    hair_result         result   = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
+    struct hair_gl* gl = draw->gl;
+    struct hair_hidden* hidden = &draw->hidden;
+    size_t texels = hair_pyramid_texels(params->columns, params->rows);
+    size_t boxes = (size_t)draw->guides * HAIR_HIDE_PARTS * 2;
+    hair_result result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
                                            draw->hits.active ? HAIR_GL_WITH(HITS) : 0);
     if (!result && texels > hidden->room) {
         // So many as all of the texture may want, that it need not be made again when hair comes nearer.
         uint32_t columns = (params->width + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
-        uint32_t rows    = (params->height + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
-        size_t   room    = hair_pyramid_texels(columns, rows);
+        uint32_t rows = (params->height + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
+        size_t room = hair_pyramid_texels(columns, rows);
         hair_gl_free_buffer(gl, &hidden->depth);
         hidden->room = 0;
-        result       = hair_gl_storage(gl, "hair hidden depth", room * sizeof(float), NULL, &hidden->depth);
+        result = hair_gl_storage(gl, "hair hidden depth", room * sizeof(float), NULL, &hidden->depth);
         if (!result) hidden->room = room;
     }
     if (!result && !hidden->box)
@@ -144,11 +144,11 @@ hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide
 
 void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params)
 {
-    struct hair_gl*     gl        = draw->gl;
-    struct hair_hidden* hidden    = &draw->hidden;
-    GLuint              buffers[] = {hidden->depth, hidden->box, draw->patch};
-    uint32_t            parts     = draw->guides * HAIR_HIDE_PARTS;
-    hair_gl_pass        patches   = HAIR_GL_HIDE_PATCHES;
+    struct hair_gl* gl = draw->gl;
+    struct hair_hidden* hidden = &draw->hidden;
+    GLuint buffers[] = {hidden->depth, hidden->box, draw->patch};
+    uint32_t parts = draw->guides * HAIR_HIDE_PARTS;
+    hair_gl_pass patches = HAIR_GL_HIDE_PATCHES;
     if (draw->hits.active) patches = hair_gl_with(patches, HAIR_GL_WITH(HITS));
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HIDE, 1, &hidden->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIDE_DEPTH, 3, buffers);

@@ -15,8 +15,8 @@ static hair_gl_pass pass_of(const struct hair_draw* draw)
 
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw)
 {
-    struct hair_gl* gl     = draw->gl;
-    hair_result     result = hair_gl_need(gl, pass_of(draw));
+    struct hair_gl* gl = draw->gl;
+    hair_result result = hair_gl_need(gl, pass_of(draw));
     if (!result && draw->hits.prepass) result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_PREPASS));
     if (!result && draw->look.collision == HAIR_COLLISION_PUSH)
         result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
@@ -25,11 +25,11 @@ hair_result hair_draw_need_hit_programs(struct hair_draw* draw)
 
 static hair_result make(struct hair_draw* draw)
 {
-    struct hair_gl*   gl     = draw->gl;
-    struct hair_hits* hits   = &draw->hits;
-    hair_result       result = HAIR_OK;
-    size_t            count  = draw->followers;
-    int               pushes = draw->look.collision == HAIR_COLLISION_PUSH;
+    struct hair_gl* gl = draw->gl;
+    struct hair_hits* hits = &draw->hits;
+    hair_result result = HAIR_OK;
+    size_t count = draw->followers;
+    int pushes = draw->look.collision == HAIR_COLLISION_PUSH;
     if (!hits->hit) result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &hits->hit);
     if (!result && !hits->hit_texture)
         result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, hits->hit, &hits->hit_texture);
@@ -59,12 +59,12 @@ void hair_draw_free_hits(struct hair_draw* draw)
 static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
                 const struct hair_solid_field* field, float margin)
 {
-    struct hair_gl*         gl   = draw->gl;
-    struct hair_hits*       hits = &draw->hits;
+    struct hair_gl* gl = draw->gl;
+    struct hair_hits* hits = &draw->hits;
     struct hair_draw_params params;
     hair_draw_write_params(draw, NULL, NULL, &params);
-    hits->turn    = 1 - hits->turn;
-    params.turn   = hits->turn;
+    hits->turn = 1 - hits->turn;
+    params.turn = hits->turn;
     params.margin = margin + OUTSIDE;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
@@ -72,8 +72,8 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     GLuint buffers[] = {hits->hit, hits->repair, hits->list};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
     if (hits->prepass) hair_draw_run_prepass(draw);
-    int      by_group = !hits->prepass && !gl->software;
-    uint32_t each     = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
+    int by_group = !hits->prepass && !gl->software;
+    uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
     if (by_group) {
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
@@ -93,15 +93,15 @@ hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smoo
                                   const struct hair_solid_field* field, float margin)
 {
     struct hair_hits* hits = &draw->hits;
-    hits->active           = field != NULL;
-    hits->field            = field;
+    hits->active = field != NULL;
+    hits->field = field;
     if (field) {
         hair_result result = make(draw);
         if (result) return result;
         run(draw, smooth, field, margin);
     }
     ++hits->met;
-    hits->fresh    = 1;
+    hits->fresh = 1;
     hits->smoothed = smooth->runs;
     return HAIR_OK;
 }

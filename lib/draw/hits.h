@@ -6,16 +6,16 @@
 #include "lib/interpolate/interpolate.h"
 
 struct hair_hits {
-    GLuint                         hit, repair, list; // buffers, as in shared.h; 0 until they are needed
-    GLuint                         hit_texture, repair_texture; // the first two, for what draws
-    GLuint                         image, frame; // of a prepass: a texel per follower, to draw into
-    int                            prepass;      // hits are found by one
-    int                            active;       // solids are near
-    const struct hair_solid_field* field;        // then: that they are in
-    int      fresh;    // for what was asked last; what changes followers or solids clears it
+    GLuint hit, repair, list; // buffers, as in shared.h; 0 until they are needed
+    GLuint hit_texture, repair_texture; // the first two, for what draws
+    GLuint image, frame; // of a prepass: a texel per follower, to draw into
+    int prepass; // hits are found by one
+    int active; // solids are near
+    const struct hair_solid_field* field; // then: that they are in
+    int fresh; // for what was asked last; what changes followers or solids clears it
     uint32_t smoothed; // runs of smooth.comp that it is for
-    uint32_t met;      // how often it has been found out
-    uint32_t turn;     // as in hair_draw_params
+    uint32_t met; // how often it has been found out
+    uint32_t turn; // as in hair_draw_params
 };
 
 #endif

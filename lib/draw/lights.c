@@ -17,10 +17,10 @@ static void write_map(const struct hair_draw* draw, const struct hair_pose* head
     }
     float texture[16];
     hair_mat4_multiply(halve, light->shadow_matrix, texture);
-    *shadow          = hair_mat4_from_head(texture, head);
-    hair_vec3 z      = hair_v3(texture[2], texture[6], texture[10]);
-    hair_vec3 w      = hair_v3(texture[3], texture[7], texture[11]);
-    float     square = hair_dot(w, w), per_metre = hair_length(z);
+    *shadow = hair_mat4_from_head(texture, head);
+    hair_vec3 z = hair_v3(texture[2], texture[6], texture[10]);
+    hair_vec3 w = hair_v3(texture[3], texture[7], texture[11]);
+    float square = hair_dot(w, w), per_metre = hair_length(z);
     map->z = per_metre > 0 ? 1 / per_metre : 0;
     map->w = square > 0 ? hair_dot(z, w) / square : 0;
 }
@@ -28,28 +28,28 @@ static void write_map(const struct hair_draw* draw, const struct hair_pose* head
 static void write_light(const hair_light* light, const struct hair_pose* head,
                         hair_vec4 out[HAIR_LIGHT_VECTORS])
 {
-    hair_vec3 to          = hair_normalize(hair_load3(light->to), hair_v3(0, 1, 0));
-    int       spot        = light->kind == HAIR_LIGHT_SPOT;
-    float     edges       = cosf(light->inner) - cosf(light->outer);
-    out[HAIR_LIGHT_TO]    = (hair_vec4){to.x, to.y, to.z, 0};
+    hair_vec3 to = hair_normalize(hair_load3(light->to), hair_v3(0, 1, 0));
+    int spot = light->kind == HAIR_LIGHT_SPOT;
+    float edges = cosf(light->inner) - cosf(light->outer);
+    out[HAIR_LIGHT_TO] = (hair_vec4){to.x, to.y, to.z, 0};
     out[HAIR_LIGHT_COLOR] = (hair_vec4){light->color[0], light->color[1], light->color[2], 1};
     out[HAIR_LIGHT_AXIS] =
         spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer)} : (hair_vec4){0, 0, 0, -1};
     out[HAIR_LIGHT_MORE] = (hair_vec4){spot ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
-    out[HAIR_LIGHT_MAP]  = (hair_vec4){HAIR_SHADOW_MAPS, light->body_bias, 0, 0};
+    out[HAIR_LIGHT_MAP] = (hair_vec4){HAIR_SHADOW_MAPS, light->body_bias, 0, 0};
     if (light->kind == HAIR_LIGHT_DIRECTIONAL) return;
     float at[3];
     for (int i = 0; i < 3; ++i) at[i] = (float)((double)light->position[i] - head->position[i]);
-    out[HAIR_LIGHT_TO]      = (hair_vec4){at[0], at[1], at[2], 1};
+    out[HAIR_LIGHT_TO] = (hair_vec4){at[0], at[1], at[2], 1};
     out[HAIR_LIGHT_COLOR].w = light->size * light->size;
-    out[HAIR_LIGHT_MORE].y  = light->range > 0 ? 1 / (light->range * light->range) : 0;
+    out[HAIR_LIGHT_MORE].y = light->range > 0 ? 1 / (light->range * light->range) : 0;
 }
 
 // Ramamoorthi and Hanrahan 2001, equation 12: rows and columns for x, y, z, 1.
 static void write_sky(const float* sky, int channel, float ambient, hair_mat4* out)
 {
-    static const float c[]  = {0, 0.429043f, 0.511664f, 0.743125f, 0.886227f, 0.247708f};
-    float              l[9] = {0};
+    static const float c[] = {0, 0.429043f, 0.511664f, 0.743125f, 0.886227f, 0.247708f};
+    float l[9] = {0};
     for (int i = 0; sky && i < 9; ++i) l[i] = sky[3 * i + channel];
     out->column[0] = (hair_vec4){c[1] * l[8], c[1] * l[4], c[1] * l[7], c[2] * l[3]};
     out->column[1] = (hair_vec4){c[1] * l[4], -c[1] * l[8], c[1] * l[5], c[2] * l[1]};
@@ -72,7 +72,7 @@ uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_S
 int hair_draw_is_blocked(const hair_view* view)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t               count = hair_view_maps(view, maps);
+    uint32_t count = hair_view_maps(view, maps);
     for (uint32_t i = 0; i < count; ++i)
         if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
     return 0;
@@ -82,8 +82,8 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
                             struct hair_draw_params* out)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t               count = hair_view_maps(view, maps);
-    out->lights                  = view->light_count;
+    uint32_t count = hair_view_maps(view, maps);
+    out->lights = view->light_count;
     for (uint32_t i = 0; i < view->light_count; ++i)
         write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
     for (uint32_t i = 0; i < count; ++i) {

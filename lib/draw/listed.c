@@ -6,9 +6,9 @@
 
 static hair_result make_lists(struct hair_draw* draw, int hides)
 {
-    struct hair_gl*     gl     = draw->gl;
+    struct hair_gl* gl = draw->gl;
     struct hair_listed* listed = &draw->listed;
-    hair_result         result = HAIR_OK;
+    hair_result result = HAIR_OK;
     if (!listed->of) listed->of = hair_alloc(&gl->host, 1, sizeof *listed->of);
     if (!listed->of) return hair_fail_memory(&gl->host, "the list of strands");
     if (!listed->start)
@@ -32,9 +32,9 @@ static hair_result make_lists(struct hair_draw* draw, int hides)
 static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int paired, size_t* count)
 {
     static const uint32_t corners[2][HAIR_PAIRED_INDICES] = {{0, 1}, {0, 1, 2, 2, 1, 3}};
-    uint32_t              corner_count = paired ? HAIR_PAIRED_INDICES : 2, each_end = paired ? 2 : 1;
-    size_t                at = 0;
-    *count                   = HAIR_INSTANCE_STRANDS;
+    uint32_t corner_count = paired ? HAIR_PAIRED_INDICES : 2, each_end = paired ? 2 : 1;
+    size_t at = 0;
+    *count = HAIR_INSTANCE_STRANDS;
     for (uint32_t each = segments; each > 1; each = (each + 1) / 2) *count += HAIR_INSTANCE_STRANDS * each;
     *count *= corner_count;
     uint16_t* indices = hair_alloc(&gl->host, *count, sizeof *indices);
@@ -48,13 +48,13 @@ static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int 
 
 hair_result hair_draw_make_indices(struct hair_draw* draw, int paired)
 {
-    struct hair_gl*             gl       = draw->gl;
-    struct hair_listed_indices* own      = &draw->listed.indices[paired];
-    uint32_t                    segments = draw->look.segments;
+    struct hair_gl* gl = draw->gl;
+    struct hair_listed_indices* own = &draw->listed.indices[paired];
+    uint32_t segments = draw->look.segments;
     if (own->segments == segments) return HAIR_OK;
     own->segments = 0;
     hair_gl_free_buffer(gl, &own->index);
-    size_t    count;
+    size_t count;
     uint16_t* indices = write_indices(gl, segments, paired, &count);
     if (!indices) return hair_fail_memory(&gl->host, "the segments of strands");
     hair_result result = hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &own->index);
@@ -77,12 +77,12 @@ hair_result hair_draw_make_listed(struct hair_draw* draw, int hides)
 void hair_draw_free_listed(struct hair_draw* draw)
 {
     struct hair_listed* listed = &draw->listed;
-    struct hair_gl*     gl     = draw->gl;
+    struct hair_gl* gl = draw->gl;
     for (int i = 0; i < 2; ++i) {
         struct hair_listed_indices* own = &listed->indices[i];
         if (own->vertex_array) gl->DeleteVertexArrays(1, &own->vertex_array);
         own->vertex_array = 0;
-        own->segments     = 0;
+        own->segments = 0;
         hair_gl_free_buffer(gl, &own->index);
     }
     hair_gl_free_buffer_texture(gl, &listed->strand_texture);
@@ -101,27 +101,27 @@ static struct hair_listing describe(const struct hair_gl* gl, const struct hair_
     memset(&of, 0, sizeof of);
     of.made = gl->made;
     if (params->pixels_per_unit > 0) {
-        of.runs   = smooth->runs;
+        of.runs = smooth->runs;
         of.params = *params;
         return of;
     }
-    of.params.density       = params->density;
-    of.params.segments      = params->segments;
-    of.params.map_weights   = params->map_weights;
-    of.params.strand_share  = params->strand_share;
+    of.params.density = params->density;
+    of.params.segments = params->segments;
+    of.params.map_weights = params->map_weights;
+    of.params.strand_share = params->strand_share;
     of.params.segment_share = params->segment_share;
-    of.params.width_power   = params->width_power;
+    of.params.width_power = params->width_power;
     return of;
 }
 
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params, int hides)
 {
-    struct hair_gl*     gl        = draw->gl;
-    struct hair_listed* listed    = &draw->listed;
-    GLuint              buffers[] = {listed->start, listed->strand, listed->command};
-    struct hair_listing of        = describe(gl, smooth, params);
-    hair_gl_pass        with      = hides ? HAIR_GL_WITH(HIDDEN) : 0;
+    struct hair_gl* gl = draw->gl;
+    struct hair_listed* listed = &draw->listed;
+    GLuint buffers[] = {listed->start, listed->strand, listed->command};
+    struct hair_listing of = describe(gl, smooth, params);
+    hair_gl_pass with = hides ? HAIR_GL_WITH(HIDDEN) : 0;
     if (!hides && memcmp(&of, listed->of, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_COUNT | with, 1);
@@ -133,7 +133,7 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
 void hair_draw_listed(struct hair_draw* draw, int paired)
 {
     struct hair_gl* gl = draw->gl;
-    const char*     first =
+    const char* first =
         (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindVertexArray(draw->listed.indices[paired].vertex_array);

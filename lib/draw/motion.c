@@ -7,10 +7,10 @@
 hair_result hair_draw_need_motion(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_MOTION] = draw->frame;
-    struct hair_gl*     gl       = draw->gl;
-    struct hair_motion* motion   = &draw->motion;
-    hair_result         result   = HAIR_OK;
-    size_t              size     = draw->expanded.vertices * sizeof(hair_vec4);
+    struct hair_gl* gl = draw->gl;
+    struct hair_motion* motion = &draw->motion;
+    hair_result result = HAIR_OK;
+    size_t size = draw->expanded.vertices * sizeof(hair_vec4);
     if (!motion->buffer) result = hair_gl_storage(gl, "hair expanded before", size, NULL, &motion->buffer);
     if (!result && !motion->texture)
         result =
@@ -28,13 +28,13 @@ void hair_draw_free_motion(struct hair_draw* draw)
 static void swap(GLuint* a, GLuint* b)
 {
     GLuint c = *a;
-    *a       = *b;
-    *b       = c;
+    *a = *b;
+    *b = c;
 }
 
 void hair_draw_keep_shown(struct hair_draw* draw)
 {
-    struct hair_motion*   motion   = &draw->motion;
+    struct hair_motion* motion = &draw->motion;
     struct hair_expanded* expanded = &draw->expanded;
     if (!motion->buffer || !motion->shown || motion->shown != expanded->writes) return;
     swap(&motion->buffer, &expanded->position);
@@ -44,29 +44,29 @@ void hair_draw_keep_shown(struct hair_draw* draw)
 void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame)
 {
     struct hair_motion* motion = &draw->motion;
-    struct hair_was     now    = {.turn = {0, 0, 0, 1}};
+    struct hair_was now = {.turn = {0, 0, 0, 1}};
     if (motion->shown && frame && frame == motion->frame) return; // Another view of it.
     memcpy(now.position, head->position, sizeof now.position);
-    motion->still  = !motion->shown || motion->shown == draw->expanded.writes;
+    motion->still = !motion->shown || motion->shown == draw->expanded.writes;
     motion->before = motion->shown ? motion->last : now;
-    motion->last   = now;
-    motion->frame  = frame;
-    motion->shown  = draw->expanded.writes;
+    motion->last = now;
+    motion->frame = frame;
+    motion->shown = draw->expanded.writes;
 }
 
 void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to)
 {
     struct hair_was* was = &draw->motion.last;
     if (!draw->motion.shown) return;
-    hair_quat turn   = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
-    hair_vec3 away   = {(float)(was->position[0] - from->position[0]),
-                        (float)(was->position[1] - from->position[1]),
-                        (float)(was->position[2] - from->position[2])};
-    away             = hair_rotate(turn, away);
+    hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
+    hair_vec3 away = {(float)(was->position[0] - from->position[0]),
+                      (float)(was->position[1] - from->position[1]),
+                      (float)(was->position[2] - from->position[2])};
+    away = hair_rotate(turn, away);
     was->position[0] = to->position[0] + (double)away.x;
     was->position[1] = to->position[1] + (double)away.y;
     was->position[2] = to->position[2] + (double)away.z;
-    was->turn        = hair_quat_multiply(turn, was->turn);
+    was->turn = hair_quat_multiply(turn, was->turn);
 }
 
 void hair_draw_bind_motion(struct hair_draw* draw)

@@ -8,7 +8,7 @@
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 {
     hair_mat4 out;
-    float     copy[16];
+    float copy[16];
     memcpy(copy, m, sizeof copy);
     for (int i = 0; i < 4; ++i) {
         double sum = (double)m[12 + i];
@@ -24,8 +24,8 @@ hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;
-    hair_vec3        x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
-    hair_vec3        t = {c[3].x, c[3].y, c[3].z};
+    hair_vec3 x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
+    hair_vec3 t = {c[3].x, c[3].y, c[3].z};
     if (projection[3] == 0 && projection[7] == 0 && projection[11] == 0) {
         hair_vec3 back = hair_normalize(hair_v3(x.z, y.z, z.z), hair_v3(0, 0, 1));
         return (hair_vec4){back.x, back.y, back.z, 0};
@@ -36,8 +36,8 @@ static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
 // Jitter moves what is drawn by so many pixels.
 void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16])
 {
-    GLfloat      viewport[4] = {0};
-    const float* by          = view->jitter;
+    GLfloat viewport[4] = {0};
+    const float* by = view->jitter;
     memcpy(projection, view->projection, sizeof view->projection);
     if (by[0] == 0 && by[1] == 0) return;
     draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
@@ -52,8 +52,8 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
                        struct hair_draw_params* out)
 {
     GLfloat viewport[4] = {0};
-    GLint   samples     = 0;
-    float   projection[16];
+    GLint samples = 0;
+    float projection[16];
     hair_draw_project(draw, view, projection);
     memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
     if (!hair_draw_covers(view)) return;
@@ -62,18 +62,18 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     // With samples, all of a pixel must be within the ribbon.
     out->viewport =
         (hair_vec4){viewport[2], viewport[3], samples > 1 ? 2 * DIAGONAL : DIAGONAL, view->opacity};
-    hair_vec3 at     = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
-    hair_vec3 eye    = {out->eye.x, out->eye.y, out->eye.z};
-    float     middle = out->eye.w > 0 ? hair_distance(eye, at) : -hair_dot(eye, at);
-    out->sort.x      = out->eye.w > 0 ? fmaxf(middle - draw->reach.w, 0) : middle - draw->reach.w;
-    out->sort.y      = HAIR_SORT_BUCKETS / fmaxf(2 * draw->reach.w, 1e-6f);
+    hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
+    hair_vec3 eye = {out->eye.x, out->eye.y, out->eye.z};
+    float middle = out->eye.w > 0 ? hair_distance(eye, at) : -hair_dot(eye, at);
+    out->sort.x = out->eye.w > 0 ? fmaxf(middle - draw->reach.w, 0) : middle - draw->reach.w;
+    out->sort.y = HAIR_SORT_BUCKETS / fmaxf(2 * draw->reach.w, 1e-6f);
 }
 
 // Clip space of this frame and of the one before, from the head's origins.
 static void write_motion(const struct hair_motion* motion, const hair_view* view,
                          struct hair_draw_params* out)
 {
-    float            matrix[16], turn[16] = {[15] = 1}, placed[16], clip[16];
+    float matrix[16], turn[16] = {[15] = 1}, placed[16], clip[16];
     struct hair_pose was = {.rotation = {0, 0, 0, 1}};
     for (int i = 0; i < 3; ++i)
         hair_store3(turn + 4 * i, hair_rotate(motion->before.turn, hair_v3(i == 0, i == 1, i == 2)));
@@ -91,12 +91,12 @@ static void write_motion(const struct hair_motion* motion, const hair_view* view
 static void write_view(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_draw_params* out)
 {
-    out->view   = hair_mat4_from_head(view->view, head);
-    out->eye    = find_eye(&out->view, view->projection);
+    out->view = hair_mat4_from_head(view->view, head);
+    out->eye = find_eye(&out->view, view->projection);
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
                               hair_draw_cell(draw, view)};
-    out->head   = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
-    out->lit    = hair_draw_lit(draw, view);
+    out->head = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
+    out->lit = hair_draw_lit(draw, view);
     write_clip(draw, head, view, out);
     if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
     hair_draw_write_lights(draw, head, view, out);
@@ -106,8 +106,8 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
 static hair_vec4 weigh_sets(float set, uint32_t sets)
 {
     float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
-    float at      = set < last ? set : last;
-    int   first   = (int)at;
+    float at = set < last ? set : last;
+    int first = (int)at;
     weight[first] = 1 - (at - (float)first);
     if (first + 1 < HAIR_MAP_SETS) weight[first + 1] = at - (float)first;
     return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
@@ -119,7 +119,7 @@ static void write_fibre(const hair_look* look, hair_vec4* out)
     float variance[3], b = look->roughness[1];
     hair_fibre_variances(look->roughness[0], variance);
     float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
-    *out    = (hair_vec4){variance[0], 1 / (d * d), look->tilt, look->scattering};
+    *out = (hair_vec4){variance[0], 1 / (d * d), look->tilt, look->scattering};
 }
 
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
@@ -130,15 +130,15 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     if (view) write_view(draw, head, view, out);
     out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
     write_fibre(look, &out->fibre);
-    out->radius          = look->radius;
-    out->density         = look->density;
-    out->segments        = look->segments;
-    out->colored         = view && view->pass == HAIR_PASS_COLOR;
+    out->radius = look->radius;
+    out->density = look->density;
+    out->segments = look->segments;
+    out->colored = view && view->pass == HAIR_PASS_COLOR;
     out->smooth_vertices = draw->smooth_vertices;
-    out->followers       = draw->followers;
-    out->collision       = look->collision;
-    out->led             = view ? draw->led : 1;
-    out->map_weights     = weigh_sets(look->map_set, draw->map_sets);
+    out->followers = draw->followers;
+    out->collision = look->collision;
+    out->led = view ? draw->led : 1;
+    out->map_weights = weigh_sets(look->map_set, draw->map_sets);
     hair_draw_write_detail(draw, head, view, out);
     hair_draw_write_tint(look, &out->tint);
     hair_draw_write_strand(look, &out->strand);

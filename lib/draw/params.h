@@ -14,7 +14,7 @@ hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
 // The maps of a light of a view: which one, and of OpenGL what it shows of hair and of bodies, 0: nothing.
 struct hair_light_maps {
     uint32_t light;
-    GLuint   shadow, body;
+    GLuint shadow, body;
 };
 
 // A view's projection with the jitter, for the viewport that is set.
@@ -22,7 +22,7 @@ void hair_draw_project(const struct hair_draw* draw, const hair_view* view, floa
 
 // window.c: from clip space to the viewport, xy and z in [0, 1]; and of depth that is farther what the host's depth test goes by, 1 or
 // -1. 0: it tells no near from far.
-void  hair_draw_find_unit(struct hair_gl* gl, float to_unit[16]);
+void hair_draw_find_unit(struct hair_gl* gl, float to_unit[16]);
 float hair_draw_find_sign(struct hair_gl* gl);
 
 // lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
@@ -48,12 +48,12 @@ double hair_draw_edge(float pixels, float jitter);
 // How thick strands are at most, m, which a map and the groom make some thicker than. And what of `window`, the lower corner and the upper of
 // texture coordinates, hair can be in that is held.
 double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod);
-void   hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
-                             const hair_mat4* to_texture, float window[4]);
+void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
+                           const hair_mat4* to_texture, float window[4]);
 
 // strand.c: of the above, what a look makes of a strand's way; and how far it takes it from there at most, in its lengths
 // and, beside that, in m.
-void  hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out);
+void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out);
 float hair_look_most_stray(const hair_look* look);
 float hair_look_most_aside(const hair_look* look);
 float hair_curve_most(const hair_curve* curve);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_EXPANDED 4194304u  // vertices, of 24 bytes: beyond, memory is dearer than time
+#define MOST_EXPANDED 4194304u // vertices, of 24 bytes: beyond, memory is dearer than time
 #define MOST_SAMPLES 33554432.0 // of a viewport, of 8 bytes
 
 static const struct {
@@ -24,7 +24,7 @@ static const struct {
 void hair_draw_find_fastest(struct hair_draw* draw)
 {
     const char* renderer = (const char*)draw->gl->GetString(GL_RENDERER);
-    draw->driver         = 0;
+    draw->driver = 0;
     while (*fastest[draw->driver].renderer && !(renderer && strstr(renderer, fastest[draw->driver].renderer)))
         ++draw->driver;
 }
@@ -47,7 +47,7 @@ static int is_of_lines(const hair_view* view)
 static int has_few_samples(const struct hair_gl* gl)
 {
     GLfloat viewport[4] = {0};
-    GLint   samples     = 0;
+    GLint samples = 0;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetIntegerv(GL_SAMPLES, &samples);
     double most = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1);
@@ -64,8 +64,8 @@ static int is_computable(const hair_view* view)
 static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
-    hair_path path     = fastest[draw->driver].path[column];
-    size_t    vertices = hair_draw_count_vertices(draw);
+    hair_path path = fastest[draw->driver].path[column];
+    size_t vertices = hair_draw_count_vertices(draw);
     if ((path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED) && vertices > MOST_EXPANDED)
         return HAIR_PATH_TESSELLATION;
     if (path != HAIR_PATH_COMPUTED || (is_computable(view) && !view->shader && has_few_samples(draw->gl)))

@@ -9,8 +9,8 @@ int hair_draw_has_uvs(const struct hair_draw* draw)
 hair_result hair_draw_need_uvs(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_UVS] = draw->frame;
-    struct hair_gl* gl        = draw->gl;
-    hair_result     result    = HAIR_OK;
+    struct hair_gl* gl = draw->gl;
+    hair_result result = HAIR_OK;
     if (!draw->uv)
         result = hair_gl_buffer(gl, "hair root uvs", draw->followers * 2 * sizeof(float), draw->seats->uv,
                                 &draw->uv);

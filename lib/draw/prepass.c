@@ -9,10 +9,10 @@
 
 hair_result hair_draw_make_prepass(struct hair_draw* draw)
 {
-    struct hair_gl*   gl     = draw->gl;
-    struct hair_hits* hits   = &draw->hits;
-    GLsizei           rows   = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
-    hair_result       result = HAIR_OK;
+    struct hair_gl* gl = draw->gl;
+    struct hair_hits* hits = &draw->hits;
+    GLsizei rows = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
+    hair_result result = HAIR_OK;
     if (!hits->image)
         result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows, &hits->image);
     if (result) return result;
@@ -30,8 +30,8 @@ hair_result hair_draw_make_prepass(struct hair_draw* draw)
 }
 
 struct saved {
-    GLint     frame, equation[2], clip_origin, clip_depth;
-    GLfloat   viewport[4], point_size;
+    GLint frame, equation[2], clip_origin, clip_depth;
+    GLfloat viewport[4], point_size;
     GLboolean mask[4], blends, scissors, discards, sizes_points, operates, clips[CLIP_DISTANCES];
 };
 
@@ -50,11 +50,11 @@ static void enter(struct hair_gl* gl, struct saved* saved)
     gl->GetFloati_v(GL_VIEWPORT, 0, saved->viewport);
     gl->GetFloatv(GL_POINT_SIZE, &saved->point_size);
     gl->GetBooleani_v(GL_COLOR_WRITEMASK, 0, saved->mask);
-    saved->blends       = gl->IsEnabledi(GL_BLEND, 0);
-    saved->scissors     = gl->IsEnabledi(GL_SCISSOR_TEST, 0);
-    saved->discards     = gl->IsEnabled(GL_RASTERIZER_DISCARD);
+    saved->blends = gl->IsEnabledi(GL_BLEND, 0);
+    saved->scissors = gl->IsEnabledi(GL_SCISSOR_TEST, 0);
+    saved->discards = gl->IsEnabled(GL_RASTERIZER_DISCARD);
     saved->sizes_points = gl->IsEnabled(GL_PROGRAM_POINT_SIZE);
-    saved->operates     = gl->IsEnabled(GL_COLOR_LOGIC_OP);
+    saved->operates = gl->IsEnabled(GL_COLOR_LOGIC_OP);
     for (GLenum i = 0; i < CLIP_DISTANCES; ++i) {
         saved->clips[i] = gl->IsEnabled(GL_CLIP_DISTANCE0 + i);
         set(gl, GL_CLIP_DISTANCE0 + i, 0);
@@ -72,7 +72,7 @@ static void enter(struct hair_gl* gl, struct saved* saved)
 
 static void leave(struct hair_gl* gl, const struct saved* saved)
 {
-    const GLfloat*   v = saved->viewport;
+    const GLfloat* v = saved->viewport;
     const GLboolean* m = saved->mask;
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)saved->frame);
     gl->BlendEquationSeparatei(0, (GLenum)saved->equation[0], (GLenum)saved->equation[1]);
@@ -91,9 +91,9 @@ static void leave(struct hair_gl* gl, const struct saved* saved)
 void hair_draw_run_prepass(struct hair_draw* draw)
 {
     static const GLfloat none = HAIR_NO_HIT;
-    struct hair_gl*      gl   = draw->gl;
-    struct saved         saved;
-    uint32_t             rows = (draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
+    struct hair_gl* gl = draw->gl;
+    struct saved saved;
+    uint32_t rows = (draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
     enter(gl, &saved);
     gl->ClearTexImage(draw->hits.image, 0, GL_RED, GL_FLOAT, &none);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->hits.frame);

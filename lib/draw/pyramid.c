@@ -12,7 +12,7 @@ uint32_t hair_pyramid_levels(uint32_t columns, uint32_t rows)
     uint32_t levels = 1;
     for (; columns > HAIR_HIDE_TEXELS || rows > HAIR_HIDE_TEXELS; ++levels) {
         columns = next(columns);
-        rows    = next(rows);
+        rows = next(rows);
     }
     return levels;
 }
@@ -23,7 +23,7 @@ size_t hair_pyramid_texels(uint32_t columns, uint32_t rows)
     for (uint32_t levels = hair_pyramid_levels(columns, rows); levels > 0; --levels) {
         texels += (size_t)columns * rows;
         columns = next(columns);
-        rows    = next(rows);
+        rows = next(rows);
     }
     return texels;
 }
@@ -36,6 +36,6 @@ void hair_pyramid_run(struct hair_gl* gl, GLuint uniform, struct hair_hide_param
         hair_gl_write_uniform(gl, uniform, sizeof *params, params);
         hair_gl_run(gl, params->level ? HAIR_GL_HIDE_NEXT : HAIR_GL_HIDE_FIRST, groups);
         columns = next(columns);
-        rows    = next(rows);
+        rows = next(rows);
     }
 }

@@ -10,8 +10,8 @@
 // Where samples are in a pixel.
 static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
 {
-    GLint   samples = 0;
-    GLfloat at[2]   = {0.5f, 0.5f};
+    GLint samples = 0;
+    GLfloat at[2] = {0.5f, 0.5f};
     gl->GetIntegerv(GL_SAMPLES, &samples);
     out->samples = samples > 1 && gl->IsEnabled(GL_MULTISAMPLE) ? (uint32_t)samples : 1;
     for (uint32_t i = 0; i < out->samples && i < HAIR_RASTER_SAMPLES; ++i) {
@@ -23,10 +23,10 @@ static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
 // The part of a viewport that hair can be in, as whole pixels of the window; along one axis.
 static uint32_t find_pixels(float origin, float size, float lower, float upper, uint32_t* first)
 {
-    float to   = fminf(ceilf(origin + upper * size + BESIDE), ceilf(origin + size));
+    float to = fminf(ceilf(origin + upper * size + BESIDE), ceilf(origin + size));
     float from = fmaxf(floorf(origin + lower * size - BESIDE), floorf(origin));
-    from       = fmaxf(fminf(from, to), 0); // The window begins there.
-    *first     = (uint32_t)from;
+    from = fmaxf(fminf(from, to), 0); // The window begins there.
+    *first = (uint32_t)from;
     return to > from ? (uint32_t)(to - from) : 0;
 }
 
@@ -35,7 +35,7 @@ static void find_place(const struct hair_draw* draw, const struct hair_pose* hea
                        const float unit[16], float matrix[16], float window[4])
 {
     hair_mat4 own = hair_mat4_from_head(view->view, head), to_viewport;
-    float     projection[16], placed[16], clip[16];
+    float projection[16], placed[16], clip[16];
     hair_draw_project(draw, view, projection);
     memcpy(placed, &own, sizeof placed);
     hair_mat4_multiply(projection, placed, clip);
@@ -52,10 +52,10 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
 {
     const float first[2] = {(float)out->first_x, (float)out->first_y};
     const float count[2] = {(float)out->columns, (float)out->rows};
-    float*      part     = &out->part.x;
+    float* part = &out->part.x;
     for (int k = 0; k < 2; ++k) {
         float from = (first[k] - viewport[k]) / viewport[2 + k], to = from + count[k] / viewport[2 + k];
-        part[k]     = (from - unit[12 + k]) / unit[5 * k];
+        part[k] = (from - unit[12 + k]) / unit[5 * k];
         part[2 + k] = (to - unit[12 + k]) / unit[5 * k];
         for (int i = k; i < 16; i += 4)
             matrix[i] = matrix[i] * viewport[2 + k] + matrix[i - k + 3] * (viewport[k] - first[k]);
@@ -66,24 +66,24 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
 int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_raster_params* out)
 {
-    struct hair_gl* gl          = draw->gl;
-    GLfloat         viewport[4] = {0}, range[2] = {0, 1};
-    float           unit[16], matrix[16], window[4];
+    struct hair_gl* gl = draw->gl;
+    GLfloat viewport[4] = {0}, range[2] = {0, 1};
+    float unit[16], matrix[16], window[4];
     memset(out, 0, sizeof *out);
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
     hair_draw_find_unit(gl, unit);
     find_place(draw, head, view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
-    out->rows    = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
+    out->rows = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
     if (!out->columns || !out->rows) return 0;
     write_pixels(viewport, unit, matrix, out);
     out->depth_from = range[0];
-    out->depth_by   = range[1] - range[0];
-    out->clamps     = gl->IsEnabled(GL_DEPTH_CLAMP);
-    out->flips      = hair_draw_find_sign(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
-    out->across     = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
-    out->tiles      = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
+    out->depth_by = range[1] - range[0];
+    out->clamps = gl->IsEnabled(GL_DEPTH_CLAMP);
+    out->flips = hair_draw_find_sign(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
+    out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
+    out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     find_samples(gl, out);
     return 1;
 }
@@ -95,7 +95,7 @@ static hair_result need_room(struct hair_gl* gl, const char* label, size_t count
     if (count <= *room) return HAIR_OK;
     count = (count + count / 2 + 3) / 4 * 4;
     hair_gl_free_buffer(gl, buffer);
-    *room              = 0;
+    *room = 0;
     hair_result result = hair_gl_storage(gl, label, count * sizeof(uint32_t), NULL, buffer);
     if (!result) *room = count;
     return result;
@@ -122,9 +122,9 @@ hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                                   const struct hair_raster_params* params)
 {
     draw->used[HAIR_DRAW_RASTER] = draw->frame;
-    struct hair_gl*     gl       = draw->gl;
-    struct hair_raster* raster   = &draw->raster;
-    hair_result         result   = HAIR_OK;
+    struct hair_gl* gl = draw->gl;
+    struct hair_raster* raster = &draw->raster;
+    hair_result result = HAIR_OK;
     if (params->samples > HAIR_RASTER_SAMPLES)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "HAIR_PATH_COMPUTED draws into pixels of up to %d samples, not of %u",
@@ -152,12 +152,12 @@ static uint32_t groups_for(uint64_t threads)
 
 void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params)
 {
-    struct hair_gl*     gl        = draw->gl;
-    struct hair_raster* raster    = &draw->raster;
-    GLuint              buffers[] = {raster->nearest, raster->tile};
-    uint64_t            segments  = (uint64_t)draw->followers * draw->look.segments;
-    uint32_t            groups    = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
-    uint64_t            fours     = (count_numbers(params, with) + 3) / 4;
+    struct hair_gl* gl = draw->gl;
+    struct hair_raster* raster = &draw->raster;
+    GLuint buffers[] = {raster->nearest, raster->tile};
+    uint64_t segments = (uint64_t)draw->followers * draw->look.segments;
+    uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
+    uint64_t fours = (count_numbers(params, with) + 3) / 4;
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
@@ -175,8 +175,8 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
 
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)
 {
-    struct hair_gl* gl      = draw->gl;
-    GLint           mode[2] = {GL_FILL, GL_FILL};
+    struct hair_gl* gl = draw->gl;
+    GLint mode[2] = {GL_FILL, GL_FILL};
     gl->GetIntegerv(GL_POLYGON_MODE, mode);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(6 * params->tiles));

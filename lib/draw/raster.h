@@ -6,8 +6,8 @@
 
 struct hair_raster {
     GLuint params, nearest, tile; // buffers, as in shared.h; 0 until they are needed
-    GLuint tile_texture;          // of the last
-    size_t room, tile_room;       // numbers that there is room for
+    GLuint tile_texture; // of the last
+    size_t room, tile_room; // numbers that there is room for
 };
 
 #endif

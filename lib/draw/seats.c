@@ -3,9 +3,9 @@
 
 hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim)
 {
-    struct hair_gl* gl   = draw->gl;
-    GLint           most = 0;
-    size_t          size = draw->followers * sizeof(struct hair_follower);
+    struct hair_gl* gl = draw->gl;
+    GLint most = 0;
+    size_t size = draw->followers * sizeof(struct hair_follower);
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     if (size > (size_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,

@@ -30,17 +30,17 @@ void hair_draw_free_self_shadow(struct hair_draw* draw)
 
 static hair_result make_light(struct hair_draw* draw, uint32_t each)
 {
-    struct hair_gl*          gl      = draw->gl;
-    struct hair_self_shadow* own     = &draw->self_shadow;
-    size_t                   numbers = draw->expanded.vertices * each;
+    struct hair_gl* gl = draw->gl;
+    struct hair_self_shadow* own = &draw->self_shadow;
+    size_t numbers = draw->expanded.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &own->texture);
     hair_gl_free_buffer(gl, &own->light);
     hair_gl_free_buffer(gl, &own->nodes);
-    own->frame         = 0;
-    own->numbers       = numbers;
-    own->each          = each;
-    size_t      nodes  = (size_t)HAIR_DENSITY_NODES * each;
+    own->frame = 0;
+    own->numbers = numbers;
+    own->each = each;
+    size_t nodes = (size_t)HAIR_DENSITY_NODES * each;
     hair_result result = hair_gl_storage(gl, "hair light of nodes", nodes * sizeof(float), NULL, &own->nodes);
     if (!result) result = hair_gl_storage(gl, "hair light", numbers * sizeof(uint32_t), NULL, &own->light);
     return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
@@ -53,9 +53,9 @@ static hair_gl_pass past_solids(const struct hair_draw* draw, hair_gl_pass pass)
 
 static hair_result make(struct hair_draw* draw, uint32_t each)
 {
-    struct hair_gl*          gl     = draw->gl;
-    struct hair_self_shadow* own    = &draw->self_shadow;
-    hair_result              result = HAIR_OK;
+    struct hair_gl* gl = draw->gl;
+    struct hair_self_shadow* own = &draw->self_shadow;
+    hair_result result = HAIR_OK;
     if (!own->density)
         result =
             hair_gl_storage(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t), NULL, &own->density);
@@ -69,22 +69,22 @@ static hair_result make(struct hair_draw* draw, uint32_t each)
 
 static void fill(struct hair_draw* draw, uint32_t groups)
 {
-    static const GLuint      none = 0, outermost = UINT32_MAX;
-    struct hair_gl*          gl  = draw->gl;
+    static const GLuint none = 0, outermost = UINT32_MAX;
+    struct hair_gl* gl = draw->gl;
     struct hair_self_shadow* own = &draw->self_shadow;
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
     hair_gl_run(gl, HAIR_GL_LIGHT_BOX, groups);
     hair_gl_run(gl, HAIR_GL_LIGHT_FILL, draw->patches);
     own->filled = draw->expanded.writes;
-    own->frame  = 0;
+    own->frame = 0;
 }
 
 // Views of one frame, with the same lights, have the same; what is in shadow maps is the host's.
 static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
 {
     struct hair_self_shadow* own = &draw->self_shadow;
-    int same                     = view->frame && view->frame == own->frame && own->count == params->lights &&
+    int same = view->frame && view->frame == own->frame && own->count == params->lights &&
                memcmp(own->lights, params->light, sizeof own->lights) == 0 &&
                memcmp(own->maps, params->shadow, sizeof own->maps) == 0;
     own->frame = view->frame;
@@ -104,28 +104,28 @@ static int is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* 
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
                                  const struct hair_pose* head, const hair_view* view)
 {
-    struct hair_gl*          gl  = draw->gl;
+    struct hair_gl* gl = draw->gl;
     struct hair_self_shadow* own = &draw->self_shadow;
     if (own->density && draw->look.shadow != HAIR_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
     if (!is_wanted(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
     struct hair_draw_params params;
-    int                     part  = is_of_a_part(draw, smooth, view);
-    hair_view               whole = *view;
-    whole.lod                     = NULL; // All views of a step share the grid.
+    int part = is_of_a_part(draw, smooth, view);
+    hair_view whole = *view;
+    whole.lod = NULL; // All views of a step share the grid.
     hair_draw_write_params(draw, head, part ? view : &whole, &params);
-    params.drawn_only  = (uint32_t)part;
-    params.culls       = 0; // What is out of view and hidden casts shadows too.
-    params.skull.w     = 0;
+    params.drawn_only = (uint32_t)part;
+    params.culls = 0; // What is out of view and hidden casts shadows too.
+    params.skull.w = 0;
     hair_result result = hair_draw_need_expanded(draw, smooth, part ? &params : NULL);
     if (!result) result = make(draw, hair_draw_lit(draw, view));
     if (result) return result;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     hair_draw_bind_shadows(draw, view);
-    uint32_t groups    = draw->patches * params.chunks;
-    GLuint   grid[]    = {own->density, own->box};
-    GLuint   strands[] = {own->nodes, draw->expanded.position, own->light};
+    uint32_t groups = draw->patches * params.chunks;
+    GLuint grid[] = {own->density, own->box};
+    GLuint strands[] = {own->nodes, draw->expanded.position, own->light};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, strands);
     if (own->filled != draw->expanded.writes) fill(draw, groups);

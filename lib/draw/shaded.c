@@ -9,8 +9,8 @@ int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shad
 
 hair_result hair_draw_need_shaded(struct hair_draw* draw)
 {
-    draw->used[HAIR_DRAW_SHADED]   = draw->frame;
-    struct hair_gl*       gl       = draw->gl;
+    draw->used[HAIR_DRAW_SHADED] = draw->frame;
+    struct hair_gl* gl = draw->gl;
     struct hair_expanded* expanded = &draw->expanded;
     if (expanded->shaded_texture) return HAIR_OK;
     hair_result result = hair_gl_storage(gl, "hair shaded", expanded->vertices * 8, NULL, &expanded->shaded);

@@ -5,7 +5,7 @@
 // Depth in the framebuffer by depth in clip space.
 static hair_vec4 find_depth(struct hair_gl* gl)
 {
-    GLint   mode     = GL_NEGATIVE_ONE_TO_ONE;
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
     GLfloat range[2] = {0, 1};
     gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
@@ -18,16 +18,16 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
 {
     const float brick = HAIR_BRICK * box->voxel, lower[] = {box->lower.x, box->lower.y, box->lower.z};
     if (!slice) return;
-    int   axis = (int)slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    int axis = (int)slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
     float length[3] = {brick * (float)box->bricks[0], brick * (float)box->bricks[1],
                        brick * (float)box->bricks[2]};
     float at[3] = {lower[0], lower[1], lower[2]}, normal[3] = {0}, sides[2][3] = {{0}};
     at[axis] += place * length[axis];
-    normal[axis]    = 1;
-    sides[0][a]     = length[a];
-    sides[1][b]     = length[b];
-    params->plane   = (hair_vec4){normal[0], normal[1], normal[2], at[axis]};
-    params->corner  = (hair_vec4){at[0], at[1], at[2], 0};
+    normal[axis] = 1;
+    sides[0][a] = length[a];
+    sides[1][b] = length[b];
+    params->plane = (hair_vec4){normal[0], normal[1], normal[2], at[axis]};
+    params->corner = (hair_vec4){at[0], at[1], at[2], 0};
     params->side[0] = (hair_vec4){sides[0][0], sides[0][1], sides[0][2], 0};
     params->side[1] = (hair_vec4){sides[1][0], sides[1][1], sides[1][2], 0};
 }
@@ -35,11 +35,11 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
 static struct hair_shown_solid show(const struct hair_solid_field* field, const hair_solid* solid, uint32_t i,
                                     const struct hair_pose* head)
 {
-    hair_vec3               lower, upper;
-    struct hair_field_solid own  = hair_field_shown(field, solid, i, head, &lower, &upper);
-    hair_vec3               more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
-    lower                        = hair_sub(lower, more);
-    upper                        = hair_add(upper, more);
+    hair_vec3 lower, upper;
+    struct hair_field_solid own = hair_field_shown(field, solid, i, head, &lower, &upper);
+    hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
+    lower = hair_sub(lower, more);
+    upper = hair_add(upper, more);
     return (struct hair_shown_solid){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
 }
 
@@ -75,9 +75,9 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
                              const hair_solid* solids, uint32_t count, const struct hair_pose* head,
                              const hair_view* view)
 {
-    struct hair_gl* gl     = draw->gl;
-    GLuint          buffer = 0; // Made each time: who draws no solids has none.
-    hair_result     result = hair_gl_need(gl, HAIR_GL_SOLIDS);
+    struct hair_gl* gl = draw->gl;
+    GLuint buffer = 0; // Made each time: who draws no solids has none.
+    hair_result result = hair_gl_need(gl, HAIR_GL_SOLIDS);
     if (!result && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
     if (result) return result;
     struct hair_shown_params* params = hair_alloc(&gl->host, 1, sizeof *params);

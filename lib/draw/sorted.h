@@ -6,7 +6,7 @@
 
 struct hair_sorted {
     GLuint bucket, index, vertex_array; // 0 until they are needed
-    size_t segments;                    // that there is room for
+    size_t segments; // that there is room for
 };
 
 #endif

@@ -3,11 +3,11 @@
 
 static const struct {
     const char* label;
-    GLenum      format;
-    size_t      size;
+    GLenum format;
+    size_t size;
 } parts[HAIR_STAGED_PARTS] = {[HAIR_STAGED_POSITION] = {"hair staged", GL_RGBA32F, sizeof(hair_vec4)},
-                              [HAIR_STAGED_TANGENT]  = {"hair staged tangents", GL_RGBA16, 8},
-                              [HAIR_STAGED_SHADED]   = {"hair staged colours", GL_RGBA16F, 8}};
+                              [HAIR_STAGED_TANGENT] = {"hair staged tangents", GL_RGBA16, 8},
+                              [HAIR_STAGED_SHADED] = {"hair staged colours", GL_RGBA16F, 8}};
 
 // What is drawn has two sides and no tangent; pixels that compute makes are of tangents. There is room for whichever is more.
 static size_t size_of(const hair_view* view, int part, size_t vertices)
@@ -40,9 +40,9 @@ static hair_result need_part(struct hair_draw* draw, int part, size_t size)
 hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view)
 {
     draw->used[HAIR_DRAW_STAGED] = draw->frame;
-    struct hair_staged* staged   = &draw->staged;
-    size_t              vertices = hair_draw_count_vertices(draw);
-    hair_result         result   = HAIR_OK;
+    struct hair_staged* staged = &draw->staged;
+    size_t vertices = hair_draw_count_vertices(draw);
+    hair_result result = HAIR_OK;
     if (staged->vertices != vertices) hair_draw_free_staged(draw);
     staged->vertices = vertices;
     for (int i = 0; i < HAIR_STAGED_PARTS && !result; ++i)
@@ -59,7 +59,7 @@ void hair_draw_free_staged(struct hair_draw* draw)
 
 void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program)
 {
-    struct hair_gl*     gl     = draw->gl;
+    struct hair_gl* gl = draw->gl;
     struct hair_staged* staged = &draw->staged;
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LISTED, 1, &draw->listed.command);

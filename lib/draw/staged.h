@@ -10,8 +10,8 @@ struct hair_staged {
     GLuint buffer
         [HAIR_STAGED_PARTS]; // as HAIR_BIND_EXPANDED and the two after it in shared.h; 0 until they are needed
     GLuint texture[HAIR_STAGED_PARTS]; // of them
-    size_t size[HAIR_STAGED_PARTS];    // bytes
-    size_t vertices;                   // that there is room for
+    size_t size[HAIR_STAGED_PARTS]; // bytes
+    size_t vertices; // that there is room for
 };
 
 #endif

@@ -26,10 +26,10 @@ static float end_slope(float rise, float next)
 static void write_curve(hair_curve curve, struct hair_strand_look* out, int number)
 {
     float slope[HAIR_CURVE_INTERVALS + 1], rise[HAIR_CURVE_INTERVALS];
-    int   last = HAIR_CURVE_INTERVALS;
+    int last = HAIR_CURVE_INTERVALS;
     for (int i = 0; i < last; ++i) rise[i] = curve.at[i + 1] - curve.at[i];
     for (int i = 1; i < last; ++i) slope[i] = inner_slope(rise[i - 1], rise[i]);
-    slope[0]    = end_slope(rise[0], slope[1]);
+    slope[0] = end_slope(rise[0], slope[1]);
     slope[last] = end_slope(rise[last - 1], slope[last - 1]);
     for (int i = 0; i < last; ++i)
         out->curve[number * last + i] = hermite(curve.at[i], curve.at[i + 1], slope[i], slope[i + 1]);
@@ -46,7 +46,7 @@ static void write_turn(const float at[HAIR_TURN_PLACES], float scale, hair_vec4*
         }
     for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
         int after = (i + 1) % HAIR_TURN_PLACES;
-        out[i]    = hermite(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
+        out[i] = hermite(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
     }
 }
 
@@ -103,21 +103,21 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
     write_curve(look->frizz, out, HAIR_CURVE_FRIZZ);
     write_curve(look->curl_profile, out, HAIR_CURVE_CURL);
     write_turns(look, out);
-    out->tip_strays      = look->tip_strays;
-    out->strays          = look->strays;
-    out->kinks           = 1 / look->kink;
-    out->drawn           = look->length;
-    out->thinning        = look->thinning;
-    out->curl_radius     = look->curl_radius;
-    out->curl_waves      = 1 / look->curl_wavelength;
-    out->curl_turns      = look->curl_turns;
+    out->tip_strays = look->tip_strays;
+    out->strays = look->strays;
+    out->kinks = 1 / look->kink;
+    out->drawn = look->length;
+    out->thinning = look->thinning;
+    out->curl_radius = look->curl_radius;
+    out->curl_waves = 1 / look->curl_wavelength;
+    out->curl_turns = look->curl_turns;
     out->curl_lock_phase = look->curl_lock_phase;
-    out->curl_phase      = look->curl_phase;
-    out->curl_spread     = look->curl_spread;
-    out->curl_left       = look->curl_left;
-    out->most_stray      = hair_look_most_stray(look);
-    out->most_aside      = hair_look_most_aside(look);
-    out->most_width      = fmaxf(hair_curve_most(&look->clump_width), 1);
+    out->curl_phase = look->curl_phase;
+    out->curl_spread = look->curl_spread;
+    out->curl_left = look->curl_left;
+    out->most_stray = hair_look_most_stray(look);
+    out->most_aside = hair_look_most_aside(look);
+    out->most_width = fmaxf(hair_curve_most(&look->clump_width), 1);
 }
 
 int hair_look_is_styled(const hair_look* look)

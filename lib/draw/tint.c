@@ -6,7 +6,7 @@
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
 {
     for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
-        float t     = (float)i / HAIR_CURVE_INTERVALS, c[3];
+        float t = (float)i / HAIR_CURVE_INTERVALS, c[3];
         float by[3] = {look->red.at[i], look->green.at[i], look->blue.at[i]};
         for (int k = 0; k < 3; ++k)
             c[k] = fminf(by[k] * (look->root_color[k] + t * (look->tip_color[k] - look->root_color[k])), 1);
@@ -14,16 +14,16 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
     }
     out->streak =
         (hair_vec4){look->streak_color[0], look->streak_color[1], look->streak_color[2], look->streaks};
-    out->brightness    = look->color_spread;
-    out->hue           = look->hue_spread;
-    out->roughness     = look->roughness_spread;
-    out->tilt          = look->tilt_spread;
-    out->root_shade    = look->root_shade;
+    out->brightness = look->color_spread;
+    out->hue = look->hue_spread;
+    out->roughness = look->roughness_spread;
+    out->tilt = look->tilt_spread;
+    out->root_shade = look->root_shade;
     out->root_recovery = 1 / look->root_shade_length;
-    out->streak_locks  = look->streak_locks;
-    out->sparkle       = look->sparkle;
-    out->paint         = look->groom_colors;
-    out->paint_power   = WET_POWER(look->wetness);
+    out->streak_locks = look->streak_locks;
+    out->sparkle = look->sparkle;
+    out->paint = look->groom_colors;
+    out->paint_power = WET_POWER(look->wetness);
 }
 
 // A film of water keeps light in, so that it is absorbed more often, and is smoother than scales are.
@@ -54,8 +54,8 @@ void hair_look_soak(hair_look* look)
     darken(look->streak_color, WET_POWER(wet));
     look->roughness[0] = fmaxf(look->roughness[0] * (1 - 0.55f * wet), 0.05f);
     look->roughness[1] = fmaxf(look->roughness[1] * (1 - 0.4f * wet), 0.05f);
-    look->specular[0]  = fminf(look->specular[0] * (1 + 3 * wet), 4);
-    look->gloss[0]     = fminf(look->gloss[0] * (1 + 2 * wet), 1000);
-    look->gloss[1]     = fminf(look->gloss[1] * (1 + 2 * wet), 1000);
+    look->specular[0] = fminf(look->specular[0] * (1 + 3 * wet), 4);
+    look->gloss[0] = fminf(look->gloss[0] * (1 + 2 * wet), 1000);
+    look->gloss[1] = fminf(look->gloss[1] * (1 + 2 * wet), 1000);
     draw_together(look, wet);
 }

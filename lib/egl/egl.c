@@ -13,20 +13,20 @@
 #define SURFACELESS (-1) // In place of a device's index.
 
 struct hair_egl {
-    hair_host  host;
+    hair_host host;
     EGLDisplay display;
     EGLContext context;
 };
 
 // What EGL offers, and what has been tried of it.
 struct search {
-    hair_egl*                       egl;
-    EGLDeviceEXT                    devices[MAX_DEVICES];
-    EGLint                          count;
-    PFNEGLQUERYDEVICESTRINGEXTPROC  device_string;
+    hair_egl* egl;
+    EGLDeviceEXT devices[MAX_DEVICES];
+    EGLint count;
+    PFNEGLQUERYDEVICESTRINGEXTPROC device_string;
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display;
-    bool                            surfaceless;
-    char                            refused[420]; // "device 0 (…): …; device 1 (…): …"
+    bool surfaceless;
+    char refused[420]; // "device 0 (…): …; device 1 (…): …"
 };
 
 static const char* error_name(EGLint error)
@@ -136,9 +136,9 @@ static const char* make_context(hair_egl* egl)
 static const char* open_display(const struct search* search, EGLint device)
 {
     hair_egl* egl = search->egl;
-    egl->display  = device == SURFACELESS
-                        ? search->platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL)
-                        : search->platform_display(EGL_PLATFORM_DEVICE_EXT, search->devices[device], NULL);
+    egl->display = device == SURFACELESS
+                       ? search->platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL)
+                       : search->platform_display(EGL_PLATFORM_DEVICE_EXT, search->devices[device], NULL);
     if (egl->display == EGL_NO_DISPLAY) return "it has no display";
     if (!eglInitialize(egl->display, NULL, NULL)) return error_name(eglGetError());
     return make_context(egl);
@@ -147,9 +147,9 @@ static const char* open_display(const struct search* search, EGLint device)
 static void log_taken(const struct search* search, const char* device)
 {
     typedef const unsigned char* (*get_string)(unsigned int name);
-    get_string           glGetString = (get_string)eglGetProcAddress("glGetString");
-    const unsigned char* renderer    = glGetString ? glGetString(0x1F01) : NULL; // GL_RENDERER
-    const unsigned char* version     = glGetString ? glGetString(0x1F02) : NULL; // GL_VERSION
+    get_string glGetString = (get_string)eglGetProcAddress("glGetString");
+    const unsigned char* renderer = glGetString ? glGetString(0x1F01) : NULL; // GL_RENDERER
+    const unsigned char* version = glGetString ? glGetString(0x1F02) : NULL; // GL_VERSION
     hair_log(&search->egl->host, HAIR_LOG_INFO, "EGL %s taken: %s, OpenGL %s", device,
              renderer ? (const char*)renderer : "an unnamed renderer",
              version ? (const char*)version : "unnamed");
@@ -204,8 +204,8 @@ hair_result hair_egl_create(const hair_host* host, int device, hair_egl** out)
     if (!out) return hair_fail(&own, HAIR_ERROR_ARGUMENT, "hair_egl_create: out is NULL");
     hair_egl* egl = hair_alloc(&own, 1, sizeof *egl);
     if (!egl) return hair_fail_memory(&own, "an EGL context");
-    egl->host            = own;
-    egl->context         = EGL_NO_CONTEXT;
+    egl->host = own;
+    egl->context = EGL_NO_CONTEXT;
     struct search search = {.egl = egl};
 
     hair_result result = create(&search, device);
@@ -229,7 +229,7 @@ hair_result hair_egl_make_current(hair_egl* egl)
 {
     EGLDisplay display = egl ? egl->display : eglGetCurrentDisplay();
     if (display == EGL_NO_DISPLAY) return HAIR_OK; // None is current already.
-    if (egl) eglBindAPI(EGL_OPENGL_API);           // Of the thread, and OpenGL ES until told.
+    if (egl) eglBindAPI(EGL_OPENGL_API); // Of the thread, and OpenGL ES until told.
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl ? egl->context : EGL_NO_CONTEXT))
         return HAIR_OK;
     EGLint error = eglGetError();

@@ -22,7 +22,7 @@ static struct range overlap(const struct hair_placed* placed, const struct range
     struct range range;
     for (int i = 0; i < 3; ++i) {
         range.first[i] = placed->first[i] > with->first[i] ? placed->first[i] : with->first[i];
-        range.end[i]   = placed->end[i] < with->end[i] ? placed->end[i] : with->end[i];
+        range.end[i] = placed->end[i] < with->end[i] ? placed->end[i] : with->end[i];
         if (range.end[i] < range.first[i]) range.end[i] = range.first[i];
     }
     return range;
@@ -41,9 +41,9 @@ static struct range all_of(const struct hair_field_box* box)
 // What others hide wherever it is in a brick does not change it. Should they move, they mark it themselves.
 void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed)
 {
-    const struct hair_field_box* box   = &field->box;
-    struct range                 all   = all_of(box);
-    struct range                 range = overlap(placed, &all);
+    const struct hair_field_box* box = &field->box;
+    struct range all = all_of(box);
+    struct range range = overlap(placed, &all);
     EACH_BRICK(range, x, y, z)
     {
         uint32_t brick = brick_at(box, x, y, z);
@@ -55,10 +55,10 @@ void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* p
 // The bricks that hold all that are marked. Returns how many those are.
 static uint32_t find_dirty(const struct hair_solid_field* field, struct range* out)
 {
-    const struct hair_field_box* box   = &field->box;
-    struct range                 all   = all_of(box);
-    uint32_t                     count = 0;
-    *out                               = (struct range){{UINT32_MAX, UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
+    const struct hair_field_box* box = &field->box;
+    struct range all = all_of(box);
+    uint32_t count = 0;
+    *out = (struct range){{UINT32_MAX, UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
     EACH_BRICK(all, x, y, z)
     {
         if (!field->dirty[brick_at(box, x, y, z)]) continue;
@@ -75,7 +75,7 @@ static uint32_t find_dirty(const struct hair_solid_field* field, struct range* o
 void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job)
 {
     const struct hair_field_box* box = &field->box;
-    struct range                 dirty;
+    struct range dirty;
     memset(job, 0, sizeof *job);
     if (!find_dirty(field, &dirty)) return;
     // At most how many members each will have.
@@ -89,7 +89,7 @@ void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job
 
 struct pair {
     uint32_t brick, solid;
-    float    least; // distance of any voxel
+    float least; // distance of any voxel
 };
 
 // Marked bricks from job->next on, until they have as many pairs as fit. Returns where to go on.
@@ -110,11 +110,11 @@ static uint32_t take_bricks(const struct hair_solid_field* field, const struct h
 static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_field_job* job, uint32_t end,
                            struct pair* pairs)
 {
-    const struct hair_field_box* box   = &field->box;
-    uint32_t                     layer = box->bricks[0] * box->bricks[1], count = 0;
-    struct range                 slab = all_of(box);
-    slab.first[2]                     = job->next / layer;
-    slab.end[2]                       = (end - 1) / layer + 1;
+    const struct hair_field_box* box = &field->box;
+    uint32_t layer = box->bricks[0] * box->bricks[1], count = 0;
+    struct range slab = all_of(box);
+    slab.first[2] = job->next / layer;
+    slab.end[2] = (end - 1) / layer + 1;
     for (uint32_t b = job->next; b < end; ++b)
         if (field->dirty[b]) field->best[b] = box->far;
     for (uint32_t i = 0; i < field->count; ++i) {
@@ -126,7 +126,7 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
             struct hair_field_span span = hair_field_span_of(box, &field->placed[i], x, y, z);
             if (!(span.least <= field->best[brick])) continue;
             field->best[brick] = fminf(field->best[brick], span.most);
-            pairs[count++]     = (struct pair){brick, i, span.least};
+            pairs[count++] = (struct pair){brick, i, span.least};
         }
     }
     return count;
@@ -138,8 +138,8 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
 static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* job, uint32_t end,
                        const struct pair* pairs, uint32_t count)
 {
-    const struct hair_field_box* box   = &field->box;
-    uint32_t                     first = 0, plain = 0, last = HAIR_NO_SOLID;
+    const struct hair_field_box* box = &field->box;
+    uint32_t first = 0, plain = 0, last = HAIR_NO_SOLID;
     for (uint32_t b = job->next; b < end; ++b) field->members[b] = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t b = pairs[i].brick;
@@ -167,7 +167,7 @@ static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* jo
             if (placed->form) job->solid[job->solids].first = field->forms->pooled[placed->place].first;
             ++job->solids;
         }
-        last                                          = pairs[i].solid;
+        last = pairs[i].solid;
         job->member[field->members[pairs[i].brick]++] = job->solids - 1;
     }
     job->members = first;
@@ -175,20 +175,20 @@ static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* jo
 
 hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_job* job)
 {
-    const hair_host* host   = &field->gl->host;
-    uint32_t         bricks = 0;
-    size_t           most   = 0;
+    const hair_host* host = &field->gl->host;
+    uint32_t bricks = 0;
+    size_t most = 0;
     hair_field_end(field, job);
     job->bricks = job->members = job->solids = 0;
-    uint32_t end                             = take_bricks(field, job, &bricks, &most);
+    uint32_t end = take_bricks(field, job, &bricks, &most);
     if (!bricks) return HAIR_OK;
     struct pair* pairs = hair_alloc(host, most, sizeof *pairs);
-    uint32_t     count = pairs ? find_pairs(field, job, end, pairs) : 0;
-    job->brick         = hair_alloc(host, bricks, sizeof *job->brick);
-    job->member        = hair_alloc(host, count, sizeof *job->member);
-    job->solid         = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->solid);
-    int failed         = !pairs || !job->brick || !job->member || !job->solid;
-    job->bricks        = bricks;
+    uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
+    job->brick = hair_alloc(host, bricks, sizeof *job->brick);
+    job->member = hair_alloc(host, count, sizeof *job->member);
+    job->solid = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->solid);
+    int failed = !pairs || !job->brick || !job->member || !job->solid;
+    job->bricks = bricks;
     if (!failed) sort_pairs(field, job, end, pairs, count);
     hair_free(host, pairs);
     job->next = end;
@@ -200,7 +200,7 @@ void hair_field_end(struct hair_solid_field* field, struct hair_field_job* job)
     hair_free(&field->gl->host, job->brick);
     hair_free(&field->gl->host, job->member);
     hair_free(&field->gl->host, job->solid);
-    job->brick  = NULL;
+    job->brick = NULL;
     job->member = NULL;
-    job->solid  = NULL;
+    job->solid = NULL;
 }

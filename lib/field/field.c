@@ -9,9 +9,9 @@ void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
                        const struct hair_groom* groom, float voxel)
 {
     memset(field, 0, sizeof *field);
-    field->gl    = forms->gl;
+    field->gl = forms->gl;
     field->forms = forms;
-    field->box   = hair_field_box_of(groom, voxel);
+    field->box = hair_field_box_of(groom, voxel);
 }
 
 // As hair_field_create left it.
@@ -40,9 +40,9 @@ void hair_field_destroy(struct hair_solid_field* field)
 
 static hair_result make(struct hair_solid_field* field)
 {
-    struct hair_gl*              gl     = field->gl;
-    const struct hair_field_box* box    = &field->box;
-    uint32_t                     bricks = hair_field_bricks(box), size[3];
+    struct hair_gl* gl = field->gl;
+    const struct hair_field_box* box = &field->box;
+    uint32_t bricks = hair_field_bricks(box), size[3];
     for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
     hair_result result = hair_gl_texture_3d(gl, "hair field", GL_R16F, size, GL_LINEAR, &field->distance);
     if (!result)
@@ -53,9 +53,9 @@ static hair_result make(struct hair_solid_field* field)
         result =
             hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture);
     if (result) return result;
-    field->dirty   = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
+    field->dirty = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
     field->members = hair_alloc(&gl->host, bricks, sizeof *field->members);
-    field->best    = hair_alloc(&gl->host, bricks, sizeof *field->best);
+    field->best = hair_alloc(&gl->host, bricks, sizeof *field->best);
     if (!field->dirty || !field->members || !field->best) return hair_fail_memory(&gl->host, "the field");
     memset(field->dirty, 1, bricks);
     return HAIR_OK;
@@ -66,14 +66,14 @@ static hair_result make(struct hair_solid_field* field)
 static hair_result make_room(struct hair_solid_field* field, uint32_t count)
 {
     if (count <= field->room) return HAIR_OK;
-    const hair_host*    host   = &field->gl->host;
-    uint32_t            room   = count < 16 ? 16 : count + count / 2;
+    const hair_host* host = &field->gl->host;
+    uint32_t room = count < 16 ? 16 : count + count / 2;
     struct hair_placed* placed = hair_alloc(host, room, sizeof *placed);
     if (!placed) return hair_fail_memory(host, "solids in the field");
     if (field->count) memcpy(placed, field->placed, field->count * sizeof *placed);
     hair_free(host, field->placed);
     field->placed = placed;
-    field->room   = room;
+    field->room = room;
     return HAIR_OK;
 }
 
@@ -82,7 +82,7 @@ static hair_result replace(struct hair_solid_field* field, struct hair_placed* p
                            struct hair_placed* now)
 {
     hair_result result = HAIR_OK;
-    now->place         = placed->place;
+    now->place = placed->place;
     if (now->form == placed->form) {
         *placed = *now;
         return HAIR_OK;
@@ -99,12 +99,12 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
                              const struct hair_pose* head)
 {
     hair_result result = HAIR_OK;
-    uint32_t    most = count > field->count ? count : field->count, near = 0;
+    uint32_t most = count > field->count ? count : field->count, near = 0;
     memset(field->placed + field->count, 0, (most - field->count) * sizeof *field->placed);
     for (uint32_t i = 0; i < most && !result; ++i) {
         struct hair_placed* placed = &field->placed[i];
-        int                 was = i < field->count, is = i < count;
-        struct hair_placed  now = {0};
+        int was = i < field->count, is = i < count;
+        struct hair_placed now = {0};
         if (is) now = hair_field_place(&field->box, &solids[i], i, head);
         if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
             if (was && field->dirty) hair_field_mark(field, placed);
@@ -114,7 +114,7 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
         near += is && hair_field_is_inside(placed);
     }
     field->count = result ? most : count;
-    field->near  = near;
+    field->near = near;
     return result;
 }
 
@@ -122,14 +122,14 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
 
 static void write_params(struct hair_solid_field* field, hair_quat rotation)
 {
-    const struct hair_field_box* box    = &field->box;
-    float                        brick  = HAIR_BRICK * box->voxel;
-    struct hair_field_params     params = {.rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
-                                           .lower    = {box->lower.x, box->lower.y, box->lower.z, box->voxel},
-                                           .inverse  = {1 / (brick * (float)box->bricks[0]),
-                                                        1 / (brick * (float)box->bricks[1]),
-                                                        1 / (brick * (float)box->bricks[2]), box->far}};
-    field->rotation                     = rotation;
+    const struct hair_field_box* box = &field->box;
+    float brick = HAIR_BRICK * box->voxel;
+    struct hair_field_params params = {.rotation = {rotation.x, rotation.y, rotation.z, rotation.w},
+                                       .lower = {box->lower.x, box->lower.y, box->lower.z, box->voxel},
+                                       .inverse = {1 / (brick * (float)box->bricks[0]),
+                                                   1 / (brick * (float)box->bricks[1]),
+                                                   1 / (brick * (float)box->bricks[2]), box->far}};
+    field->rotation = rotation;
     hair_gl_write_uniform(field->gl, field->params, sizeof params, &params);
 }
 
@@ -144,9 +144,9 @@ static size_t aligned(size_t size)
 static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bricks, int part,
                 const GLintptr* at, const GLsizeiptr* length)
 {
-    const GLuint     buffers[] = {field->work, field->work};
-    const GLintptr   begin[]   = {at[part], at[1]};
-    const GLsizeiptr size[]    = {length[part], length[1]};
+    const GLuint buffers[] = {field->work, field->work};
+    const GLintptr begin[] = {at[part], at[1]};
+    const GLsizeiptr size[] = {length[part], length[1]};
     if (!bricks) return;
     field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
     hair_gl_run(field->gl, pass, bricks);
@@ -154,16 +154,16 @@ static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bric
 
 static hair_result dispatch(struct hair_solid_field* field, const struct hair_field_job* job)
 {
-    struct hair_gl* gl           = field->gl;
-    uint32_t        plain        = job->bricks - job->with_forms;
-    const size_t    sizes[PARTS] = {job->solids * sizeof *job->solid, job->members * sizeof *job->member,
-                                    plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
-    const void*     parts[PARTS] = {job->solid, job->member, job->brick, job->brick + plain};
-    GLintptr        at[PARTS];
-    GLsizeiptr      length[PARTS];
-    size_t          all = 0;
+    struct hair_gl* gl = field->gl;
+    uint32_t plain = job->bricks - job->with_forms;
+    const size_t sizes[PARTS] = {job->solids * sizeof *job->solid, job->members * sizeof *job->member,
+                                 plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
+    const void* parts[PARTS] = {job->solid, job->member, job->brick, job->brick + plain};
+    GLintptr at[PARTS];
+    GLsizeiptr length[PARTS];
+    size_t all = 0;
     for (int i = 0; i < PARTS; ++i) {
-        at[i]     = (GLintptr)all;
+        at[i] = (GLintptr)all;
         length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
         all += aligned((size_t)length[i]);
     }
@@ -192,10 +192,10 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
 
 static hair_result write_marked(struct hair_solid_field* field)
 {
-    struct hair_gl*       gl = field->gl;
+    struct hair_gl* gl = field->gl;
     struct hair_field_job job;
-    hair_result           result;
-    int                   ran = 0;
+    hair_result result;
+    int ran = 0;
     hair_field_begin(field, &job);
     while ((result = hair_field_next(field, &job)) == HAIR_OK && job.bricks) {
         if (!ran) {
@@ -203,7 +203,7 @@ static hair_result write_marked(struct hair_solid_field* field)
             gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
             gl->BindImageTexture(HAIR_IMAGE_SOLID, field->number, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32UI);
         }
-        ran    = 1;
+        ran = 1;
         result = dispatch(field, &job);
         if (result) break;
     }
@@ -244,8 +244,8 @@ struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, c
                                          uint32_t i, const struct hair_pose* head, hair_vec3* lower,
                                          hair_vec3* upper)
 {
-    struct hair_placed        placed = hair_field_place(&field->box, solid, i, head);
-    const struct hair_placed* known  = i < field->count ? &field->placed[i] : NULL;
+    struct hair_placed placed = hair_field_place(&field->box, solid, i, head);
+    const struct hair_placed* known = i < field->count ? &field->placed[i] : NULL;
     hair_field_shown_extent(&placed, lower, upper);
     if (known && placed.form && known->form == placed.form)
         placed.solid.first = field->forms->pooled[known->place].first;

@@ -10,22 +10,22 @@
 #include "lib/gl/gl.h"
 
 struct hair_solid_field {
-    struct hair_gl*       gl;
-    struct hair_forms*    forms; // of the context
+    struct hair_gl* gl;
+    struct hair_forms* forms; // of the context
     struct hair_field_box box;
-    GLuint                distance;     // 3D texture, R16F, m; 0: there is none
-    GLuint                number;       // 3D texture, R32UI; HAIR_NO_SOLID where none is near
-    GLuint                params;       // uniform buffer
-    GLuint                work;         // what the last dispatch was to do
-    GLuint                work_texture; // the same
-    hair_quat             rotation;     // of the head, as the parameters have it
-    struct hair_placed*   placed;       // as they were written
-    uint32_t              count, room;
-    uint32_t              near;    // of them that reach into the box
-    unsigned char*        dirty;   // per brick: is to be written
-    uint32_t*             members; // per brick
-    uint32_t              writes;  // how often it has been written or let go
-    float*                best; // per brick, as it was written: no voxel is farther from the nearest solid, m
+    GLuint distance; // 3D texture, R16F, m; 0: there is none
+    GLuint number; // 3D texture, R32UI; HAIR_NO_SOLID where none is near
+    GLuint params; // uniform buffer
+    GLuint work; // what the last dispatch was to do
+    GLuint work_texture; // the same
+    hair_quat rotation; // of the head, as the parameters have it
+    struct hair_placed* placed; // as they were written
+    uint32_t count, room;
+    uint32_t near; // of them that reach into the box
+    unsigned char* dirty; // per brick: is to be written
+    uint32_t* members; // per brick
+    uint32_t writes; // how often it has been written or let go
+    float* best; // per brick, as it was written: no voxel is farther from the nearest solid, m
 };
 
 // Where the field of this groom is. Neither memory nor OpenGL.
@@ -43,7 +43,7 @@ struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, c
                                          hair_vec3* upper);
 
 // Whether a strand can meet a solid: only then hair_field_bind has something to bind, and glsl/field.glsl to read.
-int  hair_field_is_near(const struct hair_solid_field* field);
+int hair_field_is_near(const struct hair_solid_field* field);
 void hair_field_bind(const struct hair_solid_field* field);
 
 #endif

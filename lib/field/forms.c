@@ -12,7 +12,7 @@ static size_t count_nodes(const hair_form* form)
 
 static void upload(struct hair_forms* forms, GLuint buffer, struct hair_pooled_form* pooled)
 {
-    size_t count  = count_nodes(pooled->form);
+    size_t count = count_nodes(pooled->form);
     pooled->first = (uint32_t)forms->used;
     forms->gl->NamedBufferSubData(buffer, (GLintptr)(forms->used * sizeof(float)),
                                   (GLsizeiptr)(count * sizeof(float)), pooled->form->distance);
@@ -24,7 +24,7 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
 {
     if (forms->nodes && forms->used + more <= forms->room) return HAIR_OK;
     GLuint buffer = 0;
-    size_t used   = 0;
+    size_t used = 0;
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form) used += count_nodes(forms->pooled[i].form);
     size_t room = used + more + (used + more) / 2;
@@ -34,8 +34,8 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
     hair_gl_free_buffer_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
     forms->nodes = buffer;
-    forms->room  = room;
-    forms->used  = 0;
+    forms->room = room;
+    forms->used = 0;
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form) upload(forms, buffer, &forms->pooled[i]);
     return HAIR_OK;
@@ -47,13 +47,13 @@ static hair_result find_place(struct hair_forms* forms, uint32_t* place)
     for (*place = 0; *place < forms->count; ++*place)
         if (!forms->pooled[*place].form) return HAIR_OK;
     if (forms->count == forms->capacity) {
-        const hair_host*         host     = &forms->gl->host;
-        uint32_t                 capacity = 2 * forms->capacity + 8;
-        struct hair_pooled_form* pooled   = hair_alloc(host, capacity, sizeof *pooled);
+        const hair_host* host = &forms->gl->host;
+        uint32_t capacity = 2 * forms->capacity + 8;
+        struct hair_pooled_form* pooled = hair_alloc(host, capacity, sizeof *pooled);
         if (!pooled) return hair_fail_memory(host, "the forms of solids");
         if (forms->count) memcpy(pooled, forms->pooled, forms->count * sizeof *pooled);
         hair_free(host, forms->pooled);
-        forms->pooled   = pooled;
+        forms->pooled = pooled;
         forms->capacity = capacity;
     }
     ++forms->count;

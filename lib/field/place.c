@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#define SWING 0.25f     // of the longest strand: how far beyond its rest shape hair is looked for
-#define STILL 0.01f     // of a voxel: a solid that moves less has not moved; errors of rounding do no more
+#define SWING 0.25f // of the longest strand: how far beyond its rest shape hair is looked for
+#define STILL 0.01f // of a voxel: a solid that moves less has not moved; errors of rounding do no more
 #define EVERYWHERE 1e9f // m
 
 static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
@@ -23,7 +23,7 @@ static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upp
 static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_vec3* upper)
 {
     hair_vec3 reach[2] = {{EVERYWHERE, EVERYWHERE, EVERYWHERE}, {-EVERYWHERE, -EVERYWHERE, -EVERYWHERE}};
-    float     longest  = 0;
+    float longest = 0;
     *lower = reach[0], *upper = reach[1];
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
         const struct hair_guide* guide = &groom->guides[i];
@@ -35,10 +35,10 @@ static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_v
         longest = fmaxf(longest, guide->arc_length);
     }
     float around = SWING * longest;
-    *lower       = hair_v3(fmaxf(lower->x - around, reach[0].x), fmaxf(lower->y - around, reach[0].y),
-                           fmaxf(lower->z - around, reach[0].z));
-    *upper       = hair_v3(fminf(upper->x + around, reach[1].x), fminf(upper->y + around, reach[1].y),
-                           fminf(upper->z + around, reach[1].z));
+    *lower = hair_v3(fmaxf(lower->x - around, reach[0].x), fmaxf(lower->y - around, reach[0].y),
+                     fmaxf(lower->z - around, reach[0].z));
+    *upper = hair_v3(fminf(upper->x + around, reach[1].x), fminf(upper->y + around, reach[1].y),
+                     fminf(upper->z + around, reach[1].z));
 }
 
 static uint32_t count_bricks(float length, float voxel)
@@ -51,18 +51,18 @@ struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float vo
 {
     hair_vec3 lower, upper;
     find_bounds(groom, &lower, &upper);
-    hair_vec3             size = hair_sub(upper, lower), middle = hair_lerp(lower, upper, 0.5f);
-    float                 longest = fmaxf(size.x, fmaxf(size.y, size.z));
+    hair_vec3 size = hair_sub(upper, lower), middle = hair_lerp(lower, upper, 0.5f);
+    float longest = fmaxf(size.x, fmaxf(size.y, size.z));
     struct hair_field_box box;
-    box.voxel     = fmaxf(fminf(fmaxf(voxel, longest / HAIR_FIELD_LONGEST), longest / HAIR_FIELD_SHORTEST),
-                          HAIR_FIELD_LEAST);
-    box.far       = HAIR_FIELD_BAND * box.voxel;
+    box.voxel = fmaxf(fminf(fmaxf(voxel, longest / HAIR_FIELD_LONGEST), longest / HAIR_FIELD_SHORTEST),
+                      HAIR_FIELD_LEAST);
+    box.far = HAIR_FIELD_BAND * box.voxel;
     box.bricks[0] = count_bricks(size.x, box.voxel);
     box.bricks[1] = count_bricks(size.y, box.voxel);
     box.bricks[2] = count_bricks(size.z, box.voxel);
-    float half    = 0.5f * HAIR_BRICK * box.voxel;
-    box.lower     = hair_sub(middle, hair_v3(half * (float)box.bricks[0], half * (float)box.bricks[1],
-                                             half * (float)box.bricks[2]));
+    float half = 0.5f * HAIR_BRICK * box.voxel;
+    box.lower = hair_sub(middle, hair_v3(half * (float)box.bricks[0], half * (float)box.bricks[1],
+                                         half * (float)box.bricks[2]));
     return box;
 }
 
@@ -78,9 +78,9 @@ static hair_quat quat_of(hair_vec4 q)
 static void find_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper, float* around)
 {
     const struct hair_field_solid* solid = &placed->solid;
-    hair_vec4                      size  = solid->size;
-    *around                              = solid->position.w;
-    *upper                               = hair_v3(size.x, size.y, size.z);
+    hair_vec4 size = solid->size;
+    *around = solid->position.w;
+    *upper = hair_v3(size.x, size.y, size.z);
     switch ((hair_shape)solid->shape) {
     case HAIR_SHAPE_SPHERE:
     case HAIR_SHAPE_CAPSULE:
@@ -110,27 +110,27 @@ void hair_field_shown_extent(const struct hair_placed* placed, hair_vec3* lower,
 static void find_bricks(const struct hair_field_box* box, struct hair_placed* placed)
 {
     const struct hair_field_solid* solid = &placed->solid;
-    hair_quat                      turn  = quat_of(solid->rotation);
-    hair_vec3                      lower, upper;
-    float                          around;
+    hair_quat turn = quat_of(solid->rotation);
+    hair_vec3 lower, upper;
+    float around;
     find_extent(placed, &lower, &upper, &around);
-    hair_vec3 half   = hair_scale(hair_sub(upper, lower), 0.5f);
+    hair_vec3 half = hair_scale(hair_sub(upper, lower), 0.5f);
     hair_vec3 middle = hair_rotate(turn, hair_lerp(lower, upper, 0.5f));
     hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
-              z          = hair_rotate(turn, hair_v3(0, 0, half.z));
+              z = hair_rotate(turn, hair_v3(0, 0, half.z));
     const float extent[] = {fabsf(x.x) + fabsf(y.x) + fabsf(z.x), fabsf(x.y) + fabsf(y.y) + fabsf(z.y),
                             fabsf(x.z) + fabsf(y.z) + fabsf(z.z)};
-    const float at[]     = {solid->position.x + middle.x - box->lower.x,
-                            solid->position.y + middle.y - box->lower.y,
-                            solid->position.z + middle.z - box->lower.z};
-    float       brick    = HAIR_BRICK * box->voxel;
-    int         outside  = solid->shape == HAIR_SHAPE_FORM && !placed->form;
+    const float at[] = {solid->position.x + middle.x - box->lower.x,
+                        solid->position.y + middle.y - box->lower.y,
+                        solid->position.z + middle.z - box->lower.z};
+    float brick = HAIR_BRICK * box->voxel;
+    int outside = solid->shape == HAIR_SHAPE_FORM && !placed->form;
     for (int i = 0; i < 3; ++i) {
-        float first      = (at[i] - extent[i] - around - box->far) / brick;
-        float end        = (at[i] + extent[i] + around + box->far) / brick;
-        float most       = (float)box->bricks[i];
+        float first = (at[i] - extent[i] - around - box->far) / brick;
+        float end = (at[i] + extent[i] + around + box->far) / brick;
+        float most = (float)box->bricks[i];
         placed->first[i] = (uint16_t)fminf(fmaxf(floorf(first), 0), most);
-        placed->end[i]   = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
+        placed->end[i] = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
         outside |= placed->first[i] >= placed->end[i];
     }
     if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
@@ -143,23 +143,23 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
     hair_vec3 from = {(float)((double)solid->position[0] - head->position[0]),
                       (float)((double)solid->position[1] - head->position[1]),
                       (float)((double)solid->position[2] - head->position[2])};
-    hair_vec3 at   = hair_rotate(back, from);
-    hair_quat own  = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
+    hair_vec3 at = hair_rotate(back, from);
+    hair_quat own = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
     hair_quat turn = hair_quat_multiply(back, hair_quat_normalize(own));
 
     struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, solid->rounding},
                                            .rotation = {turn.x, turn.y, turn.z, turn.w},
-                                           .size     = {solid->size[0], solid->size[1], solid->size[2], 0},
-                                           .shape    = (hair_uint)solid->shape,
-                                           .number   = number}};
+                                           .size = {solid->size[0], solid->size[1], solid->size[2], 0},
+                                           .shape = (hair_uint)solid->shape,
+                                           .number = number}};
     if (solid->shape == HAIR_SHAPE_FORM && solid->form) {
         const hair_form* form = solid->form;
-        placed.form           = form;
-        placed.solid.size     = (hair_vec4){0, 0, 0, solid->scale};
-        placed.solid.grid     = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
-        placed.solid.nodes_x  = form->size[0];
-        placed.solid.nodes_y  = form->size[1];
-        placed.solid.nodes_z  = form->size[2];
+        placed.form = form;
+        placed.solid.size = (hair_vec4){0, 0, 0, solid->scale};
+        placed.solid.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
+        placed.solid.nodes_x = form->size[0];
+        placed.solid.nodes_y = form->size[1];
+        placed.solid.nodes_z = form->size[2];
     }
     find_bricks(box, &placed);
     return placed;
@@ -177,18 +177,18 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 centre = hair_v3(a->position.x, a->position.y, a->position.z);
     hair_vec3 lower, upper;
-    float     around, arm = hair_distance(centre, hair_add(box->lower, half)) + hair_length(half);
+    float around, arm = hair_distance(centre, hair_add(box->lower, half)) + hair_length(half);
     find_extent(from, &lower, &upper, &around);
     float longest =
         hair_length(hair_v3(fmaxf(upper.x, -lower.x), fmaxf(upper.y, -lower.y), fmaxf(upper.z, -lower.z)));
     arm = fminf(arm, longest + around);
 
-    float     sign = a->rotation.x * b->rotation.x + a->rotation.y * b->rotation.y +
+    float sign = a->rotation.x * b->rotation.x + a->rotation.y * b->rotation.y +
                              a->rotation.z * b->rotation.z + a->rotation.w * b->rotation.w <
                          0
-                         ? -1.0f
-                         : 1.0f;
-    float     turn = 0;
+                     ? -1.0f
+                     : 1.0f;
+    float turn = 0;
     hair_vec3 way =
         hair_v3(b->position.x - a->position.x, b->position.y - a->position.y, b->position.z - a->position.z);
     const float d[] = {b->rotation.x - sign * a->rotation.x, b->rotation.y - sign * a->rotation.y,
@@ -201,20 +201,20 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
 struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
                                           uint32_t x, uint32_t y, uint32_t z)
 {
-    const struct hair_field_solid* solid  = &placed->solid;
-    float                          brick  = HAIR_BRICK * box->voxel;
-    float                          radius = 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;
-    hair_vec3                      middle =
+    const struct hair_field_solid* solid = &placed->solid;
+    float brick = HAIR_BRICK * box->voxel;
+    float radius = 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;
+    hair_vec3 middle =
         hair_add(box->lower, hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), brick));
-    hair_vec3 p        = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
-    p                  = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
-    double      own[]  = {(double)p.x, (double)p.y, (double)p.z}, distance;
+    hair_vec3 p = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
+    p = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
+    double own[] = {(double)p.x, (double)p.y, (double)p.z}, distance;
     const float size[] = {solid->size.x, solid->size.y, solid->size.z};
     if (placed->form) {
         double scale = (double)solid->size.w;
         for (int k = 0; k < 3; ++k) own[k] /= scale;
         distance = scale * hair_distance_to_form(placed->form, own, NULL);
-        radius   = 1.25f * radius + 2 * solid->size.w * solid->grid.w;
+        radius = 1.25f * radius + 2 * solid->size.w * solid->grid.w;
     } else {
         distance = hair_distance_to_shape((hair_shape)solid->shape, size, own, NULL);
     }

@@ -6,16 +6,16 @@
 #include "lib/collide/form.h"
 #include "lib/groom/groom.h"
 
-#define HAIR_FIELD_BAND 4      // voxels around a solid that know how far it is
+#define HAIR_FIELD_BAND 4 // voxels around a solid that know how far it is
 #define HAIR_FIELD_SHORTEST 32 // voxels along the longest side,
 #define HAIR_FIELD_LONGEST 256
 #define HAIR_FIELD_LEAST 1e-4f // m: a voxel
 
 struct hair_field_box {
     hair_vec3 lower; // corner, m, in the head's frame
-    float     voxel; // m
-    float     far;   // m: stands for every distance beyond it
-    uint32_t  bricks[3];
+    float voxel; // m
+    float far; // m: stands for every distance beyond it
+    uint32_t bricks[3];
 };
 
 // The box in which hair of the groom is, as a rule: see place.c.
@@ -30,9 +30,9 @@ static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
 // none where they are alike.
 struct hair_placed {
     struct hair_field_solid solid;
-    const hair_form*        form;  // NULL: it is none, or one without its mesh
-    uint32_t                place; // of the form among hair_forms
-    uint16_t                first[3], end[3];
+    const hair_form* form; // NULL: it is none, or one without its mesh
+    uint32_t place; // of the form among hair_forms
+    uint16_t first[3], end[3];
 };
 
 struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_solid* solid,

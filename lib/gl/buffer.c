@@ -56,8 +56,8 @@ uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
 
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
-    GLuint      buffer = 0;
-    GLint64     got = 0, want = size < 16 ? 16 : (GLint64)size;
+    GLuint buffer = 0;
+    GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
     hair_result result = ask(gl, label, (uint64_t)want);
     if (result) return result;
     void* zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
@@ -93,8 +93,8 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out)
 {
-    GLuint      buffer = 0;
-    GLint64     got    = 0;
+    GLuint buffer = 0;
+    GLint64 got = 0;
     hair_result result = ask(gl, label, size);
     if (result) return result;
     gl->CreateBuffers(1, &buffer);
@@ -120,7 +120,7 @@ void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const
 hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
                            GLuint buffer)
 {
-    uint64_t    was    = hair_gl_buffer_bytes(gl, buffer), got;
+    uint64_t was = hair_gl_buffer_bytes(gl, buffer), got;
     hair_result result = size > was ? ask(gl, label, size - was) : HAIR_OK;
     if (result) return result;
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
@@ -135,10 +135,10 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
                            const void** mapped)
 {
     static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    GLuint                  buffer = 0;
-    GLint64                 got    = 0;
-    const void*             at     = NULL;
-    hair_result             result = ask(gl, label, size);
+    GLuint buffer = 0;
+    GLint64 got = 0;
+    const void* at = NULL;
+    hair_result result = ask(gl, label, size);
     if (result) return result;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
@@ -152,7 +152,7 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
     }
     count(gl, size);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
-    *out    = buffer;
+    *out = buffer;
     *mapped = at;
     return HAIR_OK;
 }
@@ -163,7 +163,7 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
                                    GLuint* out)
 {
     uint64_t texels = hair_gl_buffer_bytes(gl, buffer) / texel_bytes(format);
-    GLint    most   = 0;
+    GLint most = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (texels > (uint64_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %llu texels, more than the driver's %d",
@@ -181,13 +181,13 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
                                GLenum filter, GLuint* out)
 {
     GLuint texture = 0;
-    GLint  most = 0, got = 0;
+    GLint most = 0, got = 0;
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
     for (int i = 0; i < 3; ++i)
         if (size[i] > (uint32_t)most)
             return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
                              label, size[i], most);
-    uint64_t    bytes  = texel_bytes(format) * size[0] * size[1] * size[2];
+    uint64_t bytes = texel_bytes(format) * size[0] * size[1] * size[2];
     hair_result result = ask(gl, label, bytes);
     if (result) return result;
     gl->CreateTextures(GL_TEXTURE_3D, 1, &texture);
@@ -214,9 +214,9 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
 hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
                                uint32_t height, GLuint* out)
 {
-    GLuint      texture = 0;
-    uint64_t    bytes   = texel_bytes(format) * width * height;
-    hair_result result  = ask(gl, label, bytes);
+    GLuint texture = 0;
+    uint64_t bytes = texel_bytes(format) * width * height;
+    hair_result result = ask(gl, label, bytes);
     if (result) return result;
     gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
     if (texture) gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
@@ -235,7 +235,7 @@ void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t 
 {
     static const GLenum parts[] = {GL_UNPACK_SWAP_BYTES,  GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT,
                                    GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS,  GL_UNPACK_SKIP_IMAGES};
-    GLint               was[6], buffer = 0;
+    GLint was[6], buffer = 0;
     gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer);
     if (buffer) gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     for (int i = 0; i < 6; ++i) {

@@ -20,14 +20,14 @@
 void hair_gl_key_add(struct hair_gl_key* key, const char* text)
 {
     size_t size = text ? strlen(text) + 1 : 0;
-    key->hash   = hair_hash_bytes(key->hash, text, size);
-    key->check  = hair_hash_bytes(key->check, text, size);
+    key->hash = hair_hash_bytes(key->hash, text, size);
+    key->check = hair_hash_bytes(key->check, text, size);
 }
 
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl)
 {
     static const GLenum driver[] = {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION};
-    struct hair_gl_key  key      = {HAIR_HASH_BEGIN, OTHER_HASH};
+    struct hair_gl_key key = {HAIR_HASH_BEGIN, OTHER_HASH};
     for (int i = 0; i < 4; ++i) hair_gl_key_add(&key, (const char*)gl->GetString(driver[i]));
     return key;
 }
@@ -52,7 +52,7 @@ static int is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key 
 
 static int load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
 {
-    GLint  done   = 0;
+    GLint done = 0;
     GLenum format = hair_read_u32(bytes + 16);
     if (!is_known(gl, format)) return 0;
     gl->ProgramBinary(program, format, bytes + HEADER, (GLsizei)(size - HEADER - TRAILER));
@@ -63,7 +63,7 @@ static int load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLu
 int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 {
     const hair_cache* cache = &gl->cache;
-    size_t            size  = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
+    size_t size = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
     if (size <= HEADER + TRAILER || size > MOST_BYTES) return 0;
     unsigned char* bytes = hair_alloc(&gl->host, size, 1);
     if (!bytes) return 0; // It can be had without.
@@ -75,10 +75,10 @@ int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 
 void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 {
-    const hair_cache* cache  = &gl->cache;
-    GLint             length = 0;
-    GLsizei           got    = 0;
-    GLenum            format = 0;
+    const hair_cache* cache = &gl->cache;
+    GLint length = 0;
+    GLsizei got = 0;
+    GLenum format = 0;
     if (!cache->put) return;
     gl->GetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
     if (length <= 0 || length > (GLint)(MOST_BYTES - HEADER - TRAILER)) return;

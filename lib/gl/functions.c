@@ -26,7 +26,7 @@ static int has_extension(const struct hair_gl* gl, const char* name)
 // 32 too, and may run it as two or four.
 static int find_subgroup(const struct hair_gl* gl)
 {
-    const char* vendor   = (const char*)gl->GetString(GL_VENDOR);
+    const char* vendor = (const char*)gl->GetString(GL_VENDOR);
     const GLint features = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_VOTE_BIT_KHR |
                            GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR | GL_SUBGROUP_FEATURE_BALLOT_BIT_KHR |
                            GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
@@ -57,9 +57,9 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
 #include "lib/gl/functions.inl"
 #undef FUNCTION
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
-    gl->software         = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
+    gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
-    gl->subgroup         = find_subgroup(gl);
+    gl->subgroup = find_subgroup(gl);
     if (gl->subgroup && has_extension(gl, "GL_NV_shader_thread_group"))
         gl->GetIntegerv(GL_SM_COUNT_NV, &gl->units);
     gl->long_atomics =
@@ -88,13 +88,13 @@ static hair_result make_objects(struct hair_gl* gl)
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc)
 {
     memset(gl, 0, sizeof *gl);
-    gl->host    = *host;
+    gl->host = *host;
     gl->promise = desc->gl_state;
     gl->timings = (int)desc->timings;
-    gl->made    = 1;
+    gl->made = 1;
     if (desc->cache) gl->cache = *desc->cache;
     if (desc->glsl_dir) {
-        size_t size  = strlen(desc->glsl_dir) + 1;
+        size_t size = strlen(desc->glsl_dir) + 1;
         gl->glsl_dir = hair_alloc(host, size, 1);
         if (!gl->glsl_dir) return hair_fail_memory(host, "hair_context_desc.glsl_dir");
         memcpy(gl->glsl_dir, desc->glsl_dir, size);

@@ -34,20 +34,20 @@ typedef uint64_t hair_gl_pass;
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be under way while the next is timed.
 
 struct hair_gl_timer {
-    GLuint   query[HAIR_GL_TIMER_DEPTH][2]; // start and end of a run
-    uint32_t begun, read;                   // runs
-    float    ms;                            // of the last run read,
-    double   total;                         // and of all
+    GLuint query[HAIR_GL_TIMER_DEPTH][2]; // start and end of a run
+    uint32_t begun, read; // runs
+    float ms; // of the last run read,
+    double total; // and of all
 };
 
 // What a draw or a dispatch changes, to be put back. See state.c.
 struct hair_gl_saved {
-    GLint      program, vertex_array, patch_vertices, active_texture, cull, restarts;
-    GLint      draw_indirect, dispatch_indirect;
-    GLint      texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
-    GLint      image[HAIR_IMAGE_SOLID + 1][6]; // name, level, layered, layer, access, format
-    GLuint     storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
-    GLintptr   storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
+    GLint program, vertex_array, patch_vertices, active_texture, cull, restarts;
+    GLint draw_indirect, dispatch_indirect;
+    GLint texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
+    GLint image[HAIR_IMAGE_SOLID + 1][6]; // name, level, layered, layer, access, format
+    GLuint storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
+    GLintptr storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
@@ -58,27 +58,27 @@ struct hair_gl_key {
 
 // What has been needed of a pass.
 struct hair_gl_program {
-    hair_gl_pass         pass;
-    GLuint               program; // 0: none of ours
-    GLuint               begun;   // that the driver compiles beside what we do; 0: none
-    struct hair_gl_key   key;     // of what is begun, for the host's cache
+    hair_gl_pass pass;
+    GLuint program; // 0: none of ours
+    GLuint begun; // that the driver compiles beside what we do; 0: none
+    struct hair_gl_key key; // of what is begun, for the host's cache
     struct hair_gl_timer timer;
-    char                 label[128];
+    char label[128];
 };
 
 // The host's own shading, and the programs that it has been needed in.
 struct hair_gl_own {
     hair_gl_pass pass;
-    GLuint       program;
+    GLuint program;
 };
 
 struct hair_gl_shader {
-    char*               label;
-    char*               text;
-    int                 pixels; // shades pixels, not vertices
-    uint32_t            made;   // as hair_gl.made was
+    char* label;
+    char* text;
+    int pixels; // shades pixels, not vertices
+    uint32_t made; // as hair_gl.made was
     struct hair_gl_own* own;
-    uint32_t            count, room;
+    uint32_t count, room;
 };
 
 struct hair_gl_ledger;
@@ -89,27 +89,27 @@ struct hair_gl_memory {
 };
 
 struct hair_gl {
-    hair_host                host;
-    hair_gl_state            promise;
-    char*                    glsl_dir; // NULL: the text built in
-    hair_cache               cache;    // get NULL: there is none
-    struct hair_gl_memory    memory;
-    int                      timings;
-    int                      software;     // the driver is a software rasteriser
-    int                      subgroup;     // work groups of 32 threads are one
-    GLint                    units;        // of a GPU, each with subgroups of its own; 0: not known
-    int                      long_atomics; // of 64 bits, in storage buffers
-    uint32_t                 made;         // how often all programs have been compiled
-    int                      ahead;        // programs that are needed are begun, not waited for
-    uint32_t                 unready;      // of those
-    int                      parallel;     // the driver compiles in threads of its own
-    struct hair_gl_program** program;      // what has been needed
-    uint32_t                 programs, room;
-    struct hair_gl_ledger*   ledger;       // of the instance that is at work; NULL: nobody asks
-    GLuint                   vertex_array; // empty: every vertex comes from its number
-    GLuint                   shadow_sampler;
+    hair_host host;
+    hair_gl_state promise;
+    char* glsl_dir; // NULL: the text built in
+    hair_cache cache; // get NULL: there is none
+    struct hair_gl_memory memory;
+    int timings;
+    int software; // the driver is a software rasteriser
+    int subgroup; // work groups of 32 threads are one
+    GLint units; // of a GPU, each with subgroups of its own; 0: not known
+    int long_atomics; // of 64 bits, in storage buffers
+    uint32_t made; // how often all programs have been compiled
+    int ahead; // programs that are needed are begun, not waited for
+    uint32_t unready; // of those
+    int parallel; // the driver compiles in threads of its own
+    struct hair_gl_program** program; // what has been needed
+    uint32_t programs, room;
+    struct hair_gl_ledger* ledger; // of the instance that is at work; NULL: nobody asks
+    GLuint vertex_array; // empty: every vertex comes from its number
+    GLuint shadow_sampler;
     uint32_t max_draw_vertices; // that one tessellated draw may generate; UINT32_MAX: any number
-    int      lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
+    int lines_level; // which outer level holds the number of isolines: 0, or 1 on a driver that swaps
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
@@ -120,7 +120,7 @@ struct hair_gl {
 
 // Fill the table by `get_proc`, ask the version, find out what the driver gets wrong.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
-void        hair_gl_destroy(struct hair_gl* gl);
+void hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // The program of a pass, compiled when first needed. Whoever runs one has needed it.
@@ -130,7 +130,7 @@ hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pa
 
 // From one to the other hair_gl_need has programs begun that are not there, all at once where the driver compiles beside what we
 // do, else one. The second returns how many are not ready.
-void     hair_gl_begin_ahead(struct hair_gl* gl);
+void hair_gl_begin_ahead(struct hair_gl* gl);
 uint32_t hair_gl_end_ahead(struct hair_gl* gl);
 
 // Compile all that have been needed again; those that fail keep the program they had, and the first failure is returned.
@@ -147,15 +147,15 @@ hair_result hair_gl_selftest(struct hair_gl* gl);
 // shading.c: a shader of the host's, whose members are zero; programs of it, made when first needed.
 hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
                                 struct hair_gl_shader* out);
-void        hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
+void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
 hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
                              GLuint* out);
 
 // cache.c: a program as the driver compiled it before, kept by the host.
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
-void               hair_gl_key_add(struct hair_gl_key* key, const char* text); // NULL: nothing
+void hair_gl_key_add(struct hair_gl_key* key, const char* text); // NULL: nothing
 // 1: it was there, and `program` is what it was. 0: it is to be compiled, as if nothing had been.
-int  hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 
 // source.c --------------------------------------------------------------------------------------------------
@@ -163,8 +163,8 @@ void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 #define HAIR_GL_MAX_SOURCES 48 // Files of one shader, itself included.
 
 struct hair_gl_source {
-    char*    text; // To free; with every include in place.
-    char     file[HAIR_GL_MAX_SOURCES][48];
+    char* text; // To free; with every include in place.
+    char file[HAIR_GL_MAX_SOURCES][48];
     uint32_t files;
 };
 
@@ -186,7 +186,7 @@ void hair_gl_leave(struct hair_gl* gl);
 GLuint hair_gl_blank_framebuffer(struct hair_gl* gl);
 struct hair_gl_capture {
     GLint framebuffer, feedback;
-    int   discard;
+    int discard;
 };
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
@@ -202,7 +202,7 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 // A uniform buffer, written whole before every dispatch or draw that reads it. Each writing gives it new memory, so
 // that what is under way keeps what it was given: one driver was seen to write ahead of a dispatch before it.
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out);
-void        hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
+void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
 // The same where it may be of another size than it was. On failure it is of any size.
 hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
                            GLuint buffer);
@@ -226,9 +226,9 @@ void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t 
 // Memory that they have; 0 has none. A buffer texture has that of its buffer.
 uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer);
 uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture);
-void     hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
-void     hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
-void     hair_gl_free_texture(struct hair_gl* gl, GLuint* texture); // of two or three dimensions
+void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
+void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
+void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture); // of two or three dimensions
 
 // pass.c ----------------------------------------------------------------------------------------------------
 
@@ -236,7 +236,7 @@ void     hair_gl_free_texture(struct hair_gl* gl, GLuint* texture); // of two or
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
 // The same, without a program where there was nothing. NULL: out of memory, which is told.
 struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
-void                    hair_gl_free_programs(struct hair_gl* gl);
+void hair_gl_free_programs(struct hair_gl* gl);
 
 // The label of a pass's row, which is static; the whole one stands in what hair_gl_find gives.
 const char* hair_gl_row_label(hair_gl_pass pass);
@@ -255,7 +255,7 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
                       uint32_t groups); // by a program of the host's
 // The same over as many as three numbers in a buffer say, from that byte on.
-void  hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
+void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);
 
 #endif

@@ -31,8 +31,8 @@ static hair_gl_work work_of(hair_gl_pass pass)
 void hair_gl_ledger_next(struct hair_gl_ledger* ledger)
 {
     struct hair_gl_frame* frame = hair_gl_ledger_frame(ledger, ++ledger->number);
-    frame->number               = ledger->number;
-    frame->spans                = 0;
+    frame->number = ledger->number;
+    frame->spans = 0;
     memset(frame->runs, 0, sizeof frame->runs);
 }
 
@@ -47,10 +47,10 @@ void hair_gl_ledger_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (!gl->ledger) return;
     struct hair_gl_frame* frame = hair_gl_ledger_frame(gl->ledger, gl->ledger->number);
-    hair_gl_work          work  = work_of(pass);
+    hair_gl_work work = work_of(pass);
     ++frame->runs[work];
     frame->pass[work] = pass;
-    int same          = frame->spans > 0 && frame->work[frame->spans - 1] == work;
+    int same = frame->spans > 0 && frame->work[frame->spans - 1] == work;
     if (!gl->timings || same || frame->spans == HAIR_GL_SPANS) return;
     if (!frame->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_SPANS, frame->query[0]);
     gl->QueryCounter(frame->query[frame->spans][0], GL_TIMESTAMP);

@@ -15,17 +15,17 @@ typedef enum hair_gl_work {
 #define HAIR_GL_SPANS 32 // of time in a frame; work that is done beyond is counted but not timed
 
 struct hair_gl_frame {
-    uint32_t     number; // from 1
-    uint32_t     runs[HAIR_GL_WORKS];
+    uint32_t number; // from 1
+    uint32_t runs[HAIR_GL_WORKS];
     hair_gl_pass pass[HAIR_GL_WORKS]; // the last that ran
-    uint32_t     spans;
-    hair_gl_work work[HAIR_GL_SPANS];     // passes that follow each other and belong to the same
-    GLuint       query[HAIR_GL_SPANS][2]; // start and end; 0 until something is timed
+    uint32_t spans;
+    hair_gl_work work[HAIR_GL_SPANS]; // passes that follow each other and belong to the same
+    GLuint query[HAIR_GL_SPANS][2]; // start and end; 0 until something is timed
 };
 
 struct hair_gl_ledger {
     struct hair_gl_frame frame[HAIR_GL_FRAMES];
-    uint32_t             number; // of the frame under way
+    uint32_t number; // of the frame under way
 };
 
 const char* hair_gl_work_label(hair_gl_work work);

@@ -7,9 +7,9 @@
 #include <string.h>
 
 static const struct {
-    const char*  label;
+    const char* label;
     hair_gl_pass features;
-    const char*  stages;
+    const char* stages;
 } rows[] = {
 #define PASS(name, label, features, stages) {label, features, stages},
 #include "lib/gl/passes.inl"
@@ -73,13 +73,13 @@ struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass
 static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (gl->programs == gl->room) {
-        uint32_t                 room = gl->room ? 2 * gl->room : 16;
+        uint32_t room = gl->room ? 2 * gl->room : 16;
         struct hair_gl_program** more = hair_alloc(&gl->host, room, sizeof *more);
         if (!more) return NULL;
         if (gl->programs) memcpy(more, gl->program, gl->programs * sizeof *more);
         hair_free(&gl->host, gl->program);
         gl->program = more;
-        gl->room    = room;
+        gl->room = room;
     }
     struct hair_gl_program* own = hair_alloc(&gl->host, 1, sizeof *own);
     if (!own) return NULL;
@@ -110,8 +110,8 @@ void hair_gl_free_programs(struct hair_gl* gl)
 
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
-    struct hair_gl_program* own   = hair_gl_find(gl, pass);
-    struct hair_gl_timer*   timer = &own->timer;
+    struct hair_gl_program* own = hair_gl_find(gl, pass);
+    struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Time stamps rather than an elapsed-time query, of which the host may have one under way.
     if (gl->timings) {
@@ -177,7 +177,7 @@ static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
     if (timer->begun - timer->read > HAIR_GL_TIMER_DEPTH) timer->read = timer->begun - HAIR_GL_TIMER_DEPTH;
     for (; timer->read < timer->begun; ++timer->read) {
         const GLuint* query = timer->query[timer->read % HAIR_GL_TIMER_DEPTH];
-        GLuint64      there = 0, start = 0, end = 0;
+        GLuint64 there = 0, start = 0, end = 0;
         gl->GetQueryObjectui64v(query[1], GL_QUERY_RESULT_AVAILABLE, &there);
         if (!there) break;
         gl->GetQueryObjectui64v(query[0], GL_QUERY_RESULT, &start);

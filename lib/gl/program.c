@@ -13,11 +13,11 @@ static const char* const features[] = {
 static GLenum stage_of(const char* name)
 {
     static const struct {
-        char   suffix[6];
+        char suffix[6];
         GLenum stage;
-    } stages[]      = {{".comp", GL_COMPUTE_SHADER},      {".vert", GL_VERTEX_SHADER},
-                       {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
-                       {".geom", GL_GEOMETRY_SHADER},     {".frag", GL_FRAGMENT_SHADER}};
+    } stages[] = {{".comp", GL_COMPUTE_SHADER},      {".vert", GL_VERTEX_SHADER},
+                  {".tesc", GL_TESS_CONTROL_SHADER}, {".tese", GL_TESS_EVALUATION_SHADER},
+                  {".geom", GL_GEOMETRY_SHADER},     {".frag", GL_FRAGMENT_SHADER}};
     const char* dot = strrchr(name, '.');
     for (size_t i = 0; dot && i < sizeof stages / sizeof *stages; ++i)
         if (strcmp(dot, stages[i].suffix) == 0) return stages[i].stage;
@@ -29,23 +29,23 @@ static GLenum stage_of(const char* name)
 static hair_result report(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
                           const char* name, const char* message)
 {
-    char        where[128] = "", *rest = NULL;
-    const char* at    = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
-    long        file  = strtol(at, &rest, 10);
-    int         whose = 0; // the host's
+    char where[128] = "", *rest = NULL;
+    const char* at = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
+    long file = strtol(at, &rest, 10);
+    int whose = 0; // the host's
     if (own && file == HAIR_GL_MAX_SOURCES)
         file = 0; // See source.c.
     else
         whose = own && file == 0;
     if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
         char* after = NULL;
-        long  line  = strtol(rest + 1, &after, 10);
+        long line = strtol(rest + 1, &after, 10);
         while (*after && strchr("(): 0123456789", *after)) ++after;
         snprintf(where, sizeof where, whose ? "%.0s%ld: " : "glsl/%s:%ld: ", source->file[file], line);
         at = after;
     } else {
         snprintf(where, sizeof where, "glsl/%s: ", source->file[0]);
-        at    = message;
+        at = message;
         whose = 0;
     }
     int length = (int)strcspn(at, "\n");
@@ -59,26 +59,26 @@ static hair_result report(struct hair_gl* gl, const struct hair_gl_source* sourc
 // A program to be: what its stages are, each with its whole text.
 #define MOST_STAGES 5
 struct recipe {
-    struct hair_gl*              gl;
+    struct hair_gl* gl;
     const struct hair_gl_shader* shader; // NULL: none of the host's
-    hair_gl_pass                 pass;   // of which the features are defined
-    const char*                  label;
-    const char*                  captured; // NULL: nothing is
-    hair_result                  result;   // of reading it
-    char                         prefix[1024];
-    size_t                       used;
-    uint32_t                     stages;
+    hair_gl_pass pass; // of which the features are defined
+    const char* label;
+    const char* captured; // NULL: nothing is
+    hair_result result; // of reading it
+    char prefix[1024];
+    size_t used;
+    uint32_t stages;
     struct stage {
-        char                  name[64];
+        char name[64];
         struct hair_gl_source source;
-        GLuint                shader;
+        GLuint shader;
     } stage[MOST_STAGES];
 };
 
 static hair_result start_stage(const struct recipe* recipe, struct stage* stage, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
-    stage->shader      = gl->CreateShader(stage_of(stage->name));
+    stage->shader = gl->CreateShader(stage_of(stage->name));
     if (!stage->shader)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", stage->name);
     const char* text = stage->source.text;
@@ -91,9 +91,9 @@ static hair_result start_stage(const struct recipe* recipe, struct stage* stage,
 
 static hair_result check_stage(const struct recipe* recipe, const struct stage* stage)
 {
-    struct hair_gl* gl            = recipe->gl;
-    GLint           done          = 0;
-    char            message[1024] = "";
+    struct hair_gl* gl = recipe->gl;
+    GLint done = 0;
+    char message[1024] = "";
     gl->GetShaderiv(stage->shader, GL_COMPILE_STATUS, &done);
     if (done) return HAIR_OK;
     gl->GetShaderInfoLog(stage->shader, sizeof message, NULL, message);
@@ -103,7 +103,7 @@ static hair_result check_stage(const struct recipe* recipe, const struct stage* 
 static hair_result define(struct recipe* recipe, const char* name)
 {
     size_t left = sizeof recipe->prefix - recipe->used;
-    int    size = snprintf(recipe->prefix + recipe->used, left, "#define %s\n", name);
+    int size = snprintf(recipe->prefix + recipe->used, left, "#define %s\n", name);
     if ((size_t)size >= left)
         return hair_fail(&recipe->gl->host, HAIR_ERROR_OPENGL, "program %s defines too much", recipe->label);
     recipe->used += (size_t)size;
@@ -136,8 +136,8 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
 {
     const char* name = strchr(word, '?');
     if (!name) return word;
-    int    without = *word == '!';
-    size_t length  = (size_t)(name - word) - (size_t)without;
+    int without = *word == '!';
+    size_t length = (size_t)(name - word) - (size_t)without;
     for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
         if (strlen(features[i]) == length && strncmp(features[i], word + without, length) == 0)
             return ((recipe->pass & HAIR_GL_BIT(i)) == 0) == without ? name + 1 : NULL;
@@ -147,14 +147,14 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
 // Definitions and stages, as in "NAME=1 draw/patch.vert".
 static hair_result read_stages(struct recipe* recipe, const char* stages)
 {
-    struct hair_gl* gl     = recipe->gl;
-    hair_result     result = define_all(recipe);
+    struct hair_gl* gl = recipe->gl;
+    hair_result result = define_all(recipe);
     for (const char* at = stages; *at && recipe->stages < MOST_STAGES && !result;) {
-        struct stage* stage  = &recipe->stage[recipe->stages];
-        size_t        length = strcspn(at, " ");
-        char          word[64];
+        struct stage* stage = &recipe->stage[recipe->stages];
+        size_t length = strcspn(at, " ");
+        char word[64];
         snprintf(word, sizeof word, "%.*s", (int)length, at);
-        char*       value  = strchr(word, '=');
+        char* value = strchr(word, '=');
         const char* wanted = value ? NULL : wanted_stage(recipe, word);
         if (value) {
             *value = ' ';
@@ -184,8 +184,8 @@ static struct hair_gl_key key_of(const struct recipe* recipe)
 // The driver is given all that it needs, and asked for nothing: it may compile beside what we do.
 static hair_result start(struct recipe* recipe, GLuint program)
 {
-    struct hair_gl* gl     = recipe->gl;
-    hair_result     result = HAIR_OK;
+    struct hair_gl* gl = recipe->gl;
+    hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < recipe->stages && !result; ++i)
         result = start_stage(recipe, &recipe->stage[i], program);
     if (result) return result;
@@ -221,13 +221,13 @@ static hair_result tell_why(const struct recipe* recipe, GLuint program)
 // A program that is started, or as the host's cache has it: *kept.
 static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* kept, GLuint* out)
 {
-    struct hair_gl* gl      = recipe->gl;
-    GLuint          program = gl->CreateProgram();
+    struct hair_gl* gl = recipe->gl;
+    GLuint program = gl->CreateProgram();
     if (!program)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
     gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
     if (gl->cache.get) *key = key_of(recipe);
-    *kept              = gl->cache.get && hair_gl_cached(gl, *key, program);
+    *kept = gl->cache.get && hair_gl_cached(gl, *key, program);
     hair_result result = *kept ? HAIR_OK : start(recipe, program);
     if (result)
         gl->DeleteProgram(program);
@@ -238,11 +238,11 @@ static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* ke
 
 static hair_result make(struct recipe* recipe, GLuint* out)
 {
-    struct hair_gl*    gl      = recipe->gl;
-    struct hair_gl_key key     = {0, 0};
-    GLuint             program = 0;
-    int                kept    = 0;
-    hair_result        result  = begin(recipe, &key, &kept, &program);
+    struct hair_gl* gl = recipe->gl;
+    struct hair_gl_key key = {0, 0};
+    GLuint program = 0;
+    int kept = 0;
+    hair_result result = begin(recipe, &key, &kept, &program);
     if (!result && !kept && !is_linked(gl, program)) {
         result = tell_why(recipe, program);
         gl->DeleteProgram(program);
@@ -262,10 +262,10 @@ static struct recipe* open_recipe(struct hair_gl* gl, const struct hair_gl_shade
         hair_fail_memory(&gl->host, "a program's text");
         return NULL;
     }
-    recipe->gl     = gl;
+    recipe->gl = gl;
     recipe->shader = shader;
-    recipe->pass   = pass;
-    recipe->label  = label;
+    recipe->pass = pass;
+    recipe->label = label;
     recipe->result = read_stages(recipe, stages);
     if (strstr(stages, "sim/feedback.")) recipe->captured = "moved";
     return recipe;
@@ -283,7 +283,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
 {
     struct recipe* recipe = open_recipe(gl, NULL, 0, label, stages);
     if (!recipe) return HAIR_ERROR_MEMORY;
-    recipe->captured   = captured;
+    recipe->captured = captured;
     hair_result result = recipe->result ? recipe->result : make(recipe, out);
     close_recipe(recipe);
     return result;
@@ -305,8 +305,8 @@ hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* s
 
 static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own)
 {
-    GLuint      program = 0;
-    hair_result result  = hair_gl_link_pass(gl, NULL, own->pass, &program);
+    GLuint program = 0;
+    hair_result result = hair_gl_link_pass(gl, NULL, own->pass, &program);
     if (result) return result;
     if (own->program) gl->DeleteProgram(own->program);
     own->program = program;
@@ -328,7 +328,7 @@ static void finish(struct hair_gl* gl, struct hair_gl_program* own)
 static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
-    int    kept    = 0;
+    int kept = 0;
     if (!gl->parallel && gl->unready++) return HAIR_OK; // The first of them is compiled now.
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
@@ -370,7 +370,7 @@ hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pa
 
 void hair_gl_begin_ahead(struct hair_gl* gl)
 {
-    gl->ahead   = 1;
+    gl->ahead = 1;
     gl->unready = 0;
 }
 

@@ -6,7 +6,7 @@
 
 #define LINES 64
 #define SEGMENTS 32
-#define PATCHES 32                // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
+#define PATCHES 32 // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
 #define SAFE_DRAW_VERTICES 33000u // Under 65,536, and where llvmpipe was measured to be fastest
 
 struct captured {
@@ -27,7 +27,7 @@ static hair_result judge(struct hair_gl* gl, const struct captured* captured, si
     else
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "the driver made %.1f isolines where %d were asked for", (double)lines, LINES);
-    int wraps             = captured[count - 1].patch < PATCHES - 0.5f;
+    int wraps = captured[count - 1].patch < PATCHES - 0.5f;
     gl->max_draw_vertices = wraps ? SAFE_DRAW_VERTICES : UINT32_MAX;
     if (wraps)
         hair_log(&gl->host, HAIR_LOG_INFO,
@@ -51,11 +51,11 @@ static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint fra
 
 hair_result hair_gl_selftest(struct hair_gl* gl)
 {
-    const size_t     count    = (size_t)PATCHES * LINES * SEGMENTS * 2;
+    const size_t count = (size_t)PATCHES * LINES * SEGMENTS * 2;
     struct captured* captured = hair_alloc(&gl->host, count, sizeof *captured);
     if (!captured) return hair_fail_memory(&gl->host, "the self-test");
 
-    GLuint      program = 0, buffer = 0, feedback = 0, framebuffer = 0;
+    GLuint program = 0, buffer = 0, feedback = 0, framebuffer = 0;
     hair_result result = hair_gl_link(gl, "gl/selftest", "draw/patch.vert gl/selftest.tesc gl/selftest.tese",
                                       "captured", &program);
     if (!result) result = hair_gl_buffer(gl, "self-test", count * sizeof *captured, NULL, &buffer);

@@ -8,7 +8,7 @@ hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const cha
 {
     size_t name = strlen(label) + 1, size = strlen(text) + 1;
     out->label = hair_alloc(&gl->host, name, 1);
-    out->text  = hair_alloc(&gl->host, size, 1);
+    out->text = hair_alloc(&gl->host, size, 1);
     if (!out->label || !out->text) return hair_fail_memory(&gl->host, "a shader's text");
     memcpy(out->label, label, name);
     memcpy(out->text, text, size);
@@ -34,12 +34,12 @@ void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader)
 static hair_result make_room(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
     if (shader->count < shader->room) return HAIR_OK;
-    uint32_t            room = shader->room ? 2 * shader->room : 4;
+    uint32_t room = shader->room ? 2 * shader->room : 4;
     struct hair_gl_own* more = hair_alloc(&gl->host, room, sizeof *more);
     if (!more) return hair_fail_memory(&gl->host, "a shader's programs");
     if (shader->count) memcpy(more, shader->own, shader->count * sizeof *more);
     hair_free(&gl->host, shader->own);
-    shader->own  = more;
+    shader->own = more;
     shader->room = room;
     return HAIR_OK;
 }
@@ -47,7 +47,7 @@ static hair_result make_room(struct hair_gl* gl, struct hair_gl_shader* shader)
 hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
                              GLuint* out)
 {
-    if (!hair_gl_know(gl, pass)) return HAIR_ERROR_MEMORY;   // Its time counts as that of the pass.
+    if (!hair_gl_know(gl, pass)) return HAIR_ERROR_MEMORY; // Its time counts as that of the pass.
     if (shader->made != gl->made) free_programs(gl, shader); // All shaders have been compiled anew.
     shader->made = gl->made;
     for (uint32_t i = 0; i < shader->count; ++i)

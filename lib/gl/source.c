@@ -11,9 +11,9 @@ extern const unsigned char
 
 struct text {
     const hair_host* host;
-    char*            bytes;
-    size_t           size, capacity;
-    int              failed;
+    char* bytes;
+    size_t size, capacity;
+    int failed;
 };
 
 static void append(struct text* text, const char* bytes, size_t size)
@@ -21,14 +21,14 @@ static void append(struct text* text, const char* bytes, size_t size)
     if (text->failed) return;
     if (text->size + size + 1 > text->capacity) {
         size_t capacity = 2 * (text->size + size) + 4096;
-        char*  grown    = hair_alloc(text->host, capacity, 1);
+        char* grown = hair_alloc(text->host, capacity, 1);
         if (!grown) {
             text->failed = 1;
             return;
         }
         if (text->bytes) memcpy(grown, text->bytes, text->size);
         hair_free(text->host, text->bytes);
-        text->bytes    = grown;
+        text->bytes = grown;
         text->capacity = capacity;
     }
     memcpy(text->bytes + text->size, bytes, size);
@@ -68,18 +68,18 @@ static size_t parse_include(const char* line, const char* end, const char** name
     while (line < end && (*line == ' ' || *line == '\t')) ++line;
     if (end - line < 10 || strncmp(line, "#include", 8) != 0) return 0;
     const char* first = memchr(line, '"', (size_t)(end - line));
-    const char* last  = first ? memchr(first + 1, '"', (size_t)(end - first - 1)) : NULL;
+    const char* last = first ? memchr(first + 1, '"', (size_t)(end - first - 1)) : NULL;
     if (!last) return 0;
     *name = first + 1;
     return (size_t)(last - first - 1);
 }
 
 struct reader {
-    const hair_host*       host;
-    const char*            folder;
-    const char*            prefix;
-    const char*            own;
-    struct text            text;
+    const hair_host* host;
+    const char* folder;
+    const char* prefix;
+    const char* own;
+    struct text text;
     struct hair_gl_source* out;
 };
 
@@ -99,10 +99,10 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
     int line_number = 1;
     for (const char* line = text; *line; ++line_number) {
         const char* stop = strchr(line, '\n');
-        const char* end  = stop ? stop : line + strlen(line);
+        const char* end = stop ? stop : line + strlen(line);
         const char* name;
-        char        directive[64];
-        size_t      length = parse_include(line, end, &name);
+        char directive[64];
+        size_t length = parse_include(line, end, &name);
         if (length) {
             hair_result result = read_one(reader, name, length);
             if (result) return result;
@@ -126,8 +126,8 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
 
 static hair_result read_one(struct reader* reader, const char* name, size_t length)
 {
-    struct hair_gl_source* out    = reader->out;
-    uint32_t               number = out->files;
+    struct hair_gl_source* out = reader->out;
+    uint32_t number = out->files;
     for (uint32_t i = 0; i < number; ++i) // Each file once.
         if (strlen(out->file[i]) == length && memcmp(out->file[i], name, length) == 0) return HAIR_OK;
     if (length >= sizeof out->file[0] || number == HAIR_GL_MAX_SOURCES)
@@ -137,10 +137,10 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
     own[length] = 0;
     ++out->files;
 
-    char*       read    = NULL;
-    const char* given   = strcmp(own, HAIR_GL_OWN) == 0 ? reader->own : NULL;
-    int         in_file = reader->folder && !given;
-    hair_result result  = in_file ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
+    char* read = NULL;
+    const char* given = strcmp(own, HAIR_GL_OWN) == 0 ? reader->own : NULL;
+    int in_file = reader->folder && !given;
+    hair_result result = in_file ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
     if (result) return result;
     const char* text = given ? given : in_file ? read : find_built_in(own);
     if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);

@@ -6,14 +6,14 @@ static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenu
                          GLuint* buffers, GLintptr* firsts, GLsizeiptr* sizes)
 {
     for (GLsizei i = 0; i < count; ++i) {
-        GLint   buffer   = 0;
+        GLint buffer = 0;
         GLint64 first_64 = 0, size_64 = 0;
         gl->GetIntegeri_v(binding, (GLuint)i, &buffer);
         gl->GetInteger64i_v(first, (GLuint)i, &first_64);
         gl->GetInteger64i_v(size, (GLuint)i, &size_64);
         buffers[i] = (GLuint)buffer;
-        firsts[i]  = (GLintptr)first_64;
-        sizes[i]   = (GLsizeiptr)size_64;
+        firsts[i] = (GLintptr)first_64;
+        sizes[i] = (GLsizeiptr)size_64;
     }
 }
 
@@ -41,7 +41,7 @@ static void save_units(struct hair_gl* gl)
     struct hair_gl_saved* saved = &gl->saved;
     gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
     for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
-        GLenum target  = target_of(unit);
+        GLenum target = target_of(unit);
         GLenum binding = target == GL_TEXTURE_2D   ? GL_TEXTURE_BINDING_2D
                          : target == GL_TEXTURE_3D ? GL_TEXTURE_BINDING_3D
                                                    : GL_TEXTURE_BINDING_BUFFER;
@@ -79,7 +79,7 @@ void hair_gl_enter(struct hair_gl* gl)
     gl->GetIntegerv(GL_PATCH_VERTICES, &saved->patch_vertices);
     gl->GetIntegerv(GL_DRAW_INDIRECT_BUFFER_BINDING, &saved->draw_indirect);
     gl->GetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &saved->dispatch_indirect);
-    saved->cull     = gl->IsEnabled(GL_CULL_FACE);
+    saved->cull = gl->IsEnabled(GL_CULL_FACE);
     saved->restarts = gl->IsEnabled(GL_PRIMITIVE_RESTART);
     save_units(gl);
     save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,

@@ -27,12 +27,12 @@ static void gather_marks(const struct hair_draft* draft, float* marks)
 static hair_result find_owners(struct hair_draft* draft, const float* marks)
 {
     struct hair_tree tree;
-    hair_result      result =
+    hair_result result =
         hair_tree_build(draft->host, (struct hair_cloud){marks, AXES}, draft->groom->info.guide_count, &tree);
     if (result) return result;
     for (uint32_t i = 0; i < draft->strands.strand_count; ++i) {
         // The guide of the strand's cell is near: the search need only look whether another is nearer.
-        const float*     own  = draft->marks + AXES * (size_t)i;
+        const float* own = draft->marks + AXES * (size_t)i;
         struct hair_near near = {draft->owner[i],
                                  distance_squared(own, marks + AXES * (size_t)draft->owner[i])};
         hair_tree_nearest(&tree, own, &near, 1, 1);
@@ -55,10 +55,10 @@ static void sort_strands(struct hair_draft* draft)
 
 hair_result hair_strand_sprouts(struct hair_draft* draft)
 {
-    uint32_t    strands = draft->strands.strand_count, guides = draft->groom->info.guide_count;
+    uint32_t strands = draft->strands.strand_count, guides = draft->groom->info.guide_count;
     hair_result result = hair_guide_plots(draft);
     if (result) return result;
-    float* marks     = hair_alloc(draft->host, guides, AXES * sizeof *marks);
+    float* marks = hair_alloc(draft->host, guides, AXES * sizeof *marks);
     draft->strand_of = hair_alloc(draft->host, strands, sizeof *draft->strand_of);
     if (!marks || !draft->strand_of) {
         hair_free(draft->host, marks);
@@ -101,7 +101,7 @@ static void invert(double m[3][3], double out[3][3])
 static struct fit prepare_fit(void)
 {
     struct fit fit;
-    double     basis[SAMPLES][4], normal[3][3] = {0}, inverse[3][3];
+    double basis[SAMPLES][4], normal[3][3] = {0}, inverse[3][3];
     for (int k = 0; k < SAMPLES; ++k) {
         bernstein((k + 1.0) / SAMPLES, basis[k]);
         fit.root[k] = (float)basis[k][0];
@@ -126,9 +126,9 @@ static void fit_offset(const struct fit* fit, const struct hair_smoothed* guide,
 {
     hair_vec3 control[4] = {in_frame(hair_smoothed_at(guide, 0), hair_load3(points))};
     for (int k = 0; k < SAMPLES; ++k) {
-        float     u    = (float)(k + 1) / SAMPLES * follower->length_ratio;
+        float u = (float)(k + 1) / SAMPLES * follower->length_ratio;
         hair_vec3 away = in_frame(hair_smoothed_at(guide, u), hair_load3(points + 3 * (k + 1)));
-        away           = hair_sub(away, hair_scale(control[0], fit->root[k]));
+        away = hair_sub(away, hair_scale(control[0], fit->root[k]));
         for (int i = 0; i < 3; ++i)
             control[i + 1] = hair_add(control[i + 1], hair_scale(away, fit->weight[i][k]));
     }
@@ -142,8 +142,8 @@ static void fit_offset(const struct fit* fit, const struct hair_smoothed* guide,
 static struct hair_follower bind(const struct hair_draft* draft, const struct fit* fit, uint32_t sprout,
                                  uint32_t guide, const struct hair_smoothed* smoothed)
 {
-    uint32_t             strand   = draft->strand_of[sprout];
-    uint32_t             random   = hair_sprout_random(draft, strand);
+    uint32_t strand = draft->strand_of[sprout];
+    uint32_t random = hair_sprout_random(draft, strand);
     struct hair_follower follower = hair_own_follower(guide, &random);
     if (strand == draft->chosen[guide]) return follower;
     follower.length_ratio = draft->length[strand] / smoothed->length;
@@ -161,7 +161,7 @@ hair_result hair_strand_followers(struct hair_draft* draft)
         struct hair_smoothed smoothed;
         hair_smooth_guide(draft->groom, guide, &smoothed);
         for (uint32_t i = 0; i < draft->plot_sprouts[guide]; ++i) {
-            uint32_t sprout                               = draft->plot_first[guide] + i;
+            uint32_t sprout = draft->plot_first[guide] + i;
             draft->groom->followers[draft->place[sprout]] = bind(draft, &fit, sprout, guide, &smoothed);
         }
     }

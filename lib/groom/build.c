@@ -24,9 +24,9 @@ static hair_result count_sprouts(struct hair_draft* draft)
 
 static hair_result make_followers(struct hair_draft* draft)
 {
-    struct hair_groom* groom   = draft->groom;
+    struct hair_groom* groom = draft->groom;
     groom->info.follower_count = draft->sprout_count;
-    groom->followers           = hair_alloc(draft->host, draft->sprout_count, sizeof *groom->followers);
+    groom->followers = hair_alloc(draft->host, draft->sprout_count, sizeof *groom->followers);
     if (!groom->followers) return hair_fail_memory(draft->host, "followers");
     switch (find_source(draft->desc)) {
     case FROM_STRANDS: return hair_strand_followers(draft);
@@ -38,11 +38,11 @@ static hair_result make_followers(struct hair_draft* draft)
 
 static void describe(struct hair_draft* draft)
 {
-    hair_groom_info*           info    = &draft->groom->info;
+    hair_groom_info* info = &draft->groom->info;
     const struct hair_strands* strands = &draft->strands;
-    double                     sum     = 0;
-    info->strand_count                 = strands->strand_count;
-    info->length[0]                    = FLT_MAX;
+    double sum = 0;
+    info->strand_count = strands->strand_count;
+    info->length[0] = FLT_MAX;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         info->length[0] = fminf(info->length[0], draft->length[i]);
         info->length[2] = fmaxf(info->length[2], draft->length[i]);
@@ -105,9 +105,9 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
 {
     struct hair_groom* groom = hair_alloc(host, 1, sizeof *groom);
     if (!groom) return hair_fail_memory(host, "a groom");
-    groom->host              = *host;
-    struct hair_draft draft  = {.host = &groom->host, .desc = desc, .import = import, .groom = groom};
-    hair_result       result = build(&draft);
+    groom->host = *host;
+    struct hair_draft draft = {.host = &groom->host, .desc = desc, .import = import, .groom = groom};
+    hair_result result = build(&draft);
     free_draft(&draft);
     if (result)
         hair_groom_free(groom);

@@ -16,8 +16,8 @@ static float coordinate(struct hair_cloud cloud, uint32_t point, uint32_t axis)
 static void swap(uint32_t* order, uint32_t i, uint32_t j)
 {
     uint32_t kept = order[i];
-    order[i]      = order[j];
-    order[j]      = kept;
+    order[i] = order[j];
+    order[j] = kept;
 }
 
 uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint32_t count)
@@ -29,7 +29,7 @@ uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint3
     }
     for (uint32_t i = 0; i < count; ++i)
         for (uint32_t axis = 0; axis < cloud.dimensions; ++axis) {
-            float x     = coordinate(cloud, order[i], axis);
+            float x = coordinate(cloud, order[i], axis);
             lower[axis] = fminf(lower[axis], x);
             upper[axis] = fmaxf(upper[axis], x);
         }
@@ -49,11 +49,11 @@ static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t l
                             uint32_t axis, const uint32_t* weights)
 {
     // A pivot at random, so that no order of the points is slow.
-    uint32_t      at     = low + hair_hash(low ^ hair_hash(high)) % (high - low);
-    float         pivot  = coordinate(cloud, order[at], axis);
+    uint32_t at = low + hair_hash(low ^ hair_hash(high)) % (high - low);
+    float pivot = coordinate(cloud, order[at], axis);
     struct thirds thirds = {.equal = low, .after = high};
     for (uint32_t i = low; i < thirds.after;) {
-        float    x      = coordinate(cloud, order[i], axis);
+        float x = coordinate(cloud, order[i], axis);
         uint32_t weight = weights ? weights[order[i]] : 1;
         if (x < pivot) {
             thirds.weight_before += weight;
@@ -102,7 +102,7 @@ static void plant(struct hair_tree* tree, uint32_t low, uint32_t high)
 {
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
-        uint32_t axis   = hair_cloud_widest(tree->cloud, tree->order + low, high - low);
+        uint32_t axis = hair_cloud_widest(tree->cloud, tree->order + low, high - low);
         hair_cloud_split(tree->cloud, tree->order + low, high - low, axis, NULL, middle - low);
         tree->plane[middle] = (struct hair_plane){coordinate(tree->cloud, tree->order[middle], axis), axis};
         plant(tree, low, middle);
@@ -113,7 +113,7 @@ static void plant(struct hair_tree* tree, uint32_t low, uint32_t high)
 hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint32_t count,
                             struct hair_tree* tree)
 {
-    *tree       = (struct hair_tree){.cloud = cloud, .count = count};
+    *tree = (struct hair_tree){.cloud = cloud, .count = count};
     tree->order = hair_alloc(host, count, sizeof *tree->order);
     tree->plane = hair_alloc(host, count, sizeof *tree->plane);
     if (!tree->order || !tree->plane) {
@@ -134,9 +134,9 @@ void hair_tree_free(const hair_host* host, struct hair_tree* tree)
 
 struct search {
     const struct hair_tree* tree;
-    const float*            point;
-    struct hair_near*       near;
-    uint32_t                found, wanted;
+    const float* point;
+    struct hair_near* near;
+    uint32_t found, wanted;
 };
 
 static float farthest(const struct search* search)
@@ -146,9 +146,9 @@ static float farthest(const struct search* search)
 
 static void consider(struct search* search, uint32_t index)
 {
-    const struct hair_cloud cloud   = search->tree->cloud;
-    float                   limit   = farthest(search);
-    float                   squared = 0;
+    const struct hair_cloud cloud = search->tree->cloud;
+    float limit = farthest(search);
+    float squared = 0;
     for (uint32_t axis = 0; axis < cloud.dimensions && squared <= limit; ++axis) {
         float d = coordinate(cloud, index, axis) - search->point[axis];
         squared += d * d;
@@ -167,8 +167,8 @@ static void descend(struct search* search, uint32_t low, uint32_t high)
     const struct hair_tree* tree = search->tree;
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
-        float    d      = search->point[tree->plane[middle].axis] - tree->plane[middle].at;
-        bool     front  = d < 0;
+        float d = search->point[tree->plane[middle].axis] - tree->plane[middle].at;
+        bool front = d < 0;
         descend(search, front ? low : middle, front ? middle : high);
         if (d * d >= farthest(search)) return;
         if (front)

@@ -8,7 +8,7 @@
 
 struct hair_cloud {
     const float* points; // finite
-    uint32_t     dimensions;
+    uint32_t dimensions;
 };
 
 // The axis along which the points that `order` names reach farthest.
@@ -21,25 +21,25 @@ uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t cou
                           const uint32_t* weights, uint64_t target);
 
 struct hair_plane {
-    float    at;
+    float at;
     uint32_t axis;
 };
 
 struct hair_tree {
-    struct hair_cloud  cloud;
-    uint32_t*          order;
+    struct hair_cloud cloud;
+    uint32_t* order;
     struct hair_plane* plane; // where `order` is split, by the place of the back's first
-    uint32_t           count;
+    uint32_t count;
 };
 
 // The cloud's points must outlive the tree.
 hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint32_t count,
                             struct hair_tree* tree);
-void        hair_tree_free(const hair_host* host, struct hair_tree* tree);
+void hair_tree_free(const hair_host* host, struct hair_tree* tree);
 
 struct hair_near {
     uint32_t index;
-    float    squared; // distance
+    float squared; // distance
 };
 
 // The `wanted` points nearest to `point`, nearest first. `near` holds `found` of them already, which the

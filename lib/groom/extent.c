@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define WITHIN 0.95 // of the ball that the nearest root touches
-#define UNEVEN 0.5  // roots are nearer to its middle than this share of the mean: they are on no ball
+#define UNEVEN 0.5 // roots are nearer to its middle than this share of the mean: they are on no ball
 
 static hair_vec3 xyz(hair_vec4 v)
 {
@@ -24,7 +24,7 @@ static float reach_along(const struct hair_groom* groom, const struct hair_follo
 static float reach_of(const struct hair_groom* groom, const struct hair_follower* follower, hair_vec3 from)
 {
     const hair_vec4* offset = follower->offset;
-    float            most = reach_along(groom, follower, follower->guide0, from), away = 0;
+    float most = reach_along(groom, follower, follower->guide0, from), away = 0;
     for (int i = 0; i < 4; ++i) away = fmaxf(away, hair_length(xyz(offset[i])));
     if (follower->multi > 0) {
         most = fmaxf(most, reach_along(groom, follower, follower->guide1, from));
@@ -37,14 +37,14 @@ static float reach_of(const struct hair_groom* groom, const struct hair_follower
 void hair_measure_patches(struct hair_groom* groom)
 {
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
-        struct hair_patch*          patch    = &groom->patches[i];
+        struct hair_patch* patch = &groom->patches[i];
         const struct hair_follower* follower = groom->followers + patch->first;
-        patch->guide                         = follower->guide0;
-        patch->importance                    = 1;
-        hair_vec3 from                       = hair_guide_root(groom, patch->guide);
+        patch->guide = follower->guide0;
+        patch->importance = 1;
+        hair_vec3 from = hair_guide_root(groom, patch->guide);
         for (uint32_t j = 0; j < patch->count; ++j) {
-            float length  = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
-            patch->reach  = fmaxf(patch->reach, reach_of(groom, &follower[j], from));
+            float length = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
+            patch->reach = fmaxf(patch->reach, reach_of(groom, &follower[j], from));
             patch->length = fmaxf(patch->length, length);
         }
     }
@@ -60,7 +60,7 @@ static bool solve(double m[4][5], double out[4])
         if (!(fabs(m[pivot][k]) > 1e-9)) return false;
         for (int j = 0; j < 5; ++j) {
             double kept = m[k][j];
-            m[k][j]     = m[pivot][j];
+            m[k][j] = m[pivot][j];
             m[pivot][j] = kept;
         }
         for (int i = k + 1; i < 4; ++i)
@@ -78,15 +78,15 @@ static bool solve(double m[4][5], double out[4])
 // distance from there, so that nothing is lost to rounding.
 static bool fit(const struct hair_groom* groom, double center[3])
 {
-    double    m[4][5] = {{0}}, x[4], unit = 0;
+    double m[4][5] = {{0}}, x[4], unit = 0;
     hair_vec3 first = hair_guide_root(groom, 0);
-    uint32_t  count = groom->info.guide_count;
+    uint32_t count = groom->info.guide_count;
     for (uint32_t i = 0; i < count; ++i)
         unit = fmax(unit, (double)hair_distance(hair_guide_root(groom, i), first));
     if (!(unit > 0)) return false;
     for (uint32_t i = 0; i < count; ++i) {
-        hair_vec3 p      = hair_sub(hair_guide_root(groom, i), first);
-        double    row[5] = {(double)p.x / unit, (double)p.y / unit, (double)p.z / unit, 1, 0};
+        hair_vec3 p = hair_sub(hair_guide_root(groom, i), first);
+        double row[5] = {(double)p.x / unit, (double)p.y / unit, (double)p.z / unit, 1, 0};
         for (int k = 0; k < 3; ++k) row[4] += row[k] * row[k];
         for (int k = 0; k < 4; ++k)
             for (int j = 0; j < 5; ++j) m[k][j] += row[k] * row[j] / count;
@@ -104,7 +104,7 @@ hair_vec4 hair_find_skull(const struct hair_groom* groom)
     hair_vec3 middle = {(float)center[0], (float)center[1], (float)center[2]};
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
         double away = (double)hair_distance(hair_guide_root(groom, i), middle);
-        least       = fmin(least, away);
+        least = fmin(least, away);
         sum += away;
     }
     if (!(least >= UNEVEN * sum / groom->info.guide_count) || !isfinite(sum)) return (hair_vec4){0, 0, 0, 0};

@@ -11,8 +11,8 @@ uint32_t hair_sprout_random(const struct hair_draft* draft, uint32_t sprout)
 struct hair_follower hair_own_follower(uint32_t guide, uint32_t* random)
 {
     struct hair_follower follower = {.guide0 = guide, .guide1 = guide, .guide2 = guide, .length_ratio = 1};
-    follower.seed                 = hair_hash(*random);
-    follower.offset[0].w          = 0.8f + 0.4f * hair_random(random); // Diameters on one head vary about so.
+    follower.seed = hair_hash(*random);
+    follower.offset[0].w = 0.8f + 0.4f * hair_random(random); // Diameters on one head vary about so.
     return follower;
 }
 
@@ -25,13 +25,13 @@ static float draw_length(uint32_t* random)
 
 struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint32_t* random)
 {
-    static const float   share[4] = {1, 0.8f, 0.5f, 0.25f}; // Of the offset, from root to tip: a clump.
+    static const float share[4] = {1, 0.8f, 0.5f, 0.25f}; // Of the offset, from root to tip: a clump.
     struct hair_follower follower = hair_own_follower(guide, random);
-    float deviation       = 0.12f * hair_length(offset); // From the profile, so that clumps are not cones.
+    float deviation = 0.12f * hair_length(offset); // From the profile, so that clumps are not cones.
     follower.length_ratio = draw_length(random);
     for (int i = 0; i < 4; ++i) {
-        float x              = i ? deviation * (2 * hair_random(random) - 1) : 0;
-        float z              = i ? deviation * (2 * hair_random(random) - 1) : 0;
+        float x = i ? deviation * (2 * hair_random(random) - 1) : 0;
+        float z = i ? deviation * (2 * hair_random(random) - 1) : 0;
         follower.offset[i].x = share[i] * offset.x + x;
         follower.offset[i].y = share[i] * offset.y;
         follower.offset[i].z = share[i] * offset.z + z;
@@ -41,8 +41,8 @@ struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint3
 
 hair_result hair_guide_sprouts(struct hair_draft* draft)
 {
-    uint32_t    guides = draft->groom->info.guide_count;
-    uint64_t    wanted = draft->desc->follower_count ? draft->desc->follower_count : guides;
+    uint32_t guides = draft->groom->info.guide_count;
+    uint64_t wanted = draft->desc->follower_count ? draft->desc->follower_count : guides;
     hair_result result = hair_guide_plots(draft);
     if (result) return result;
     for (uint32_t i = 0; i < guides; ++i)
@@ -55,8 +55,8 @@ hair_result hair_guide_sprouts(struct hair_draft* draft)
 // middle, with the radii of a normal distribution cut off at two standard deviations, the disc's edge.
 static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
 {
-    float edge  = 1 - expf(-2);
-    float r     = 0.5f * radius * sqrtf(-2 * logf(1 - edge * (float)i / (float)count));
+    float edge = 1 - expf(-2);
+    float r = 0.5f * radius * sqrtf(-2 * logf(1 - edge * (float)i / (float)count));
     float angle = turn + GOLDEN_ANGLE * (float)(i % 65536); // Beyond, floats lose the angle.
     return hair_v3(r * cosf(angle), 0, r * sinf(angle));
 }
@@ -67,11 +67,11 @@ hair_result hair_guide_followers(struct hair_draft* draft)
     for (uint32_t guide = 0; guide < draft->plot_count; ++guide) {
         uint32_t count = draft->plot_sprouts[guide];
         uint32_t turns = hair_sprout_random(draft, guide);
-        float    turn  = 6.2831853f * hair_random(&turns);
+        float turn = 6.2831853f * hair_random(&turns);
         for (uint32_t i = 0; i < count; ++i) {
-            uint32_t              sprout   = draft->plot_first[guide] + i;
-            uint32_t              random   = hair_sprout_random(draft, sprout);
-            hair_vec3             offset   = spiral(i, count, draft->desc->clump_radius, turn);
+            uint32_t sprout = draft->plot_first[guide] + i;
+            uint32_t random = hair_sprout_random(draft, sprout);
+            hair_vec3 offset = spiral(i, count, draft->desc->clump_radius, turn);
             struct hair_follower* follower = &groom->followers[draft->place[sprout]];
             *follower = draft->desc->follower_count ? hair_grown_follower(guide, offset, &random)
                                                     : hair_own_follower(guide, &random);

@@ -17,16 +17,16 @@ _Static_assert(AXES <= HAIR_CLOUD_DIMENSIONS, "a strand's marks are one point");
 
 struct choice {
     const float* marks;
-    uint32_t*    chosen;
-    uint32_t*    owner;
-    uint32_t     found;
+    uint32_t* chosen;
+    uint32_t* owner;
+    uint32_t found;
 };
 
 // A set of strands, its mean, and the sum of squared distances from the mean along each axis.
 struct cell {
     uint32_t* order;
-    uint32_t  count;
-    double    mean[AXES], squared[AXES];
+    uint32_t count;
+    double mean[AXES], squared[AXES];
 };
 
 static struct cell measure(const struct choice* choice, uint32_t* order, uint32_t count)
@@ -57,7 +57,7 @@ static double weigh(const struct cell* cell)
 
 static void make_guide(struct choice* choice, const struct cell* cell)
 {
-    double   least   = DBL_MAX;
+    double least = DBL_MAX;
     uint32_t nearest = cell->order[0];
     for (uint32_t i = 0; i < cell->count; ++i) {
         double squared = 0;
@@ -66,7 +66,7 @@ static void make_guide(struct choice* choice, const struct cell* cell)
             squared += d * d;
         }
         if (squared < least) {
-            least   = squared;
+            least = squared;
             nearest = cell->order[i];
         }
         choice->owner[cell->order[i]] = choice->found;
@@ -89,7 +89,7 @@ static uint32_t cut(const struct choice* choice, const struct cell* cell)
     for (uint32_t i = 0; i < cell->count; ++i) {
         uint32_t strand = cell->order[i];
         if ((double)choice->marks[AXES * (size_t)strand + axis] >= cell->mean[axis]) continue;
-        cell->order[i]       = cell->order[front];
+        cell->order[i] = cell->order[front];
         cell->order[front++] = strand;
     }
     return front;
@@ -101,8 +101,8 @@ static uint32_t share_out(const struct cell* front, const struct cell* back, uin
     double a = weigh(front), b = weigh(back);
     if (!(a + b > 0)) a = front->count, b = back->count;
     uint32_t wanted = (uint32_t)(guides * (a / (a + b)) + 0.5);
-    uint32_t least  = guides > back->count ? guides - back->count : 1;
-    uint32_t most   = guides - 1 < front->count ? guides - 1 : front->count;
+    uint32_t least = guides > back->count ? guides - back->count : 1;
+    uint32_t most = guides - 1 < front->count ? guides - 1 : front->count;
     return wanted < least ? least : wanted > most ? most : wanted;
 }
 
@@ -115,8 +115,8 @@ static void choose(struct choice* choice, const struct cell* cell, uint32_t guid
     uint32_t at = cut(choice, cell);
     if (at == 0 || at == cell->count || depth > DEEPEST) at = cell->count / 2;
     struct cell front = measure(choice, cell->order, at);
-    struct cell back  = measure(choice, cell->order + at, cell->count - at);
-    uint32_t    share = share_out(&front, &back, guides);
+    struct cell back = measure(choice, cell->order + at, cell->count - at);
+    uint32_t share = share_out(&front, &back, guides);
     choose(choice, &front, share, depth + 1);
     choose(choice, &back, guides - share, depth + 1);
 }
@@ -124,7 +124,7 @@ static void choose(struct choice* choice, const struct cell* cell, uint32_t guid
 static uint32_t count_guides(const struct hair_draft* draft)
 {
     uint32_t strands = draft->strands.strand_count;
-    uint32_t wanted  = draft->desc->guide_count;
+    uint32_t wanted = draft->desc->guide_count;
     if (draft->desc->strands_are == HAIR_STRANDS_GUIDES) return strands;
     if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
     if (wanted > HAIR_MAX_GUIDES) wanted = HAIR_MAX_GUIDES;
@@ -133,16 +133,16 @@ static uint32_t count_guides(const struct hair_draft* draft)
 
 static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
 {
-    uint32_t  count = draft->strands.strand_count;
+    uint32_t count = draft->strands.strand_count;
     uint32_t* order = hair_alloc(draft->host, count, sizeof *order);
-    draft->owner    = hair_alloc(draft->host, count, sizeof *draft->owner);
+    draft->owner = hair_alloc(draft->host, count, sizeof *draft->owner);
     if (!order || !draft->owner) {
         hair_free(draft->host, order);
         return hair_fail_memory(draft->host, "the choice of guides");
     }
     for (uint32_t i = 0; i < count; ++i) order[i] = i;
     struct choice choice = {.marks = draft->marks, .chosen = draft->chosen, .owner = draft->owner};
-    struct cell   all    = measure(&choice, order, count);
+    struct cell all = measure(&choice, order, count);
     choose(&choice, &all, guides, 0);
     hair_free(draft->host, order);
     return HAIR_OK;
@@ -150,9 +150,9 @@ static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
 
 hair_result hair_draft_guides(struct hair_draft* draft)
 {
-    uint32_t guides                = count_guides(draft);
+    uint32_t guides = count_guides(draft);
     draft->groom->info.guide_count = guides;
-    draft->chosen                  = hair_alloc(draft->host, guides, sizeof *draft->chosen);
+    draft->chosen = hair_alloc(draft->host, guides, sizeof *draft->chosen);
     if (!draft->chosen) return hair_fail_memory(draft->host, "the choice of guides");
     if (draft->desc->strands_are == HAIR_STRANDS_ALL) return choose_all(draft, guides);
     for (uint32_t i = 0; i < guides; ++i) draft->chosen[i] = i;

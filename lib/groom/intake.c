@@ -8,7 +8,7 @@
 static hair_result count_vertices(const struct hair_draft* draft, uint32_t* out)
 {
     const hair_groom_desc* desc = draft->desc;
-    uint64_t               sum  = 0; // 2^22 strands of 2^32 vertices fit.
+    uint64_t sum = 0; // 2^22 strands of 2^32 vertices fit.
     for (uint32_t i = 0; i < desc->strand_count; ++i) sum += desc->strand_vertices[i];
     if (sum > UINT32_MAX)
         return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
@@ -32,19 +32,19 @@ static hair_result check_numbers(const struct hair_draft* draft, const char* wha
 // What strands have beside their vertices.
 static hair_result copy_rest(struct hair_draft* draft)
 {
-    const hair_groom_desc* desc    = draft->desc;
-    struct hair_strands*   strands = &draft->strands;
-    uint32_t               each = desc->color_count, count = strands->strand_count;
-    hair_result            result = HAIR_OK;
+    const hair_groom_desc* desc = draft->desc;
+    struct hair_strands* strands = &draft->strands;
+    uint32_t each = desc->color_count, count = strands->strand_count;
+    hair_result result = HAIR_OK;
     if (desc->strand_radii) {
-        result         = check_numbers(draft, "strand_radii", desc->strand_radii, count, FARTHEST);
+        result = check_numbers(draft, "strand_radii", desc->strand_radii, count, FARTHEST);
         strands->radii = hair_alloc(draft->host, count, sizeof *strands->radii);
         if (!result && !strands->radii) result = hair_fail_memory(draft->host, "strands");
         if (!result) memcpy(strands->radii, desc->strand_radii, count * sizeof *strands->radii);
     }
     if (!desc->colors || result) return result;
-    result          = check_numbers(draft, "colors", desc->colors,
-                                    3 * (each ? (size_t)each * count : (size_t)strands->vertex_count), 1);
+    result = check_numbers(draft, "colors", desc->colors,
+                           3 * (each ? (size_t)each * count : (size_t)strands->vertex_count), 1);
     strands->colors = hair_alloc(draft->host, count, 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
     if (!result && !strands->colors) result = hair_fail_memory(draft->host, "the colours of strands");
     size_t first = 0;
@@ -62,13 +62,13 @@ static hair_result copy_rest(struct hair_draft* draft)
 
 static hair_result copy_strands(struct hair_draft* draft)
 {
-    const hair_groom_desc* desc    = draft->desc;
-    struct hair_strands*   strands = &draft->strands;
-    hair_result            result  = count_vertices(draft, &strands->vertex_count);
+    const hair_groom_desc* desc = draft->desc;
+    struct hair_strands* strands = &draft->strands;
+    hair_result result = count_vertices(draft, &strands->vertex_count);
     if (result) return result;
     strands->strand_count = desc->strand_count;
-    strands->positions    = hair_alloc(draft->host, strands->vertex_count, 3 * sizeof(float));
-    strands->vertices     = hair_alloc(draft->host, strands->strand_count, sizeof(uint32_t));
+    strands->positions = hair_alloc(draft->host, strands->vertex_count, 3 * sizeof(float));
+    strands->vertices = hair_alloc(draft->host, strands->strand_count, sizeof(uint32_t));
     if (!strands->positions || !strands->vertices) return hair_fail_memory(draft->host, "strands");
     memcpy(strands->positions, desc->positions, 3 * (size_t)strands->vertex_count * sizeof(float));
     memcpy(strands->vertices, desc->strand_vertices, strands->strand_count * sizeof(uint32_t));
@@ -78,7 +78,7 @@ static hair_result copy_strands(struct hair_draft* draft)
 static hair_result clean(struct hair_draft* draft)
 {
     hair_repairs* repairs = &draft->groom->info.repairs;
-    hair_result   result  = hair_strands_clean(draft->host, draft->import, &draft->strands, repairs);
+    hair_result result = hair_strands_clean(draft->host, draft->import, &draft->strands, repairs);
     if (result) return result;
     if (draft->strands.strand_count == 0)
         return hair_fail(
@@ -98,10 +98,10 @@ static hair_result clean(struct hair_draft* draft)
 static void measure(struct hair_draft* draft)
 {
     const struct hair_strands* strands = &draft->strands;
-    uint32_t                   first   = 0;
+    uint32_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        const float* p   = strands->positions + 3 * (size_t)first;
-        draft->first[i]  = first;
+        const float* p = strands->positions + 3 * (size_t)first;
+        draft->first[i] = first;
         draft->length[i] = (float)hair_strand_length(p, strands->vertices[i]);
         hair_strand_resample(p, strands->vertices[i], draft->marks + 3 * HAIR_MARKS * (size_t)i, HAIR_MARKS);
         first += strands->vertices[i];
@@ -114,9 +114,9 @@ hair_result hair_draft_strands(struct hair_draft* draft)
     if (!result) result = clean(draft);
     if (result) return result;
     uint32_t count = draft->strands.strand_count;
-    draft->first   = hair_alloc(draft->host, count, sizeof *draft->first);
-    draft->length  = hair_alloc(draft->host, count, sizeof *draft->length);
-    draft->marks   = hair_alloc(draft->host, count, 3 * HAIR_MARKS * sizeof *draft->marks);
+    draft->first = hair_alloc(draft->host, count, sizeof *draft->first);
+    draft->length = hair_alloc(draft->host, count, sizeof *draft->length);
+    draft->marks = hair_alloc(draft->host, count, 3 * HAIR_MARKS * sizeof *draft->marks);
     if (!draft->first || !draft->length || !draft->marks) return hair_fail_memory(draft->host, "strands");
     measure(draft);
     return HAIR_OK;
@@ -148,8 +148,8 @@ static hair_result place_scalp(struct hair_draft* draft)
 {
     const hair_groom_desc* desc = draft->desc;
     for (size_t i = 0; i < desc->scalp_vertex_count; ++i) {
-        const float* p  = desc->scalp_positions + 3 * i;
-        hair_vec3    at = hair_import_point(draft->import, hair_load3(p));
+        const float* p = desc->scalp_positions + 3 * i;
+        hair_vec3 at = hair_import_point(draft->import, hair_load3(p));
         if (!(hair_length(at) <= FARTHEST)) // NaN too.
             return hair_fail(
                 draft->host, HAIR_ERROR_ARGUMENT,
@@ -165,8 +165,8 @@ static void average_density(struct hair_draft* draft)
     const hair_groom_desc* desc = draft->desc;
     for (size_t i = 0; i < desc->scalp_triangle_count; ++i) {
         const uint32_t* corner = desc->scalp_triangles + 3 * i;
-        const float*    share  = desc->scalp_density;
-        draft->density[i]      = share ? (share[corner[0]] + share[corner[1]] + share[corner[2]]) / 3 : 1;
+        const float* share = desc->scalp_density;
+        draft->density[i] = share ? (share[corner[0]] + share[corner[1]] + share[corner[2]]) / 3 : 1;
     }
 }
 
@@ -177,7 +177,7 @@ hair_result hair_draft_scalp(struct hair_draft* draft)
     hair_result result = check_triangles(draft);
     if (!result) result = check_density(draft);
     if (result) return result;
-    draft->scalp   = hair_alloc(draft->host, desc->scalp_vertex_count, 3 * sizeof *draft->scalp);
+    draft->scalp = hair_alloc(draft->host, desc->scalp_vertex_count, 3 * sizeof *draft->scalp);
     draft->density = hair_alloc(draft->host, desc->scalp_triangle_count, sizeof *draft->density);
     if (!draft->scalp || !draft->density) return hair_fail_memory(draft->host, "the scalp");
     result = place_scalp(draft);

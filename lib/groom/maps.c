@@ -25,7 +25,7 @@ static uint64_t count_values(const hair_groom_desc* desc, const hair_map* map)
 static hair_result check_map(const struct hair_draft* draft, uint32_t set, const char* name,
                              const hair_map* map, float most)
 {
-    const hair_host*       host = draft->host;
+    const hair_host* host = draft->host;
     const hair_groom_desc* desc = draft->desc;
     if ((uint32_t)map->of > HAIR_MAP_TRIANGLES)
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
@@ -55,8 +55,8 @@ static hair_result check_map(const struct hair_draft* draft, uint32_t set, const
 
 static hair_result check_maps(const struct hair_draft* draft, uint32_t sets)
 {
-    const hair_groom_desc* desc   = draft->desc;
-    hair_result            result = HAIR_OK;
+    const hair_groom_desc* desc = draft->desc;
+    hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < sets && !result; ++i) {
         result = check_map(draft, i, "density", &desc->map_sets[i]->density, 1);
         if (!result) result = check_map(draft, i, "thickness", &desc->map_sets[i]->thickness, THICKEST);
@@ -73,28 +73,28 @@ static hair_result check_maps(const struct hair_draft* draft, uint32_t sets)
 static void find_between(float uv, uint32_t size, uint32_t at[2], float* share)
 {
     float place = fminf(fmaxf(uv * (float)size - 0.5f, 0), (float)(size - 1)); // Values are in the middles.
-    at[0]       = (uint32_t)place;
-    at[1]       = at[0] + 1 < size ? at[0] + 1 : at[0];
-    *share      = place - (float)at[0];
+    at[0] = (uint32_t)place;
+    at[1] = at[0] + 1 < size ? at[0] + 1 : at[0];
+    *share = place - (float)at[0];
 }
 
 static float look_up(const hair_map* map, float u, float v)
 {
     uint32_t x[2], y[2];
-    float    right, down, row[2];
+    float right, down, row[2];
     find_between(u, map->width, x, &right);
     find_between(v, map->height, y, &down);
     for (int i = 0; i < 2; ++i) {
         const float* values = map->values + (size_t)y[i] * map->width;
-        row[i]              = (1 - right) * values[x[0]] + right * values[x[1]];
+        row[i] = (1 - right) * values[x[0]] + right * values[x[1]];
     }
     return (1 - down) * row[0] + down * row[1];
 }
 
 static float value_at(const struct hair_draft* draft, const hair_map* map, const struct hair_spot* spot)
 {
-    const hair_groom_desc* desc   = draft->desc;
-    const uint32_t*        corner = desc->scalp_triangles + 3 * (size_t)spot->triangle;
+    const hair_groom_desc* desc = draft->desc;
+    const uint32_t* corner = desc->scalp_triangles + 3 * (size_t)spot->triangle;
     if (map->of == HAIR_MAP_NONE) return 1;
     if (map->of == HAIR_MAP_TRIANGLES) return map->values[spot->triangle];
     float sum[2] = {0};
@@ -111,23 +111,23 @@ static float value_at(const struct hair_draft* draft, const hair_map* map, const
 static void read_maps(struct hair_draft* draft, uint32_t sets, uint32_t sprout)
 {
     const struct hair_spot* spot = &draft->spots[sprout];
-    float                   density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], most = 0;
+    float density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], most = 0;
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
         const hair_map_set* set = draft->desc->map_sets[i < sets ? i : sets - 1];
-        density[i]              = fminf(fmaxf(value_at(draft, &set->density, spot), 0), 1); // Rounding.
-        thickness[i]            = fmaxf(value_at(draft, &set->thickness, spot), 0);
-        most                    = fmaxf(most, thickness[i]);
+        density[i] = fminf(fmaxf(value_at(draft, &set->density, spot), 0), 1); // Rounding.
+        thickness[i] = fmaxf(value_at(draft, &set->thickness, spot), 0);
+        most = fmaxf(most, thickness[i]);
     }
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) thickness[i] = most > 0 ? thickness[i] / most : 1;
-    draft->map_density[sprout]   = (hair_vec4){density[0], density[1], density[2], density[3]};
-    draft->map_share[sprout]     = (hair_vec4){thickness[0], thickness[1], thickness[2], thickness[3]};
+    draft->map_density[sprout] = (hair_vec4){density[0], density[1], density[2], density[3]};
+    draft->map_share[sprout] = (hair_vec4){thickness[0], thickness[1], thickness[2], thickness[3]};
     draft->map_thickness[sprout] = most;
 }
 
 hair_result hair_draft_maps(struct hair_draft* draft)
 {
-    uint32_t sets          = count_sets(draft->desc);
-    uint32_t count         = draft->sprout_count;
+    uint32_t sets = count_sets(draft->desc);
+    uint32_t count = draft->sprout_count;
     draft->groom->map_sets = sets;
     if (sets == 0) return HAIR_OK;
     hair_result result = check_maps(draft, sets);
@@ -136,9 +136,9 @@ hair_result hair_draft_maps(struct hair_draft* draft)
         return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
                          "hair_groom_desc.scalp_triangles: none of %u has three different corners",
                          draft->desc->scalp_triangle_count);
-    draft->map_density   = hair_alloc(draft->host, count, sizeof *draft->map_density);
+    draft->map_density = hair_alloc(draft->host, count, sizeof *draft->map_density);
     draft->map_thickness = hair_alloc(draft->host, count, sizeof *draft->map_thickness);
-    draft->map_share     = hair_alloc(draft->host, count, sizeof *draft->map_share);
+    draft->map_share = hair_alloc(draft->host, count, sizeof *draft->map_share);
     if (!draft->map_density || !draft->map_thickness || !draft->map_share)
         return hair_fail_memory(draft->host, "the maps of followers");
     for (uint32_t i = 0; i < count; ++i) read_maps(draft, sets, i);

@@ -10,7 +10,7 @@ _Static_assert(HAIR_STRAND_COLORS == HAIR_CURVE_INTERVALS + 1,
 // Strands that a follower is made of.
 struct mix {
     uint32_t strand[3];
-    float    weight[3];
+    float weight[3];
 };
 
 static struct mix mix_of(const struct hair_draft* draft, uint32_t sprout,
@@ -42,7 +42,7 @@ static void widen(const struct hair_draft* draft, const struct mix* mix, float m
 {
     float radius = 0;
     for (int i = 0; i < 3; ++i) radius += mix->weight[i] * draft->strands.radii[mix->strand[i]];
-    float share           = mean > 0 ? fminf(fmaxf(radius / mean, 0), THICKEST) : 1;
+    float share = mean > 0 ? fminf(fmaxf(radius / mean, 0), THICKEST) : 1;
     follower->offset[0].w = draft->strand_of ? share : share * follower->offset[0].w;
 }
 
@@ -60,9 +60,9 @@ static void paint(const struct hair_draft* draft, const struct mix* mix, uint16_
 
 hair_result hair_draft_paint(struct hair_draft* draft)
 {
-    struct hair_groom*         groom   = draft->groom;
+    struct hair_groom* groom = draft->groom;
     const struct hair_strands* strands = &draft->strands;
-    float                      mean    = strands->radii ? mean_radius(draft) : 0;
+    float mean = strands->radii ? mean_radius(draft) : 0;
     if (strands->colors) {
         groom->paint =
             hair_alloc(draft->host, draft->sprout_count, 4 * HAIR_STRAND_COLORS * sizeof *groom->paint);
@@ -70,7 +70,7 @@ hair_result hair_draft_paint(struct hair_draft* draft)
     }
     for (uint32_t i = 0; i < draft->sprout_count; ++i) {
         struct hair_follower* follower = &groom->followers[draft->place[i]];
-        struct mix            mix      = mix_of(draft, i, follower);
+        struct mix mix = mix_of(draft, i, follower);
         if (strands->radii) widen(draft, &mix, mean, follower);
         if (strands->colors)
             paint(draft, &mix, groom->paint + 4 * HAIR_STRAND_COLORS * (size_t)draft->place[i]);

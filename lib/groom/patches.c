@@ -9,11 +9,11 @@
 
 struct layout {
     struct hair_draft* draft;
-    struct hair_cloud  centres;
-    uint32_t*          queue; // sprouts in the order of their followers
-    uint32_t           queued;
+    struct hair_cloud centres;
+    uint32_t* queue; // sprouts in the order of their followers
+    uint32_t queued;
     struct hair_patch* patches;
-    uint32_t           patch_count;
+    uint32_t patch_count;
 };
 
 static float density_of(const struct layout* layout, uint32_t plot)
@@ -43,10 +43,10 @@ static bool are_alike(const struct layout* layout, const uint32_t* order, uint32
 static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 {
     for (uint32_t i = count; i > 1; --i) {
-        uint32_t j   = (uint32_t)((double)hair_random(&random) * i);
+        uint32_t j = (uint32_t)((double)hair_random(&random) * i);
         uint32_t was = queue[i - 1];
         queue[i - 1] = queue[j];
-        queue[j]     = was;
+        queue[j] = was;
     }
 }
 
@@ -57,8 +57,8 @@ static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t coun
     float from[HAIR_MAX_ISOLINES];
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t plot = draft->spots[queue[i]].triangle, random = hair_sprout_random(draft, plot);
-        float    at = (float)(queue[i] - draft->plot_first[plot]) + hair_random(&random);
-        from[i]     = at / (float)draft->plot_sprouts[plot];
+        float at = (float)(queue[i] - draft->plot_first[plot]) + hair_random(&random);
+        from[i] = at / (float)draft->plot_sprouts[plot];
     }
     hair_sort_queue(queue, from, count);
 }
@@ -72,8 +72,8 @@ static void make_patches(struct layout* layout, uint32_t first, uint32_t total, 
         shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
     uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
     for (uint32_t i = 0; i < parts; ++i) {
-        uint32_t          begin = (uint32_t)((uint64_t)total * i / parts);
-        uint32_t          end   = (uint32_t)((uint64_t)total * (i + 1) / parts);
+        uint32_t begin = (uint32_t)((uint64_t)total * i / parts);
+        uint32_t end = (uint32_t)((uint64_t)total * (i + 1) / parts);
         struct hair_patch patch = {.first = first + begin, .count = end - begin, .density = density};
         hair_map_patch(layout->draft, layout->queue + patch.first, &patch);
         layout->patches[layout->patch_count++] = patch;
@@ -96,8 +96,8 @@ static void part(struct layout* layout, uint32_t first, uint32_t total, float de
 static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
 {
     const struct hair_draft* draft = layout->draft;
-    uint32_t                 first = layout->queued;
-    double                   sum   = 0;
+    uint32_t first = layout->queued;
+    double sum = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t sprouts = draft->plot_sprouts[order[i]];
         for (uint32_t j = 0; j < sprouts; ++j)
@@ -116,9 +116,9 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
             fill(layout, order, count);
             return;
         }
-        uint64_t parts  = (total - 1) / HAIR_MAX_ISOLINES + 1;
+        uint64_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
         uint64_t target = parts > 1 ? total * (parts / 2) / parts : total / 2;
-        uint32_t axis   = hair_cloud_widest(layout->centres, order, count);
+        uint32_t axis = hair_cloud_widest(layout->centres, order, count);
         uint32_t front =
             hair_cloud_split(layout->centres, order, count, axis, layout->draft->plot_sprouts, target);
         lay_out(layout, order, front);
@@ -141,13 +141,13 @@ hair_result hair_draft_patches(struct hair_draft* draft)
     // No more patches than plots, but for plots of more than one patch; and where there are maps, for any number.
     uint32_t most = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
     if (draft->map_density) most = draft->sprout_count;
-    struct hair_groom* groom  = draft->groom;
-    uint32_t*          order  = hair_alloc(draft->host, draft->plot_count, sizeof *order);
-    uint32_t*          queue  = hair_alloc(draft->host, draft->sprout_count, sizeof *queue);
-    struct layout      layout = {.draft = draft, .centres = {draft->plot_centres, 3}, .queue = queue};
-    draft->place              = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->place);
+    struct hair_groom* groom = draft->groom;
+    uint32_t* order = hair_alloc(draft->host, draft->plot_count, sizeof *order);
+    uint32_t* queue = hair_alloc(draft->host, draft->sprout_count, sizeof *queue);
+    struct layout layout = {.draft = draft, .centres = {draft->plot_centres, 3}, .queue = queue};
+    draft->place = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->place);
     layout.patches = groom->patches = hair_alloc(draft->host, most, sizeof *groom->patches);
-    hair_result result              = HAIR_OK;
+    hair_result result = HAIR_OK;
     if (order && queue && draft->place && groom->patches) {
         lay_out(&layout, order, list_plots(draft, order));
         for (uint32_t i = 0; i < draft->sprout_count; ++i) draft->place[queue[i]] = i;

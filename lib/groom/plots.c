@@ -3,9 +3,9 @@
 
 static hair_result make_room(struct hair_draft* draft, uint32_t count)
 {
-    draft->plot_count   = count;
+    draft->plot_count = count;
     draft->plot_sprouts = hair_alloc(draft->host, count, sizeof *draft->plot_sprouts);
-    draft->plot_first   = hair_alloc(draft->host, count, sizeof *draft->plot_first);
+    draft->plot_first = hair_alloc(draft->host, count, sizeof *draft->plot_first);
     draft->plot_centres = hair_alloc(draft->host, count, 3 * sizeof *draft->plot_centres);
     if (!draft->plot_sprouts || !draft->plot_first || !draft->plot_centres)
         return hair_fail_memory(draft->host, "followers");
@@ -14,7 +14,7 @@ static hair_result make_room(struct hair_draft* draft, uint32_t count)
 
 hair_result hair_guide_plots(struct hair_draft* draft)
 {
-    uint32_t    guides = draft->groom->info.guide_count;
+    uint32_t guides = draft->groom->info.guide_count;
     hair_result result = make_room(draft, guides);
     if (result) return result;
     for (uint32_t i = 0; i < guides; ++i)
@@ -24,8 +24,8 @@ hair_result hair_guide_plots(struct hair_draft* draft)
 
 hair_result hair_scalp_plots(struct hair_draft* draft)
 {
-    uint32_t    triangles = draft->desc->scalp_triangle_count;
-    hair_result result    = make_room(draft, triangles);
+    uint32_t triangles = draft->desc->scalp_triangle_count;
+    hair_result result = make_room(draft, triangles);
     if (result) return result;
     draft->plot_density = draft->density;
     for (uint32_t i = 0; i < triangles; ++i) {

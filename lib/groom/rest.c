@@ -26,7 +26,7 @@ static hair_vec3 segment(const float* p, size_t i)
 static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
 {
     uint32_t vertices = draft->strands.vertices[draft->chosen[guide]];
-    uint32_t most     = draft->desc->guide_vertices;
+    uint32_t most = draft->desc->guide_vertices;
     if (vertices < FEWEST) vertices = FEWEST;
     return vertices < most ? vertices : most;
 }
@@ -35,8 +35,8 @@ static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
 // that short, and their substeps would have to be as much shorter. The tip stays.
 static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
 {
-    float    least = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
-    uint32_t kept  = 1;
+    float least = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
+    uint32_t kept = 1;
     for (uint32_t i = 1; i < vertices; ++i) {
         hair_vec3 at = vertex(positions, i);
         if (hair_distance(vertex(positions, kept - 1), at) >= least)
@@ -85,7 +85,7 @@ static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
     hair_quat frame = hair_quat_between(Y_AXIS, mean);
     for (int i = 0; i < 2; ++i) {
         hair_quat turn = hair_quat_between(hair_normalize(hair_rotate(frame, Y_AXIS), Y_AXIS), to);
-        frame          = hair_quat_normalize(hair_quat_multiply(turn, frame));
+        frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
     }
     return frame;
 }
@@ -93,21 +93,21 @@ static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
 static void write_rest(const float* p, uint32_t count, struct hair_guide* guide, struct hair_rest* rest)
 {
     hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
-    double    total = 0;
+    double total = 0;
     for (uint32_t i = 0; i < count; ++i) {
         hair_vec3 at = vertex(p, i), direction = Y_AXIS;
-        float     length = 0, over_two = 0;
+        float length = 0, over_two = 0;
         if (i + 1 < count) length = hair_distance(at, vertex(p, i + 1));
         if (i + 2 < count) over_two = hair_distance(at, vertex(p, i + 2));
         if (i > 0 && i + 1 < count) {
-            hair_vec3 to   = segment(p, i);
-            direction      = hair_normalize(hair_rotate(hair_quat_conjugate(frame), to), Y_AXIS);
+            hair_vec3 to = segment(p, i);
+            direction = hair_normalize(hair_rotate(hair_quat_conjugate(frame), to), Y_AXIS);
             hair_quat turn = hair_quat_between(segment(p, i - 1), to);
-            frame          = hair_quat_normalize(hair_quat_multiply(turn, frame));
+            frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
         }
-        rest[i].position  = (hair_vec4){at.x, at.y, at.z, length};
+        rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
         rest[i].direction = (hair_vec4){direction.x, direction.y, direction.z, over_two};
-        rest[i].frame     = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
+        rest[i].frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         total += (double)length;
     }
     guide->arc_length = (float)total;
@@ -115,12 +115,12 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
 
 static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mean)
 {
-    struct hair_guide* guide  = &draft->groom->guides[number];
-    uint32_t           strand = draft->chosen[number];
-    float              p[3 * HAIR_MAX_GUIDE_VERTICES];
+    struct hair_guide* guide = &draft->groom->guides[number];
+    uint32_t strand = draft->chosen[number];
+    float p[3 * HAIR_MAX_GUIDE_VERTICES];
     sample(draft->strands.positions + 3 * (size_t)draft->first[strand], draft->strands.vertices[strand], p,
            guide->count);
-    hair_quat frame   = find_root_frame(mean, segment(p, 0));
+    hair_quat frame = find_root_frame(mean, segment(p, 0));
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
     write_rest(p, guide->count, guide, draft->groom->rest + guide->first);
 }
@@ -128,11 +128,11 @@ static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mea
 hair_result hair_draft_rest(struct hair_draft* draft)
 {
     struct hair_groom* groom = draft->groom;
-    hair_groom_info*   info  = &groom->info;
-    groom->guides            = hair_alloc(draft->host, info->guide_count, sizeof *groom->guides);
+    hair_groom_info* info = &groom->info;
+    groom->guides = hair_alloc(draft->host, info->guide_count, sizeof *groom->guides);
     if (!groom->guides) return hair_fail_memory(draft->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
-        uint32_t count   = count_vertices(draft, i);
+        uint32_t count = count_vertices(draft, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
         info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
         if (count > groom->most_vertices) groom->most_vertices = count;

@@ -3,7 +3,7 @@
 
 #define NONE UINT32_MAX
 #define COINCIDE 1e-3f // m; a guide this near to a scalp vertex is rooted there.
-#define NEAR 8         // Guides among which three are found that surround a root.
+#define NEAR 8 // Guides among which three are found that surround a root.
 
 // Where hair grows. m^2.
 static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
@@ -31,11 +31,11 @@ static hair_result scatter_sprouts(struct hair_draft* draft)
     if (!draft->spots) return hair_fail_memory(draft->host, "the roots of followers");
     draft->is_scattered = true;
     for (uint32_t triangle = 0; triangle < draft->plot_count; ++triangle) {
-        uint32_t starts  = hair_sprout_random(draft, triangle);
-        double   start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
+        uint32_t starts = hair_sprout_random(draft, triangle);
+        double start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
         for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
             struct hair_spot* spot = &draft->spots[draft->plot_first[triangle] + i];
-            spot->triangle         = triangle;
+            spot->triangle = triangle;
             scatter(i, start_u, start_v, spot->weight);
         }
     }
@@ -46,8 +46,8 @@ static hair_result scatter_sprouts(struct hair_draft* draft)
 // share, and small triangles are not starved together.
 hair_result hair_scalp_sprouts(struct hair_draft* draft)
 {
-    uint32_t    triangles = draft->desc->scalp_triangle_count;
-    hair_result result    = hair_scalp_plots(draft);
+    uint32_t triangles = draft->desc->scalp_triangle_count;
+    hair_result result = hair_scalp_plots(draft);
     if (result) return result;
     double total = 0;
     for (uint32_t i = 0; i < triangles; ++i) total += fertile_area(draft, i);
@@ -56,12 +56,12 @@ hair_result hair_scalp_sprouts(struct hair_draft* draft)
             draft->host, HAIR_ERROR_ARGUMENT,
             "hair_groom_desc.scalp_triangles: none of %u has an area and a scalp_density above 0", triangles);
     uint32_t random = hair_hash(draft->desc->seed);
-    double   jitter = (double)hair_random(&random), sum = 0, before = 0;
+    double jitter = (double)hair_random(&random), sum = 0, before = 0;
     for (uint32_t i = 0; i < triangles; ++i) {
         sum += fertile_area(draft, i);
-        double after           = floor(sum / total * draft->desc->follower_count + jitter);
+        double after = floor(sum / total * draft->desc->follower_count + jitter);
         draft->plot_sprouts[i] = (uint32_t)(after - before);
-        before                 = after;
+        before = after;
     }
     hair_number_sprouts(draft);
     return scatter_sprouts(draft);
@@ -69,15 +69,15 @@ hair_result hair_scalp_sprouts(struct hair_draft* draft)
 
 struct scalp {
     struct hair_draft* draft;
-    struct hair_tree   roots;    // of the guides
-    float*             points;   // their positions
-    uint32_t*          guide_at; // each vertex of the scalp; NONE: none
+    struct hair_tree roots; // of the guides
+    float* points; // their positions
+    uint32_t* guide_at; // each vertex of the scalp; NONE: none
 };
 
 // Three guides around a root, as barycentric weights.
 struct trio {
     uint32_t guide[3];
-    float    weight[3];
+    float weight[3];
 };
 
 // The guide of the same number first: where vertices of the scalp coincide, as along a parting, it is the one
@@ -85,7 +85,7 @@ struct trio {
 static uint32_t find_guide_at(const struct scalp* scalp, uint32_t vertex)
 {
     const struct hair_groom* groom = scalp->draft->groom;
-    const float*             p     = scalp->draft->scalp + 3 * (size_t)vertex;
+    const float* p = scalp->draft->scalp + 3 * (size_t)vertex;
     if (vertex < groom->info.guide_count &&
         hair_distance(hair_guide_root(groom, vertex), hair_load3(p)) <= COINCIDE)
         return vertex;
@@ -105,9 +105,9 @@ static void normalize(float weight[3])
 static bool find_barycentric(hair_vec3 a, hair_vec3 b, hair_vec3 c, hair_vec3 p, float out[3])
 {
     hair_vec3 u = hair_sub(b, a), v = hair_sub(c, a), w = hair_sub(p, a);
-    hair_vec3 normal  = hair_cross(u, v);
-    float     squared = hair_dot(normal, normal);
-    float     uu = hair_dot(u, u), vv = hair_dot(v, v);
+    hair_vec3 normal = hair_cross(u, v);
+    float squared = hair_dot(normal, normal);
+    float uu = hair_dot(u, u), vv = hair_dot(v, v);
     if (!(squared > 0.01f * uu * vv)) return false; // Less than 6 degrees between them.
     out[1] = hair_dot(hair_cross(w, v), normal) / squared;
     out[2] = hair_dot(hair_cross(u, w), normal) / squared;
@@ -121,8 +121,8 @@ static struct trio weigh_by_distance(const struct hair_near* near, uint32_t foun
     struct trio trio;
     for (uint32_t i = 0; i < 3; ++i) {
         const struct hair_near* own = near + (i < found ? i : 0);
-        trio.guide[i]               = own->index;
-        trio.weight[i]              = i < found ? near[0].squared / fmaxf(own->squared, 1e-20f) : 0;
+        trio.guide[i] = own->index;
+        trio.weight[i] = i < found ? near[0].squared / fmaxf(own->squared, 1e-20f) : 0;
     }
     trio.weight[0] = 1; // Also where the root is the guide's own.
     normalize(trio.weight);
@@ -132,10 +132,10 @@ static struct trio weigh_by_distance(const struct hair_near* near, uint32_t foun
 // The nearest three guides that surround the root.
 static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
 {
-    const struct hair_groom* groom    = scalp->draft->groom;
-    float                    point[3] = {root.x, root.y, root.z};
-    struct hair_near         near[NEAR];
-    uint32_t                 found = hair_tree_nearest(&scalp->roots, point, near, 0, NEAR);
+    const struct hair_groom* groom = scalp->draft->groom;
+    float point[3] = {root.x, root.y, root.z};
+    struct hair_near near[NEAR];
+    uint32_t found = hair_tree_nearest(&scalp->roots, point, near, 0, NEAR);
     for (uint32_t k = 2; k < found; ++k)
         for (uint32_t j = 1; j < k; ++j)
             for (uint32_t i = 0; i < j; ++i) {
@@ -154,16 +154,16 @@ static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
 // Guide 0 is drawn by weight, so that the borders of clumps are soft.
 static void draw_first(struct trio* trio, uint32_t* random)
 {
-    int   heaviest = trio->weight[0] >= trio->weight[1] ? 0 : 1;
-    float r        = hair_random(random);
-    int   first    = r < trio->weight[0] ? 0 : r < trio->weight[0] + trio->weight[1] ? 1 : 2;
+    int heaviest = trio->weight[0] >= trio->weight[1] ? 0 : 1;
+    float r = hair_random(random);
+    int first = r < trio->weight[0] ? 0 : r < trio->weight[0] + trio->weight[1] ? 1 : 2;
     if (!(trio->weight[first] > 0)) first = heaviest; // Rounding.
-    uint32_t guide      = trio->guide[first];
-    float    weight     = trio->weight[first];
-    trio->guide[first]  = trio->guide[0];
+    uint32_t guide = trio->guide[first];
+    float weight = trio->weight[first];
+    trio->guide[first] = trio->guide[0];
     trio->weight[first] = trio->weight[0];
-    trio->guide[0]      = guide;
-    trio->weight[0]     = weight;
+    trio->guide[0] = guide;
+    trio->weight[0] = weight;
 }
 
 static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
@@ -177,11 +177,11 @@ static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
 static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
 {
     hair_vec3 a = root_to_tip(groom, i), b = root_to_tip(groom, j);
-    float     mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
+    float mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
     if (hair_distance(a, b) > 0.6f * mean) return true;
     float product = hair_length(a) * hair_length(b);
     if (product < 0.01f * mean * mean) return false; // Curled up: the tip says little about the way.
-    return hair_dot(a, b) < 0.342f * product;        // More than 70 degrees.
+    return hair_dot(a, b) < 0.342f * product; // More than 70 degrees.
 }
 
 static void respect_partings(const struct hair_groom* groom, struct trio* trio)
@@ -189,7 +189,7 @@ static void respect_partings(const struct hair_groom* groom, struct trio* trio)
     for (int i = 1; i < 3; ++i)
         if (trio->guide[i] == trio->guide[0] || are_parted(groom, trio->guide[0], trio->guide[i])) {
             if (trio->guide[i] == trio->guide[0]) trio->weight[0] += trio->weight[i];
-            trio->guide[i]  = trio->guide[0];
+            trio->guide[i] = trio->guide[0];
             trio->weight[i] = 0;
         }
     normalize(trio->weight);
@@ -204,11 +204,11 @@ static hair_vec3 in_root_frame(const struct hair_groom* groom, uint32_t guide, h
 static struct hair_follower grow(const struct hair_groom* groom, const struct trio* trio, hair_vec3 root,
                                  uint32_t* random)
 {
-    uint32_t  guide   = trio->guide[0];
+    uint32_t guide = trio->guide[0];
     hair_vec3 blended = {0};
     for (int i = 0; i < 3; ++i)
         blended = hair_add(blended, hair_scale(hair_guide_root(groom, trio->guide[i]), trio->weight[i]));
-    hair_vec3 own   = in_root_frame(groom, guide, hair_sub(root, hair_guide_root(groom, guide)));
+    hair_vec3 own = in_root_frame(groom, guide, hair_sub(root, hair_guide_root(groom, guide)));
     hair_vec3 multi = in_root_frame(groom, guide, hair_sub(root, blended));
 
     struct hair_follower follower = hair_grown_follower(guide, own, random);
@@ -221,17 +221,17 @@ static struct hair_follower grow(const struct hair_groom* groom, const struct tr
 
 static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
 {
-    struct hair_draft* draft   = scalp->draft;
-    const uint32_t*    vertex  = draft->desc->scalp_triangles + 3 * (size_t)triangle;
-    struct trio        corners = {
-               .guide = {scalp->guide_at[vertex[0]], scalp->guide_at[vertex[1]], scalp->guide_at[vertex[2]]}};
+    struct hair_draft* draft = scalp->draft;
+    const uint32_t* vertex = draft->desc->scalp_triangles + 3 * (size_t)triangle;
+    struct trio corners = {
+        .guide = {scalp->guide_at[vertex[0]], scalp->guide_at[vertex[1]], scalp->guide_at[vertex[2]]}};
     bool rooted = corners.guide[0] != NONE && corners.guide[1] != NONE && corners.guide[2] != NONE;
 
     for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
-        uint32_t     sprout = draft->plot_first[triangle] + i;
-        uint32_t     random = hair_sprout_random(draft, sprout);
+        uint32_t sprout = draft->plot_first[triangle] + i;
+        uint32_t random = hair_sprout_random(draft, sprout);
         const float* weight = draft->spots[sprout].weight;
-        hair_vec3    root   = {0};
+        hair_vec3 root = {0};
         for (uint32_t k = 0; k < 3; ++k)
             root = hair_add(root, hair_scale(hair_scalp_corner(draft, triangle, k), weight[k]));
 
@@ -248,8 +248,8 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
 
 static hair_result plant(struct scalp* scalp)
 {
-    const struct hair_draft* draft  = scalp->draft;
-    uint32_t                 guides = draft->groom->info.guide_count;
+    const struct hair_draft* draft = scalp->draft;
+    uint32_t guides = draft->groom->info.guide_count;
     for (uint32_t i = 0; i < guides; ++i)
         hair_store3(scalp->points + 3 * (size_t)i, hair_guide_root(draft->groom, i));
     hair_result result =
@@ -265,8 +265,8 @@ static hair_result plant(struct scalp* scalp)
 hair_result hair_scalp_followers(struct hair_draft* draft)
 {
     struct scalp scalp = {.draft = draft};
-    scalp.points       = hair_alloc(draft->host, draft->groom->info.guide_count, 3 * sizeof *scalp.points);
-    scalp.guide_at     = hair_alloc(draft->host, draft->desc->scalp_vertex_count, sizeof *scalp.guide_at);
+    scalp.points = hair_alloc(draft->host, draft->groom->info.guide_count, 3 * sizeof *scalp.points);
+    scalp.guide_at = hair_alloc(draft->host, draft->desc->scalp_vertex_count, sizeof *scalp.guide_at);
     hair_result result =
         scalp.points && scalp.guide_at ? plant(&scalp) : hair_fail_memory(draft->host, "followers");
     hair_free(draft->host, scalp.points);

@@ -23,7 +23,7 @@ void hair_seats_release(struct hair_seats* seats)
 static struct hair_seat seat_of(const struct hair_draft* draft, const struct hair_spot* spot, hair_vec3 root)
 {
     const uint32_t* corner = draft->desc->scalp_triangles + 3 * (size_t)spot->triangle;
-    hair_vec3       foot   = {0};
+    hair_vec3 foot = {0};
     for (uint32_t k = 0; k < 3; ++k)
         foot = hair_add(foot, hair_scale(hair_scalp_corner(draft, spot->triangle, k), spot->weight[k]));
     hair_vec3 away = hair_sub(root, foot);
@@ -32,18 +32,18 @@ static struct hair_seat seat_of(const struct hair_draft* draft, const struct hai
                               .corner2 = corner[2],
                               .weight1 = spot->weight[1],
                               .weight2 = spot->weight[2],
-                              .away_x  = away.x,
-                              .away_y  = away.y,
-                              .away_z  = away.z};
+                              .away_x = away.x,
+                              .away_y = away.y,
+                              .away_z = away.z};
 }
 
 static void seat_followers(const struct hair_draft* draft, struct hair_seat* seat)
 {
     for (uint32_t plot = 0; plot < draft->plot_count; ++plot)
         for (uint32_t i = 0; i < draft->plot_sprouts[plot]; ++i) {
-            uint32_t                sprout = draft->plot_first[plot] + i;
-            const struct hair_spot* spot   = &draft->spots[sprout];
-            hair_vec3               root   = {0};
+            uint32_t sprout = draft->plot_first[plot] + i;
+            const struct hair_spot* spot = &draft->spots[sprout];
+            hair_vec3 root = {0};
             if (draft->plot_density) // Plots are triangles: it is on one.
                 for (uint32_t k = 0; k < 3; ++k)
                     root = hair_add(root,
@@ -57,9 +57,9 @@ static void seat_followers(const struct hair_draft* draft, struct hair_seat* sea
 static void place_followers(const struct hair_draft* draft, float* uv)
 {
     for (uint32_t sprout = 0; sprout < draft->sprout_count; ++sprout) {
-        const struct hair_spot* spot   = &draft->spots[sprout];
-        const uint32_t*         corner = draft->desc->scalp_triangles + 3 * (size_t)spot->triangle;
-        float*                  own    = uv + 2 * (size_t)draft->place[sprout];
+        const struct hair_spot* spot = &draft->spots[sprout];
+        const uint32_t* corner = draft->desc->scalp_triangles + 3 * (size_t)spot->triangle;
+        float* own = uv + 2 * (size_t)draft->place[sprout];
         for (size_t k = 0; k < 3; ++k)
             for (size_t i = 0; i < 2; ++i)
                 own[i] += spot->weight[k] * draft->desc->scalp_uvs[2 * (size_t)corner[k] + i];
@@ -69,11 +69,11 @@ static void place_followers(const struct hair_draft* draft, float* uv)
 static hair_result seat_guides(const struct hair_draft* draft, struct hair_seat* seat)
 {
     struct hair_surface surface;
-    hair_result         result = hair_surface_build(draft, &surface);
+    hair_result result = hair_surface_build(draft, &surface);
     for (uint32_t i = 0; i < draft->groom->info.guide_count && !result; ++i) {
-        hair_vec3        root = hair_guide_root(draft->groom, i);
+        hair_vec3 root = hair_guide_root(draft->groom, i);
         struct hair_spot spot = hair_surface_spot(&surface, root);
-        seat[i]               = seat_of(draft, &spot, root);
+        seat[i] = seat_of(draft, &spot, root);
     }
     hair_surface_free(&surface);
     return result;
@@ -85,13 +85,13 @@ hair_result hair_draft_seats(struct hair_draft* draft)
     if (!draft->spots) return HAIR_OK;
     struct hair_seats* seats = hair_alloc(draft->host, 1, sizeof *seats);
     if (!seats) return hair_fail_memory(draft->host, "the seats of roots");
-    seats->host         = *draft->host;
+    seats->host = *draft->host;
     seats->vertex_count = draft->desc->scalp_vertex_count;
-    seats->count        = info->guide_count + info->follower_count;
+    seats->count = info->guide_count + info->follower_count;
     atomic_init(&seats->holders, 1);
     draft->groom->seats = seats;
-    seats->positions    = hair_alloc(draft->host, seats->vertex_count, 3 * sizeof *seats->positions);
-    seats->seat         = hair_alloc(draft->host, seats->count, sizeof *seats->seat);
+    seats->positions = hair_alloc(draft->host, seats->vertex_count, 3 * sizeof *seats->positions);
+    seats->seat = hair_alloc(draft->host, seats->count, sizeof *seats->seat);
     if (!seats->positions || !seats->seat) return hair_fail_memory(draft->host, "the seats of roots");
     memcpy(seats->positions, draft->scalp, 3 * (size_t)seats->vertex_count * sizeof *seats->positions);
     seat_followers(draft, seats->seat + info->guide_count);

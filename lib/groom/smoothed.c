@@ -7,27 +7,27 @@
 // A guide by its vertices: position, distance from the root, and per segment direction and frame.
 struct polyline {
     hair_vec3 vertex[HAIR_MAX_GUIDE_VERTICES];
-    float     from_root[HAIR_MAX_GUIDE_VERTICES];
+    float from_root[HAIR_MAX_GUIDE_VERTICES];
     hair_vec3 direction[HAIR_MAX_GUIDE_VERTICES];
     hair_quat frame[HAIR_MAX_GUIDE_VERTICES];
-    uint32_t  count;
+    uint32_t count;
 };
 
 static void unpack(const struct hair_groom* groom, uint32_t number, struct polyline* line)
 {
     const struct hair_guide* guide = &groom->guides[number];
-    const struct hair_rest*  rest  = groom->rest + guide->first;
+    const struct hair_rest* rest = groom->rest + guide->first;
     hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
-    line->count     = guide->count;
+    line->count = guide->count;
     for (uint32_t i = 0; i < guide->count; ++i) {
-        line->vertex[i]    = hair_v3(rest[i].position.x, rest[i].position.y, rest[i].position.z);
+        line->vertex[i] = hair_v3(rest[i].position.x, rest[i].position.y, rest[i].position.z);
         line->from_root[i] = i ? line->from_root[i - 1] + rest[i - 1].position.w : 0;
     }
     for (uint32_t i = 0; i + 1 < guide->count; ++i) {
         line->direction[i] = hair_normalize(hair_sub(line->vertex[i + 1], line->vertex[i]), hair_v3(0, 1, 0));
         if (i) {
             hair_quat turn = hair_quat_between(line->direction[i - 1], line->direction[i]);
-            frame          = hair_quat_normalize(hair_quat_multiply(turn, frame));
+            frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
         }
         line->frame[i] = frame;
     }
@@ -39,7 +39,7 @@ static hair_vec3 slope(const struct polyline* line, uint32_t j)
     if (j == 0) return line->direction[0];
     if (j + 1 >= line->count) return line->direction[line->count - 2];
     float before = line->from_root[j] - line->from_root[j - 1];
-    float after  = line->from_root[j + 1] - line->from_root[j];
+    float after = line->from_root[j + 1] - line->from_root[j];
     return hair_scale(
         hair_add(hair_scale(line->direction[j - 1], after), hair_scale(line->direction[j], before)),
         1 / fmaxf(before + after, 1e-12f));
@@ -47,8 +47,8 @@ static hair_vec3 slope(const struct polyline* line, uint32_t j)
 
 static void evaluate(const struct polyline* line, uint32_t j, float s, struct hair_smoothed* out, uint32_t k)
 {
-    float     l     = fmaxf(line->from_root[j + 1] - line->from_root[j], 1e-12f);
-    float     w     = fminf(fmaxf((s - line->from_root[j]) / l, 0), 1);
+    float l = fmaxf(line->from_root[j + 1] - line->from_root[j], 1e-12f);
+    float w = fminf(fmaxf((s - line->from_root[j]) / l, 0), 1);
     hair_vec3 chord = hair_sub(line->vertex[j + 1], line->vertex[j]);
     hair_vec3 bend0 = hair_sub(hair_scale(slope(line, j), l), chord);
     hair_vec3 bend1 = hair_sub(hair_scale(slope(line, j + 1), l), chord);
@@ -67,9 +67,9 @@ void hair_smooth_guide(const struct hair_groom* groom, uint32_t guide, struct ha
 {
     struct polyline line;
     unpack(groom, guide, &line);
-    out->count  = 2 * (groom->most_vertices - 1) + 1;
+    out->count = 2 * (groom->most_vertices - 1) + 1;
     out->length = line.from_root[line.count - 1];
-    uint32_t j  = 0;
+    uint32_t j = 0;
     for (uint32_t k = 0; k < out->count; ++k) {
         float s = out->length * (float)k / (float)(out->count - 1);
         while (j + 2 < line.count && line.from_root[j + 1] <= s) ++j;
@@ -87,14 +87,14 @@ static hair_quat mix(hair_quat a, hair_quat b, float w)
 
 struct hair_smoothed_point hair_smoothed_at(const struct hair_smoothed* smoothed, float u)
 {
-    float                      at = fminf(u, 1) * (float)(smoothed->count - 1);
-    uint32_t                   k  = (uint32_t)at < smoothed->count - 2 ? (uint32_t)at : smoothed->count - 2;
-    float                      w  = at - (float)k;
+    float at = fminf(u, 1) * (float)(smoothed->count - 1);
+    uint32_t k = (uint32_t)at < smoothed->count - 2 ? (uint32_t)at : smoothed->count - 2;
+    float w = at - (float)k;
     struct hair_smoothed_point point;
     point.tangent =
         hair_normalize(hair_lerp(smoothed->tangent[k], smoothed->tangent[k + 1], w), smoothed->tangent[k]);
     point.position = hair_lerp(smoothed->position[k], smoothed->position[k + 1], w);
     point.position = hair_add(point.position, hair_scale(point.tangent, fmaxf(u - 1, 0) * smoothed->length));
-    point.frame    = mix(smoothed->frame[k], smoothed->frame[k + 1], w);
+    point.frame = mix(smoothed->frame[k], smoothed->frame[k + 1], w);
     return point;
 }

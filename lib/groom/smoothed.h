@@ -9,8 +9,8 @@ struct hair_smoothed {
     hair_vec3 position[HAIR_MAX_SMOOTH_VERTICES];
     hair_vec3 tangent[HAIR_MAX_SMOOTH_VERTICES];
     hair_quat frame[HAIR_MAX_SMOOTH_VERTICES];
-    uint32_t  count;
-    float     length; // m
+    uint32_t count;
+    float length; // m
 };
 
 struct hair_smoothed_point {

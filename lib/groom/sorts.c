@@ -32,8 +32,8 @@ static float find_cut(const struct hair_draft* draft, const uint32_t* queue, uin
     float least = FLT_MAX, most = 0, limit = which < HAIR_MAP_SETS ? DENSITIES : SHARES;
     for (uint32_t i = 0; i < count; ++i) {
         float value = value_of(draft, queue[i], which);
-        least       = fminf(least, value);
-        most        = fmaxf(most, value);
+        least = fminf(least, value);
+        most = fmaxf(most, value);
     }
     *excess = (most - least) / limit;
     if (which < HAIR_MAP_SETS && least == 0 && most > 0) {
@@ -46,7 +46,7 @@ static float find_cut(const struct hair_draft* draft, const uint32_t* queue, uin
 uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
 {
     if (!draft->map_density) return 0;
-    float    most = 1, cut = 0;
+    float most = 1, cut = 0;
     uint32_t by = VALUES, front = 0;
     for (uint32_t which = 0; which < VALUES; ++which) {
         float excess, at = find_cut(draft, queue, count, which, &excess);
@@ -55,9 +55,9 @@ uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_
     if (by == VALUES) return 0;
     for (uint32_t i = 0; i < count; ++i)
         if (value_of(draft, queue[i], by) <= cut) {
-            uint32_t was   = queue[front];
+            uint32_t was = queue[front];
             queue[front++] = queue[i];
-            queue[i]       = was;
+            queue[i] = was;
         }
     return front;
 }
@@ -66,10 +66,10 @@ void hair_sort_queue(uint32_t* queue, float* from, uint32_t count)
 {
     for (uint32_t i = 1; i < count; ++i) {
         uint32_t own = queue[i], k = i;
-        float    at = from[i];
+        float at = from[i];
         for (; k > 0 && from[k - 1] > at; --k) queue[k] = queue[k - 1], from[k] = from[k - 1];
         queue[k] = own;
-        from[k]  = at;
+        from[k] = at;
     }
 }
 
@@ -77,7 +77,7 @@ void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair
 {
     patch->map_density = patch->map_thickness = (hair_vec4){1, 1, 1, 1};
     if (!draft->map_density) return;
-    float  from[HAIR_MAX_ISOLINES];
+    float from[HAIR_MAX_ISOLINES];
     double sum[VALUES] = {0};
     for (uint32_t i = 0; i < patch->count; ++i) {
         double density = 0;
@@ -90,6 +90,6 @@ void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair
     }
     hair_sort_queue(queue, from, patch->count);
     for (uint32_t k = 0; k < VALUES; ++k) sum[k] /= patch->count;
-    patch->map_density   = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
+    patch->map_density = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
     patch->map_thickness = (hair_vec4){(float)sum[4], (float)sum[5], (float)sum[6], (float)sum[7]};
 }

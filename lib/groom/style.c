@@ -5,10 +5,10 @@
 static hair_result grow_guides(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
     uint32_t count = asset->scalp_vertex_count;
-    uint32_t each  = desc->strand_vertices ? desc->strand_vertices : hair_style_vertices(desc->style);
+    uint32_t each = desc->strand_vertices ? desc->strand_vertices : hair_style_vertices(desc->style);
     struct hair_course* course = hair_alloc(host, 1, sizeof *course);
-    asset->strands.positions   = hair_alloc(host, (size_t)count * each, 3 * sizeof(float));
-    asset->strands.vertices    = hair_alloc(host, count, sizeof(uint32_t));
+    asset->strands.positions = hair_alloc(host, (size_t)count * each, 3 * sizeof(float));
+    asset->strands.vertices = hair_alloc(host, count, sizeof(uint32_t));
     if (!course || !asset->strands.positions || !asset->strands.vertices) {
         hair_free(host, course);
         return hair_fail_memory(host, "the guides of a haircut");
@@ -22,24 +22,24 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
     }
     asset->strands.strand_count = count;
     asset->strands.vertex_count = count * each;
-    asset->file_strands         = count;
-    asset->file_vertices        = count * each;
+    asset->file_strands = count;
+    asset->file_vertices = count * each;
     hair_free(host, course);
     return HAIR_OK;
 }
 
 static hair_result build(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
-    asset->host        = *host;
-    asset->format      = HAIR_FORMAT_NONE;
+    asset->host = *host;
+    asset->format = HAIR_FORMAT_NONE;
     asset->strands_are = HAIR_STRANDS_GUIDES;
     struct hair_scalp scalp;
-    hair_result       result =
+    hair_result result =
         hair_scalp_build(host, desc->guide_count, hair_style_parting(desc->style), desc->seed, &scalp);
     if (result) return result;
-    asset->scalp_positions      = scalp.positions;
-    asset->scalp_triangles      = scalp.triangles;
-    asset->scalp_vertex_count   = scalp.vertex_count;
+    asset->scalp_positions = scalp.positions;
+    asset->scalp_triangles = scalp.triangles;
+    asset->scalp_vertex_count = scalp.vertex_count;
     asset->scalp_triangle_count = scalp.triangle_count;
     return grow_guides(host, desc, asset);
 }

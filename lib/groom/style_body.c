@@ -8,37 +8,37 @@ struct ellipsoid {
 
 struct capsule {
     hair_vec3 a, b;
-    float     radius;
+    float radius;
 };
 
 static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X, HAIR_SKULL_Y, HAIR_SKULL_Z}};
 static const struct ellipsoid cheeks = {{0, 1.580f, 0.038f}, {0.060f, 0.063f, 0.053f}};
-static const struct ellipsoid jaw    = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
-static const struct ellipsoid chest  = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
-static const struct ellipsoid room   = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.060f}}; // before the face
+static const struct ellipsoid jaw = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
+static const struct ellipsoid chest = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
+static const struct ellipsoid room = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.060f}}; // before the face
 
 // On the left side; the bust is symmetrical, so they are met by |x|.
-static const struct ellipsoid breast   = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
-static const struct ellipsoid blade    = {{0.055f, 1.345f, -0.062f}, {0.087f, 0.087f, 0.039f}};
-static const struct capsule   neck     = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.048f};
-static const struct capsule   shoulder = {{0.030f, 1.434f, -0.032f}, {0.158f, 1.370f, -0.025f}, 0.044f};
-static const struct capsule   arm      = {{0.162f, 1.362f, -0.025f}, {0.182f, 1.200f, -0.020f}, 0.043f};
+static const struct ellipsoid breast = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
+static const struct ellipsoid blade = {{0.055f, 1.345f, -0.062f}, {0.087f, 0.087f, 0.039f}};
+static const struct capsule neck = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.048f};
+static const struct capsule shoulder = {{0.030f, 1.434f, -0.032f}, {0.158f, 1.370f, -0.025f}, 0.044f};
+static const struct capsule arm = {{0.162f, 1.362f, -0.025f}, {0.182f, 1.200f, -0.020f}, 0.043f};
 
 // First order: |p/a| (|p/a| - 1) / |p/a^2|, exact on the surface.
 static float ellipsoid_distance(const struct ellipsoid* e, hair_vec3 p)
 {
-    hair_vec3 q     = hair_sub(p, e->center);
-    hair_vec3 once  = {q.x / e->axes.x, q.y / e->axes.y, q.z / e->axes.z};
+    hair_vec3 q = hair_sub(p, e->center);
+    hair_vec3 once = {q.x / e->axes.x, q.y / e->axes.y, q.z / e->axes.z};
     hair_vec3 twice = {once.x / e->axes.x, once.y / e->axes.y, once.z / e->axes.z};
-    float     k     = hair_length(once);
-    float     slope = hair_length(twice);
+    float k = hair_length(once);
+    float slope = hair_length(twice);
     return slope > 1e-6f ? k * (k - 1) / slope : -fminf(e->axes.x, fminf(e->axes.y, e->axes.z));
 }
 
 static float capsule_distance(const struct capsule* c, hair_vec3 p)
 {
     hair_vec3 axis = hair_sub(c->b, c->a);
-    float     t    = hair_dot(hair_sub(p, c->a), axis) / hair_dot(axis, axis);
+    float t = hair_dot(hair_sub(p, c->a), axis) / hair_dot(axis, axis);
     return hair_distance(p, hair_lerp(c->a, c->b, fminf(fmaxf(t, 0), 1))) - c->radius;
 }
 
@@ -77,11 +77,11 @@ float hair_body_distance(hair_vec3 p)
     hair_vec3 m = {fabsf(p.x), p.y, p.z};
     if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&skull, m)); // Far above the rest.
     float d = ellipsoid_distance(&chest, m);
-    d       = blend(d, capsule_distance(&arm, m), 0.05f);
-    d       = blend(d, capsule_distance(&shoulder, m), 0.06f);
-    d       = blend(d, ellipsoid_distance(&breast, m), 0.07f);
-    d       = blend(d, ellipsoid_distance(&blade, m), 0.04f);
-    d       = blend(d, capsule_distance(&neck, m), 0.05f);
+    d = blend(d, capsule_distance(&arm, m), 0.05f);
+    d = blend(d, capsule_distance(&shoulder, m), 0.06f);
+    d = blend(d, ellipsoid_distance(&breast, m), 0.07f);
+    d = blend(d, ellipsoid_distance(&blade, m), 0.04f);
+    d = blend(d, capsule_distance(&neck, m), 0.05f);
     if (p.y < 1.42f) return d; // Far below the head.
     d = blend(d, face_distance(&m), 0.016f);
     return fminf(d, ellipsoid_distance(&skull, m)); // No fillet here: roots stay on the surface.

@@ -21,7 +21,7 @@ float hair_body_distance(hair_vec3 p);
 // Its gradient, unit.
 hair_vec3 hair_body_normal(hair_vec3 p);
 // Distance to the room in front of the face that hair is combed out of. m.
-float     hair_face_distance(hair_vec3 p);
+float hair_face_distance(hair_vec3 p);
 hair_vec3 hair_face_normal(hair_vec3 p);
 
 #endif

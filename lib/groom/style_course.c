@@ -14,9 +14,9 @@ float hair_noise(hair_vec3 p, float scale, uint32_t seed)
 {
     hair_vec3 q = hair_scale(p, 1 / scale);
     hair_vec3 f = {floorf(q.x), floorf(q.y), floorf(q.z)};
-    float     u = hair_smooth(0, 1, q.x - f.x), v = hair_smooth(0, 1, q.y - f.y),
+    float u = hair_smooth(0, 1, q.x - f.x), v = hair_smooth(0, 1, q.y - f.y),
           w = hair_smooth(0, 1, q.z - f.z);
-    int   x = (int)f.x, y = (int)f.y, z = (int)f.z;
+    int x = (int)f.x, y = (int)f.y, z = (int)f.z;
     float sum = 0;
     for (int i = 0; i < 8; ++i) {
         int a = i & 1, b = i >> 1 & 1, c = i >> 2;
@@ -40,33 +40,33 @@ void hair_course_trim(struct hair_course* course, float most)
     float over = course->length - most;
     if (over <= 0 || course->count < 3) return;
     hair_vec3 *tip = &course->point[course->count - 1], *before = tip - 1;
-    float      step = hair_distance(*tip, *before);
-    *tip            = hair_lerp(*tip, *before, fminf(over / step, 0.99f));
+    float step = hair_distance(*tip, *before);
+    *tip = hair_lerp(*tip, *before, fminf(over / step, 0.99f));
     course->length -= fminf(over, 0.99f * step);
 }
 
 void hair_course_wind(struct hair_course* course, const struct hair_curl* curl)
 {
     hair_vec3 tangent = hair_normalize(hair_sub(course->point[1], course->point[0]), hair_v3(0, -1, 0));
-    hair_vec3 across  = hair_normalize(hair_tangential(hair_skull_normal(course->point[0]), tangent),
-                                       hair_perpendicular(tangent));
-    uint32_t  count   = course->count;
-    float     s = 0, angle = curl->phase;
+    hair_vec3 across = hair_normalize(hair_tangential(hair_skull_normal(course->point[0]), tangent),
+                                      hair_perpendicular(tangent));
+    uint32_t count = course->count;
+    float s = 0, angle = curl->phase;
     course->count = 1, course->length = 0;
     hair_vec3 last = course->point[0];
     for (uint32_t i = 1; i < count; ++i) {
-        hair_vec3 p    = course->point[i];
-        float     step = hair_distance(p, last);
+        hair_vec3 p = course->point[i];
+        float step = hair_distance(p, last);
         hair_vec3 next = hair_normalize(hair_sub(p, last), tangent);
-        across  = hair_normalize(hair_tangential(hair_rotate(hair_quat_between(tangent, next), across), next),
-                                 across);
+        across = hair_normalize(hair_tangential(hair_rotate(hair_quat_between(tangent, next), across), next),
+                                across);
         tangent = next, last = p;
         s += step;
         angle += 2 * PI * step / curl->pitch;
-        float     radius = curl->radius * hair_smooth(curl->start, curl->full, s);
-        hair_vec3 along  = hair_scale(hair_cross(tangent, across), curl->flat * radius * sinf(angle));
-        hair_vec3 q      = hair_add(p, hair_add(hair_scale(across, radius * cosf(angle)), along));
-        float     inside = hair_body_distance(q);
+        float radius = curl->radius * hair_smooth(curl->start, curl->full, s);
+        hair_vec3 along = hair_scale(hair_cross(tangent, across), curl->flat * radius * sinf(angle));
+        hair_vec3 q = hair_add(p, hair_add(hair_scale(across, radius * cosf(angle)), along));
+        float inside = hair_body_distance(q);
         if (inside < 0.002f) q = hair_add(q, hair_scale(hair_body_normal(q), fminf(0.002f - inside, radius)));
         hair_course_add(course, q);
     }

@@ -4,14 +4,14 @@
 
 #include "lib/base/math.h"
 
-#define HAIR_COURSE_POINTS 2048   // Most points of a course.
+#define HAIR_COURSE_POINTS 2048 // Most points of a course.
 #define HAIR_COURSE_STRIDE 0.002f // Between them, m: a tenth of the sharpest bend of the built-in haircuts.
 
 // More points than the guide will have, root first.
 struct hair_course {
     hair_vec3 point[HAIR_COURSE_POINTS];
-    uint32_t  count;
-    float     length; // m
+    uint32_t count;
+    float length; // m
 };
 
 static inline float hair_smooth(float from, float to, float x)
@@ -41,9 +41,9 @@ void hair_course_trim(struct hair_course* course, float most);
 
 struct hair_curl {
     float radius, pitch; // m
-    float start, full;   // distance from the root where it begins, and where the radius is reached, m
-    float phase;         // radians
-    float flat;          // 1: a helix; 0: a wave in one plane
+    float start, full; // distance from the root where it begins, and where the radius is reached, m
+    float phase; // radians
+    float flat; // 1: a helix; 0: a wave in one plane
 };
 
 // Lay a helix round a course, in a frame carried along it without twist, clear of the bust.

@@ -7,24 +7,24 @@
 
 #define PI 3.14159265f
 #define CUSHION 0.020f // Height above the clearance from which on hair turns along the bust. m.
-#define BESIDE 0.025f  // As far from a parting hair runs along it at first. m.
+#define BESIDE 0.025f // As far from a parting hair runs along it at first. m.
 #define STRIDE HAIR_COURSE_STRIDE
 
 // How the hair of one root runs.
 struct walk {
-    hair_vec3 comb;         // tangent to the skull at the root
-    float     rise;         // share of the root's direction that is the skull's normal
-    float     clearance;    // from the bust, far from the root, m
-    float     lift;         // distance over which it is reached, m
-    float     gravity;      // turn towards down, 1/m, far from the root
-    float     hold;         // distance over which the comb gives way to gravity, m
-    float     press;        // share of what it is above the clearance that a step removes
-    float     inward;       // turn towards the neck near the tip, 1/m
-    float     inward_below; // height from which on, m
-    float     split;        // turn to the front or the back of the shoulder, 1/m
-    float     floor;        // height that the hair is cut at, m
-    float     face;         // distance kept from the face, m
-    float     most;         // length, m
+    hair_vec3 comb; // tangent to the skull at the root
+    float rise; // share of the root's direction that is the skull's normal
+    float clearance; // from the bust, far from the root, m
+    float lift; // distance over which it is reached, m
+    float gravity; // turn towards down, 1/m, far from the root
+    float hold; // distance over which the comb gives way to gravity, m
+    float press; // share of what it is above the clearance that a step removes
+    float inward; // turn towards the neck near the tip, 1/m
+    float inward_below; // height from which on, m
+    float split; // turn to the front or the back of the shoulder, 1/m
+    float floor; // height that the hair is cut at, m
+    float face; // distance kept from the face, m
+    float most; // length, m
 };
 
 // Parted hair ----------------------------------------------------------------------------------------------
@@ -46,15 +46,15 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
                                    float back_crown)
 {
     hair_vec3 normal = hair_skull_normal(p);
-    float     along  = (HAIR_PARTING_FRONT_Z - p.z) / (HAIR_PARTING_FRONT_Z - parting.crown_z);
-    float     width  = hair_mix(0.0005f, 0.045f, hair_smooth(0.9f, 1.5f, along)); // Over which sides change.
-    float     away = p.x - hair_parting_x(parting, p.z), side = fminf(fmaxf(away / width, -1), 1);
-    float     back = hair_mix(back_front, back_crown, hair_smooth(0, 1, along));
+    float along = (HAIR_PARTING_FRONT_Z - p.z) / (HAIR_PARTING_FRONT_Z - parting.crown_z);
+    float width = hair_mix(0.0005f, 0.045f, hair_smooth(0.9f, 1.5f, along)); // Over which sides change.
+    float away = p.x - hair_parting_x(parting, p.z), side = fminf(fmaxf(away / width, -1), 1);
+    float back = hair_mix(back_front, back_crown, hair_smooth(0, 1, along));
     // Beside the parting it runs along it for a while, and hides the skin there.
     float beside = hair_smooth(BESIDE, 0, fabsf(away)) * hair_smooth(1.2f, 0.9f, along);
     side *= 1 - 0.5f * beside, back += 0.4f * beside;
-    float     above = hair_smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
-    hair_vec3 v     = {side * above, -0.7f, -back * above};
+    float above = hair_smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
+    hair_vec3 v = {side * above, -0.7f, -back * above};
     return hair_normalize(hair_tangential(v, normal), hair_tangential(hair_v3(0, -1, 0), normal));
 }
 
@@ -69,12 +69,12 @@ static float split_at_shoulder(hair_vec3 p)
 
 static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
 {
-    float     share = 1 - expf(-s / walk->hold);
-    hair_vec3 v     = hair_v3(0, -walk->gravity * share, 0);
+    float share = 1 - expf(-s / walk->hold);
+    hair_vec3 v = hair_v3(0, -walk->gravity * share, 0);
     v.z += walk->split * split_at_shoulder(p);
     if (p.y < walk->inward_below) {
         hair_vec3 in = hair_normalize(hair_v3(-p.x, 0, -0.02f - p.z), hair_v3(0, 0, -1));
-        v            = hair_add(v, hair_scale(in, walk->inward));
+        v = hair_add(v, hair_scale(in, walk->inward));
     }
     return v;
 }
@@ -89,12 +89,12 @@ static hair_vec3 cushion(hair_vec3 d, hair_vec3 normal, float over)
 // The normal is asked for only near the clearance: most of a long hair hangs free.
 static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_vec3 d, float s)
 {
-    float     wanted = walk->clearance * (1 - expf(-s / walk->lift));
-    float     over   = hair_body_distance(p) - wanted;
+    float wanted = walk->clearance * (1 - expf(-s / walk->lift));
+    float over = hair_body_distance(p) - wanted;
     hair_vec3 normal = {0, 0, 0};
     if (over < CUSHION || walk->press > 0) normal = hair_body_normal(p);
     if (over > 0 && over < CUSHION) d = cushion(d, normal, over);
-    p    = hair_add(p, hair_scale(d, STRIDE));
+    p = hair_add(p, hair_scale(d, STRIDE));
     over = hair_body_distance(p) - wanted;
     if (over < 0)
         p = hair_add(p, hair_scale(normal, fminf(-over, 0.8f * STRIDE)));
@@ -109,21 +109,21 @@ static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_v
 static void run(const struct walk* walk, hair_vec3 root, struct hair_course* course)
 {
     hair_vec3 p = root, normal = hair_skull_normal(root);
-    hair_vec3 d   = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
+    hair_vec3 d = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
     course->count = 0, course->length = 0;
     hair_course_add(course, p);
     while (course->length < walk->most && course->count < HAIR_COURSE_POINTS && p.y > walk->floor) {
         hair_vec3 last = p;
-        d              = hair_normalize(hair_add(d, hair_scale(pull(walk, p, course->length), STRIDE)), d);
-        p              = step_clear_of_bust(walk, p, d, course->length);
-        d              = hair_normalize(hair_sub(p, last), d);
+        d = hair_normalize(hair_add(d, hair_scale(pull(walk, p, course->length), STRIDE)), d);
+        p = step_clear_of_bust(walk, p, d, course->length);
+        d = hair_normalize(hair_sub(p, last), d);
         hair_course_add(course, p);
     }
 }
 
 static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_course* course)
 {
-    walk->most  = length;
+    walk->most = length;
     walk->floor = -INFINITY;
     run(walk, root, course);
     hair_course_trim(course, length);
@@ -154,17 +154,17 @@ static float frontness(hair_vec3 root)
 
 static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       front = frontness(root), high = layer(root);
+    float front = frontness(root), high = layer(root);
     struct walk walk = {
-        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
-        .rise         = 0.2f,
-        .clearance    = hair_mix(0.004f, 0.014f, high) + 0.002f * hair_noise(root, 0.03f, seed),
-        .lift         = 0.06f,
-        .gravity      = 45,
-        .hold         = 0.04f,
-        .split        = 25,
-        .floor        = hair_mix(1.30f, 1.335f, front) + 0.025f * hair_noise(root, 0.012f, seed + 1),
-        .face         = 0.010f,
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
+        .rise = 0.2f,
+        .clearance = hair_mix(0.004f, 0.014f, high) + 0.002f * hair_noise(root, 0.03f, seed),
+        .lift = 0.06f,
+        .gravity = 45,
+        .hold = 0.04f,
+        .split = 25,
+        .floor = hair_mix(1.30f, 1.335f, front) + 0.025f * hair_noise(root, 0.012f, seed + 1),
+        .face = 0.010f,
         .inward_below = 0,
     };
     run_cut(&walk, root, scale, 0.03f, course);
@@ -175,34 +175,34 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_co
 
 static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       high = layer(root);
-    float       cut  = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
+    float high = layer(root);
+    float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
     struct walk walk = {
-        .comb         = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
-        .rise         = 0.22f,
-        .clearance    = hair_mix(0.005f, 0.017f, high) + 0.001f * hair_noise(root, 0.03f, seed),
-        .lift         = 0.045f,
-        .gravity      = 40,
-        .hold         = 0.04f,
-        .inward       = 22,
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
+        .rise = 0.22f,
+        .clearance = hair_mix(0.005f, 0.017f, high) + 0.001f * hair_noise(root, 0.03f, seed),
+        .lift = 0.045f,
+        .gravity = 40,
+        .hold = 0.04f,
+        .inward = 22,
         .inward_below = cut + 0.045f,
-        .floor        = cut + 0.003f * hair_noise(root, 0.02f, seed + 1),
-        .face         = 0.008f,
+        .floor = cut + 0.003f * hair_noise(root, 0.02f, seed + 1),
+        .face = 0.008f,
     };
     run_cut(&walk, root, scale, 0.03f, course);
 }
 
 static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       top  = hair_smooth(1.625f, 1.705f, root.y);
+    float top = hair_smooth(1.625f, 1.705f, root.y);
     struct walk walk = {
-        .comb      = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.25f, 1.3f),
-        .rise      = hair_mix(0.25f, 0.32f, top),
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.25f, 1.3f),
+        .rise = hair_mix(0.25f, 0.32f, top),
         .clearance = hair_mix(0.005f, 0.013f, top) + 0.003f * hair_noise(root, 0.025f, seed),
-        .lift      = 0.02f,
-        .gravity   = 8,
-        .hold      = 0.04f,
-        .press     = 0.03f,
+        .lift = 0.02f,
+        .gravity = 8,
+        .hold = 0.04f,
+        .press = 0.03f,
     };
     float length = hair_mix(0.026f, 0.068f, top) * (1 + 0.12f * hair_noise(root, 0.02f, seed + 1));
     run_to(&walk, root, scale * length, course);
@@ -210,25 +210,25 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_c
 
 static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
-    float       high = layer(root);
+    float high = layer(root);
     struct walk walk = {
-        .comb      = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
-        .rise      = 0.22f,
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
+        .rise = 0.22f,
         .clearance = hair_mix(0.014f, 0.030f, high) + 0.006f * hair_noise(root, 0.03f, seed),
-        .lift      = 0.06f,
-        .gravity   = 40,
-        .hold      = 0.04f,
-        .split     = 15,
-        .floor     = 1.405f + 0.02f * hair_noise(root, 0.025f, seed + 1),
-        .face      = 0.018f,
+        .lift = 0.06f,
+        .gravity = 40,
+        .hold = 0.04f,
+        .split = 15,
+        .floor = 1.405f + 0.02f * hair_noise(root, 0.025f, seed + 1),
+        .face = 0.018f,
     };
     run_cut(&walk, root, scale, 0.04f, course);
     struct hair_curl curl = {.radius = 0.0100f + 0.0025f * hair_noise(root, 0.04f, seed + 2),
-                             .pitch  = 0.028f * (1 + 0.12f * hair_noise(root, 0.05f, seed + 4)),
-                             .start  = 0.008f,
-                             .full   = 0.07f,
-                             .phase  = 2 * PI * hair_noise(root, 0.05f, seed + 3),
-                             .flat   = 1};
+                             .pitch = 0.028f * (1 + 0.12f * hair_noise(root, 0.05f, seed + 4)),
+                             .start = 0.008f,
+                             .full = 0.07f,
+                             .phase = 2 * PI * hair_noise(root, 0.05f, seed + 3),
+                             .flat = 1};
     hair_course_wind(course, &curl);
 }
 
@@ -236,14 +236,14 @@ static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_c
 static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
     const hair_vec3 center = {0, 1.648f, -0.014f};
-    const float     radius = 0.163f;
-    hair_vec3       normal = hair_skull_normal(root);
-    hair_vec3       out    = hair_normalize(hair_sub(root, center), normal);
+    const float radius = 0.163f;
+    hair_vec3 normal = hair_skull_normal(root);
+    hair_vec3 out = hair_normalize(hair_sub(root, center), normal);
     hair_vec3 tip = hair_add(center, hair_scale(out, radius * (1 + 0.03f * hair_noise(root, 0.02f, seed))));
     // Scaled about the root; the way there starts along the normal.
-    tip               = hair_lerp(root, tip, scale);
+    tip = hair_lerp(root, tip, scale);
     hair_vec3 control = hair_add(root, hair_scale(normal, 0.4f * hair_distance(root, tip)));
-    uint32_t  count   = 600;
+    uint32_t count = 600;
     course->count = 0, course->length = 0;
     for (uint32_t i = 0; i <= count; ++i) {
         float t = (float)i / (float)count;

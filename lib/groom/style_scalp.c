@@ -9,25 +9,25 @@
 #include <string.h>
 
 #define PI 3.14159265f
-#define FINE 1024            // Samples of the hairline that the outline is measured by.
-#define CANDIDATES 4         // Places tried per vertex.
-#define RELAXATIONS 6        // The spacing of 166 vertices is even to a fifth after as many.
-#define CLEARANCE 0.65f      // Of inner vertices from the middle of an edge of the outline, in its lengths.
+#define FINE 1024 // Samples of the hairline that the outline is measured by.
+#define CANDIDATES 4 // Places tried per vertex.
+#define RELAXATIONS 6 // The spacing of 166 vertices is even to a fifth after as many.
+#define CLEARANCE 0.65f // Of inner vertices from the middle of an edge of the outline, in its lengths.
 #define PARTING_HALF 0.0010f // Half its width at the hairline, m: a comb's line.
 
 struct build {
-    const hair_host*    host;
+    const hair_host* host;
     struct hair_parting parting;
-    uint32_t            seed;
-    float               spacing;
-    struct hair_scalp   scalp;
-    uint32_t            outline_count; // vertices, first in the scalp, clockwise seen from above
-    hair_vec3*          candidates;
-    float*              gap; // from each candidate to the nearest vertex
-    uint32_t            candidate_count;
-    hair_vec3*          sum; // of the middles of a vertex's triangles, by area
-    float*              area;
-    double*             plane;
+    uint32_t seed;
+    float spacing;
+    struct hair_scalp scalp;
+    uint32_t outline_count; // vertices, first in the scalp, clockwise seen from above
+    hair_vec3* candidates;
+    float* gap; // from each candidate to the nearest vertex
+    uint32_t candidate_count;
+    hair_vec3* sum; // of the middles of a vertex's triangles, by area
+    float* area;
+    double* plane;
 };
 
 // Azimuth in degrees, height in metres: forehead, the corner above the temple, sideburn, round the ear, nape.
@@ -40,7 +40,7 @@ static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f}, 
 float hair_scalp_hairline(float azimuth)
 {
     float degrees = fabsf(remainderf(azimuth, 2 * PI)) * (180 / PI);
-    int   i       = 0;
+    int i = 0;
     while (i < HAIRLINE_KNOTS - 2 && hairline[i + 1][0] < degrees) ++i;
     // Catmull and Rom 1974, with level ends.
     float p = hairline[i > 0 ? i - 1 : 1][1], q = hairline[i][1], r = hairline[i + 1][1];
@@ -71,7 +71,7 @@ static void add_vertex(struct build* build, hair_vec3 p)
 // Azimuth at which the parting meets the hairline, on either side of it.
 static float parting_azimuth(const struct build* build, float side)
 {
-    float x       = build->parting.front + side * PARTING_HALF;
+    float x = build->parting.front + side * PARTING_HALF;
     float azimuth = 0;
     for (int i = 0; i < 4;
          ++i) { // The hairline is nearly level there: a few turns settle it to a micrometre.
@@ -90,15 +90,15 @@ static uint32_t pieces(float length, float spacing, uint32_t least)
 // From one azimuth up to another. Adds the first end and not the last.
 static void add_hairline(struct build* build, float from, float to)
 {
-    float     along[FINE + 1] = {0};
-    hair_vec3 last            = hairline_point(from);
+    float along[FINE + 1] = {0};
+    hair_vec3 last = hairline_point(from);
     for (int i = 1; i <= FINE; ++i) {
         hair_vec3 p = hairline_point(from + (to - from) * (float)i / FINE);
-        along[i]    = along[i - 1] + hair_distance(p, last);
-        last        = p;
+        along[i] = along[i - 1] + hair_distance(p, last);
+        last = p;
     }
     uint32_t count = pieces(along[FINE], build->spacing, 7);
-    int      i     = 0;
+    int i = 0;
     for (uint32_t k = 0; k < count; ++k) {
         float target = along[FINE] * (float)k / (float)count;
         while (along[i + 1] < target) ++i;
@@ -117,8 +117,8 @@ float hair_parting_x(struct hair_parting parting, float z)
 static hair_vec3 parting_point(const struct build* build, float t, float side)
 {
     float front = hairline_point(parting_azimuth(build, side)).z;
-    float z     = front + (build->parting.crown_z - front) * t;
-    float x     = (hair_parting_x(build->parting, z) + side * PARTING_HALF) / HAIR_SKULL_X;
+    float z = front + (build->parting.crown_z - front) * t;
+    float x = (hair_parting_x(build->parting, z) + side * PARTING_HALF) / HAIR_SKULL_X;
     z /= HAIR_SKULL_Z;
     return hair_skull_point(hair_v3(x, sqrtf(1 - x * x - z * z), z));
 }
@@ -133,8 +133,8 @@ static void add_outline(struct build* build)
         return;
     }
     add_hairline(build, parting_azimuth(build, 1), 2 * PI + parting_azimuth(build, -1));
-    float    length = hair_distance(parting_point(build, 0, 0), parting_point(build, 1, 0));
-    uint32_t count  = pieces(length, build->spacing, 1);
+    float length = hair_distance(parting_point(build, 0, 0), parting_point(build, 1, 0));
+    uint32_t count = pieces(length, build->spacing, 1);
     for (uint32_t k = 0; k < count; ++k) add_vertex(build, parting_point(build, (float)k / (float)count, -1));
     add_vertex(build, parting_point(build, 1, 0));
     for (uint32_t k = count - 1; k > 0; --k)
@@ -148,11 +148,11 @@ static void add_outline(struct build* build)
 static void draw_candidates(struct build* build, float* share)
 {
     const float most = HAIR_SKULL_Y * HAIR_SKULL_Z;
-    uint32_t    seed = hair_hash(build->seed + 17u), tried = 0, kept = 0;
+    uint32_t seed = hair_hash(build->seed + 17u), tried = 0, kept = 0;
     while (kept < build->candidate_count) {
-        float     y = 2 * hair_random(&seed) - 1, azimuth = 2 * PI * hair_random(&seed);
-        float     r       = sqrtf(fmaxf(1 - y * y, 0));
-        hair_vec3 unit    = {r * sinf(azimuth), y, r * cosf(azimuth)};
+        float y = 2 * hair_random(&seed) - 1, azimuth = 2 * PI * hair_random(&seed);
+        float r = sqrtf(fmaxf(1 - y * y, 0));
+        hair_vec3 unit = {r * sinf(azimuth), y, r * cosf(azimuth)};
         hair_vec3 stretch = {HAIR_SKULL_Y * HAIR_SKULL_Z * unit.x, HAIR_SKULL_X * HAIR_SKULL_Z * unit.y,
                              HAIR_SKULL_X * HAIR_SKULL_Y * unit.z};
         ++tried;
@@ -172,8 +172,8 @@ static uint32_t shrink_gaps(struct build* build, hair_vec3 p)
 {
     uint32_t widest = 0;
     for (uint32_t i = 0; i < build->candidate_count; ++i) {
-        hair_vec3 d      = hair_sub(build->candidates[i], p);
-        float     square = hair_dot(d, d);
+        hair_vec3 d = hair_sub(build->candidates[i], p);
+        float square = hair_dot(d, d);
         if (square < build->gap[i]) build->gap[i] = square;
         if (build->gap[i] > build->gap[widest]) widest = i;
     }
@@ -201,8 +201,8 @@ static void fill_gaps(struct build* build, uint32_t vertex_count)
 static void project(struct build* build)
 {
     for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
-        hair_vec3 u             = hair_skull_unit(hair_load3(build->scalp.positions + 3 * i));
-        build->plane[2 * i]     = (double)u.z / (1.0 + (double)u.y);
+        hair_vec3 u = hair_skull_unit(hair_load3(build->scalp.positions + 3 * i));
+        build->plane[2 * i] = (double)u.z / (1.0 + (double)u.y);
         build->plane[2 * i + 1] = (double)u.x / (1.0 + (double)u.y);
     }
 }
@@ -241,10 +241,10 @@ static hair_vec3 clear_outline(const struct build* build, hair_vec3 p)
 {
     for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
         hair_vec3 a = vertex_at(build, i), b = vertex_at(build, j), middle = hair_lerp(a, b, 0.5f);
-        float     wanted = CLEARANCE * hair_distance(a, b);
+        float wanted = CLEARANCE * hair_distance(a, b);
         if (hair_distance(p, middle) >= wanted) continue;
         hair_vec3 away = hair_normalize(hair_sub(p, middle), hair_v3(0, 1, 0));
-        p              = hair_add(middle, hair_scale(away, wanted));
+        p = hair_add(middle, hair_scale(away, wanted));
     }
     return hair_skull_point(hair_skull_unit(p));
 }
@@ -255,11 +255,11 @@ static void relax(struct build* build)
     memset(build->area, 0, build->scalp.vertex_count * sizeof *build->area);
     for (uint32_t i = 0; i < build->scalp.triangle_count; ++i) {
         const uint32_t* corner = build->scalp.triangles + 3 * i;
-        hair_vec3       a      = hair_load3(build->scalp.positions + 3 * corner[0]);
-        hair_vec3       b      = hair_load3(build->scalp.positions + 3 * corner[1]);
-        hair_vec3       c      = hair_load3(build->scalp.positions + 3 * corner[2]);
-        float           area   = hair_length(hair_cross(hair_sub(b, a), hair_sub(c, a)));
-        hair_vec3       middle = hair_scale(hair_add(a, hair_add(b, c)), area / 3);
+        hair_vec3 a = hair_load3(build->scalp.positions + 3 * corner[0]);
+        hair_vec3 b = hair_load3(build->scalp.positions + 3 * corner[1]);
+        hair_vec3 c = hair_load3(build->scalp.positions + 3 * corner[2]);
+        float area = hair_length(hair_cross(hair_sub(b, a), hair_sub(c, a)));
+        hair_vec3 middle = hair_scale(hair_add(a, hair_add(b, c)), area / 3);
         for (int k = 0; k < 3; ++k) {
             build->sum[corner[k]] = hair_add(build->sum[corner[k]], middle);
             build->area[corner[k]] += area;
@@ -308,7 +308,7 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
 static void lift(struct build* build)
 {
     const float radius = 0.088f; // The skull's, about.
-    float       by     = build->spacing * build->spacing / (6 * radius);
+    float by = build->spacing * build->spacing / (6 * radius);
     for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
         hair_vec3 p = vertex_at(build, i);
         hair_store3(build->scalp.positions + 3 * (size_t)i,
@@ -320,15 +320,15 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
                              uint32_t seed, struct hair_scalp* out)
 {
     struct build build = {.host = host, .parting = parting, .seed = seed};
-    size_t       most  = (size_t)vertex_count + 64; // The outline of the fewest vertices may outnumber them.
+    size_t most = (size_t)vertex_count + 64; // The outline of the fewest vertices may outnumber them.
     build.candidate_count = CANDIDATES * vertex_count + 2048;
     build.scalp.positions = hair_alloc(host, most, 3 * sizeof(float));
     build.scalp.triangles = hair_alloc(host, 2 * most, 3 * sizeof(uint32_t));
-    build.candidates      = hair_alloc(host, build.candidate_count, sizeof(hair_vec3));
-    build.gap             = hair_alloc(host, build.candidate_count, sizeof(float));
-    build.sum             = hair_alloc(host, most, sizeof(hair_vec3));
-    build.area            = hair_alloc(host, most, sizeof(float));
-    build.plane           = hair_alloc(host, 2 * most, sizeof(double));
+    build.candidates = hair_alloc(host, build.candidate_count, sizeof(hair_vec3));
+    build.gap = hair_alloc(host, build.candidate_count, sizeof(float));
+    build.sum = hair_alloc(host, most, sizeof(hair_vec3));
+    build.area = hair_alloc(host, most, sizeof(float));
+    build.plane = hair_alloc(host, 2 * most, sizeof(double));
 
     hair_result result = HAIR_OK;
     if (!build.scalp.positions || !build.scalp.triangles || !build.candidates || !build.gap || !build.sum ||

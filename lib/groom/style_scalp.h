@@ -9,15 +9,15 @@
 // follower lies between guides that go opposite ways.
 struct hair_parting {
     uint32_t exists;
-    float    front, crown; // x of its ends. m.
-    float    crown_z;      // z of its far end. m.
+    float front, crown; // x of its ends. m.
+    float crown_z; // z of its far end. m.
 };
 
 struct hair_scalp {
-    float*    positions; // xyz per vertex
-    uint32_t  vertex_count;
+    float* positions; // xyz per vertex
+    uint32_t vertex_count;
     uint32_t* triangles; // three each, counter-clockwise from outside
-    uint32_t  triangle_count;
+    uint32_t triangle_count;
 };
 
 #define HAIR_PARTING_FRONT_Z 0.074f // Where partings begin: the hairline above the brow. m.
@@ -28,7 +28,7 @@ float hair_parting_x(struct hair_parting parting, float z);
 // `vertex_count` vertices in all, 16 or more. On failure nothing is kept.
 hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struct hair_parting parting,
                              uint32_t seed, struct hair_scalp* out);
-void        hair_scalp_free(const hair_host* host, struct hair_scalp* scalp);
+void hair_scalp_free(const hair_host* host, struct hair_scalp* scalp);
 
 // Height of the hairline where the skull, scaled to a sphere, is `azimuth` away from the face. m.
 float hair_scalp_hairline(float azimuth);

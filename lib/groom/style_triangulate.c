@@ -13,7 +13,7 @@
 
 struct face {
     uint32_t corner[3];
-    double   x, y, square; // circumcircle
+    double x, y, square; // circumcircle
 };
 
 struct edge {
@@ -21,28 +21,28 @@ struct edge {
 };
 
 struct place {
-    double   x;
+    double x;
     uint32_t index;
 };
 
 struct work {
-    double*       points; // with the three far corners behind them
+    double* points; // with the three far corners behind them
     struct place* order;
-    struct face*  faces; // not final
-    struct edge*  edges;
-    uint32_t      face_count, edge_count;
-    uint32_t      count; // of points
-    uint32_t*     out;
-    uint32_t      out_count;
+    struct face* faces; // not final
+    struct edge* edges;
+    uint32_t face_count, edge_count;
+    uint32_t count; // of points
+    uint32_t* out;
+    uint32_t out_count;
 };
 
 static struct face make_face(const double* points, uint32_t a, uint32_t b, uint32_t c)
 {
     const double *p = points + 2 * a, *q = points + 2 * b, *r = points + 2 * c;
-    double        qx = q[0] - p[0], qy = q[1] - p[1], rx = r[0] - p[0], ry = r[1] - p[1];
-    double        q2 = qx * qx + qy * qy, r2 = rx * rx + ry * ry;
-    double        twice = 2 * (qx * ry - qy * rx);
-    double        x = (ry * q2 - qy * r2) / twice, y = (qx * r2 - rx * q2) / twice;
+    double qx = q[0] - p[0], qy = q[1] - p[1], rx = r[0] - p[0], ry = r[1] - p[1];
+    double q2 = qx * qx + qy * qy, r2 = rx * rx + ry * ry;
+    double twice = 2 * (qx * ry - qy * rx);
+    double x = (ry * q2 - qy * r2) / twice, y = (qx * r2 - rx * q2) / twice;
     return (struct face){{a, b, c}, p[0] + x, p[1] + y, x * x + y * y};
 }
 
@@ -77,7 +77,7 @@ static int is_final(const struct face* face, double x)
 
 static void insert(struct work* work, uint32_t point)
 {
-    const double* p  = work->points + 2 * point;
+    const double* p = work->points + 2 * point;
     work->edge_count = 0;
     for (uint32_t i = 0; i < work->face_count;) {
         struct face* face = &work->faces[i];
@@ -123,13 +123,13 @@ static void triangulate(struct work* work)
 uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t count, uint32_t* out)
 {
     // n points and three corners have 2 n + 1 triangles; a hole of k has at most 3 k edges while it is found.
-    size_t      most = 2 * (size_t)count + 8;
+    size_t most = 2 * (size_t)count + 8;
     struct work work = {.points = hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
-                        .order  = hair_alloc(host, count, sizeof(struct place)),
-                        .faces  = hair_alloc(host, most, sizeof(struct face)),
-                        .edges  = hair_alloc(host, 3 * most, sizeof(struct edge)),
-                        .count  = count,
-                        .out    = out};
+                        .order = hair_alloc(host, count, sizeof(struct place)),
+                        .faces = hair_alloc(host, most, sizeof(struct face)),
+                        .edges = hair_alloc(host, 3 * most, sizeof(struct edge)),
+                        .count = count,
+                        .out = out};
     if (work.points && work.order && work.faces && work.edges) {
         copy_points(points, count, work.points);
         triangulate(&work);

@@ -7,14 +7,14 @@
 
 struct hair_surface {
     const struct hair_draft* draft;
-    float*                   corners; // xyz, three per triangle, so that a corner tells its triangle
-    uint32_t*                indices;
-    struct hair_triangles    triangles; // a count of 0: all are degenerate
+    float* corners; // xyz, three per triangle, so that a corner tells its triangle
+    uint32_t* indices;
+    struct hair_triangles triangles; // a count of 0: all are degenerate
 };
 
 // To be freed also where it has failed.
 hair_result hair_surface_build(const struct hair_draft* draft, struct hair_surface* out);
-void        hair_surface_free(struct hair_surface* surface);
+void hair_surface_free(struct hair_surface* surface);
 
 // There is a triangle.
 struct hair_spot hair_surface_spot(struct hair_surface* surface, hair_vec3 root);

@@ -4,10 +4,10 @@
 hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
 {
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
-    smooth->gl                     = gl;
-    smooth->vertices               = sim->guides * sim->smooth_vertices;
-    smooth->pass                   = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->most_vertices);
-    hair_result result             = hair_gl_need(gl, smooth->pass);
+    smooth->gl = gl;
+    smooth->vertices = sim->guides * sim->smooth_vertices;
+    smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->most_vertices);
+    hair_result result = hair_gl_need(gl, smooth->pass);
     for (int i = 0; i < 3 && !result; ++i) {
         result =
             hair_gl_storage(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);

@@ -16,17 +16,17 @@ static double lost(double drag, double width)
 void hair_reference_around_ball(const double wind[3], const double place[3], double out[3])
 {
     const Vector3d u = vector_of(wind), p = vector_of(place);
-    const double   speed = u.norm(), r = std::max(p.norm(), 1e-6);
+    const double speed = u.norm(), r = std::max(p.norm(), 1e-6);
     if (!(speed > 0)) {
         store(u, out);
         return;
     }
     // A source and a sink: u + (u - 3 (u.n) n) / (2 r^3), which has no part along n on the ball itself.
     const Vector3d n = p / r, past = u + (u - 3 * u.dot(n) * n) / (2 * std::pow(std::max(r, 1.0), 3));
-    const double   x = p.dot(u) / speed, beside = std::sqrt(std::max(p.squaredNorm() - x * x, 0.0));
-    const double   width = 0.7 + 0.1 * std::max(x, 0.0), still = std::exp(-0.12 * x * x);
-    const double   begun = std::clamp(x + 0.4, 0.0, 1.0);
-    const double   lack =
+    const double x = p.dot(u) / speed, beside = std::sqrt(std::max(p.squaredNorm() - x * x, 0.0));
+    const double width = 0.7 + 0.1 * std::max(x, 0.0), still = std::exp(-0.12 * x * x);
+    const double begun = std::clamp(x + 0.4, 0.0, 1.0);
+    const double lack =
         (still + (1 - still) * lost(0.5, width)) * std::exp(-beside * beside / (2 * width * width));
     store((1 - lack * begun * begun * (3 - 2 * begun)) * past, out);
 }

@@ -52,7 +52,7 @@ curve hang(double gamma, double load, double tip)
         return curve(c[1], (gamma * s + load) * sine, sine, std::cos(c[0]));
     };
     const int steps = 8 + int(std::sqrt(gamma + load));
-    curve     c(tip, 0, 0, 0);
+    curve c(tip, 0, 0, 0);
     for (int i = 0; i < steps; ++i) c = gragg_step(slope, double(i) / steps, c, 1.0 / steps);
     return c;
 }
@@ -68,8 +68,8 @@ double hair_reference_agm(double a, double b)
 {
     for (int i = 0; i < 60; ++i) {
         const double mean = (a + b) / 2;
-        b                 = std::sqrt(a * b);
-        a                 = mean;
+        b = std::sqrt(a * b);
+        a = mean;
     }
     return a;
 }
@@ -104,15 +104,15 @@ double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double
                                         const double* masses, double gravity)
 {
     std::vector<double> tension(links + 1, 0.0); // over length, of the link above each mass
-    double              weight = 0;
+    double weight = 0;
     for (uint32_t i = links; i-- > 0;) tension[i] = (weight += masses[i] * gravity) / lengths[i];
     // Eigenvalues of K y = w^2 M y below w^2 are as many as pivots of K - w^2 M below 0 (Sylvester).
     const auto short_of = [&](double w) {
         uint32_t below = 0;
-        double   pivot = 1;
+        double pivot = 1;
         for (uint32_t i = 0; i < links; ++i) {
             const double beside = i ? tension[i] * tension[i] / pivot : 0;
-            pivot               = tension[i] + tension[i + 1] - w * w * masses[i] - beside;
+            pivot = tension[i] + tension[i + 1] - w * w * masses[i] - beside;
             if (pivot < 0) ++below;
         }
         return below < n ? -1.0 : 1.0;
@@ -127,19 +127,19 @@ double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double
 struct hair_reference_elastica hair_reference_elastica(double gamma, double load, double angle)
 {
     const double clamp = pi / 2 - angle;
-    const auto   tip   = [](double y) { return 2 * std::atan(std::exp(y)); };
-    const auto   f     = [&](double y) { return hang(gamma, load, tip(y))[0] - clamp; };
+    const auto tip = [](double y) { return 2 * std::atan(std::exp(y)); };
+    const auto f = [&](double y) { return hang(gamma, load, tip(y))[0] - clamp; };
     // No load lets the angle grow by more than e^(length sqrt(load)) (2/3 of it by the weight).
     const double from = std::log(clamp) - 5 - std::sqrt(gamma + load);
-    const double y    = zero_above(f, from, 0.5, 1);
-    const curve  c    = hang(gamma, load, tip(y));
+    const double y = zero_above(f, from, 0.5, 1);
+    const curve c = hang(gamma, load, tip(y));
     return {c[2], c[3], pi / 2 - tip(y)};
 }
 
 // Half the chain is a sinh(s / a) = 1/2 with a its lowest tension over its weight.
 struct hair_reference_catenary hair_reference_catenary(double span)
 {
-    const auto   f = [&](double x) { return std::sinh(x) * span - x; }; // x = span / (2 a)
+    const auto f = [&](double x) { return std::sinh(x) * span - x; }; // x = span / (2 a)
     const double x = zero_between(f, 1e-9, 700), a = span / (2 * x);
     return {a * (std::cosh(x) - 1), std::atan(std::sinh(x)), a * std::cosh(x)};
 }
@@ -147,15 +147,15 @@ struct hair_reference_catenary hair_reference_catenary(double span)
 // The links' slopes are the weight between their middle and the chain's over the horizontal tension.
 struct hair_reference_catenary hair_reference_catenary_of_links(double span, uint32_t links)
 {
-    const double length  = 1.0 / links;
-    const auto   reaches = [&](double tension) {
+    const double length = 1.0 / links;
+    const auto reaches = [&](double tension) {
         double across = 0;
         for (uint32_t i = 0; i < links; ++i)
             across += length * std::cos(std::atan((i + 0.5 - links / 2.0) * length / tension));
         return across - span;
     };
-    const double                   tension = zero_between(reaches, 1e-9, 1e9);
-    struct hair_reference_catenary c       = {0, std::atan(0.5 * (1 - length) / tension), 0};
+    const double tension = zero_between(reaches, 1e-9, 1e9);
+    struct hair_reference_catenary c = {0, std::atan(0.5 * (1 - length) / tension), 0};
     for (uint32_t i = 0; i < links / 2; ++i)
         c.sag += length * std::sin(std::atan((links / 2.0 - i - 0.5) * length / tension));
     c.tension = tension / std::cos(c.slope);

@@ -30,7 +30,7 @@ double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double
 /// A plane rod of unit length and bending stiffness.
 struct hair_reference_elastica {
     double across, down; ///< From clamp to tip.
-    double tip;          ///< Angle below the horizontal, rad.
+    double tip; ///< Angle below the horizontal, rad.
 };
 /// Under its own weight `gamma` and a weight `load` at the tip, clamped `angle` below the horizontal, rad,
 /// (-pi/2, pi/2). Where there are several, the one that hangs lowest.
@@ -39,7 +39,7 @@ struct hair_reference_elastica hair_reference_elastica(double gamma, double load
 /// A chain of unit length and weight between two pins of one height, `span` apart, (0, 1).
 struct hair_reference_catenary {
     double sag;
-    double slope;   ///< At the pins, below the horizontal, rad.
+    double slope; ///< At the pins, below the horizontal, rad.
     double tension; ///< There.
 };
 struct hair_reference_catenary hair_reference_catenary(double span);
@@ -51,8 +51,8 @@ struct hair_reference_catenary hair_reference_catenary_of_links(double span, uin
 /// Rods without mass hung from each other in a plane, with point masses at their lower ends; angles from
 /// straight down, rad, and their rates. On by `dt` in `steps` of order 16: 100 a second are enough for 4 links
 /// of 0.3 m in all, and 400 for 8. The energy tells.
-void   hair_reference_linkage_advance(uint32_t links, const double* lengths, const double* masses,
-                                      double gravity, double dt, uint32_t steps, double* angles, double* rates);
+void hair_reference_linkage_advance(uint32_t links, const double* lengths, const double* masses,
+                                    double gravity, double dt, uint32_t steps, double* angles, double* rates);
 double hair_reference_linkage_energy(uint32_t links, const double* lengths, const double* masses,
                                      double gravity, const double* angles, const double* rates);
 

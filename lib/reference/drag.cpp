@@ -21,8 +21,8 @@ void hair_reference_drag(const struct hair_reference_air* air, double diameter, 
                          const double along[3], double force[3])
 {
     const Vector3d u = vector_of(velocity), t = vector_of(along), by = u.dot(t) * t, across = u - by;
-    const double   speed = across.norm(), reynolds = speed * diameter * air->density / air->viscosity;
-    Vector3d       f = hair_reference_drag_along(reynolds) * air->viscosity * by;
+    const double speed = across.norm(), reynolds = speed * diameter * air->density / air->viscosity;
+    Vector3d f = hair_reference_drag_along(reynolds) * air->viscosity * by;
     if (reynolds > 0)
         f += hair_reference_drag_across(reynolds) * air->density * diameter / 2 * speed * across;
     store(f, force);

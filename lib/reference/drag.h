@@ -16,7 +16,7 @@ double hair_reference_drag_across(double reynolds);
 double hair_reference_drag_along(double reynolds);
 
 struct hair_reference_air {
-    double density;   ///< kg/m^3.
+    double density; ///< kg/m^3.
     double viscosity; ///< Dynamic. Pa s.
 };
 

@@ -9,8 +9,8 @@
 namespace
 {
 
-const double pi    = 3.14159265358979323846;
-const int    lobes = 3;
+const double pi = 3.14159265358979323846;
+const int lobes = 3;
 
 // Longitudinal variance of a lobe as a share of R's, and by how much its scales tilt it, in theirs (Marschner et al. 2003).
 const double width_of[lobes] = {1, 0.25, 4}, tilt_of[lobes] = {-1, 0.5, 1.5};
@@ -22,14 +22,14 @@ struct table {
     void look_up(double x, double y, int layer, double out[4]) const
     {
         const double column = std::clamp(x, 0.0, 1.0) * (HAIR_FIBRE_COLUMNS - 1),
-                     row    = std::clamp(y, 0.0, 1.0) * (HAIR_FIBRE_ROWS - 1);
-        const int i         = std::min(int(column), HAIR_FIBRE_COLUMNS - 2),
-                  k         = std::min(int(row), HAIR_FIBRE_ROWS - 2);
+                     row = std::clamp(y, 0.0, 1.0) * (HAIR_FIBRE_ROWS - 1);
+        const int i = std::min(int(column), HAIR_FIBRE_COLUMNS - 2),
+                  k = std::min(int(row), HAIR_FIBRE_ROWS - 2);
         std::fill(out, out + 4, 0.0);
         for (int n = 0; n < 4; ++n) {
-            const int        a = n & 1, b = n >> 1;
-            const double     weight = (a ? column - i : i + 1 - column) * (b ? row - k : k + 1 - row);
-            const hair_vec4& v      = values[(layer * HAIR_FIBRE_ROWS + k + b) * HAIR_FIBRE_COLUMNS + i + a];
+            const int a = n & 1, b = n >> 1;
+            const double weight = (a ? column - i : i + 1 - column) * (b ? row - k : k + 1 - row);
+            const hair_vec4& v = values[(layer * HAIR_FIBRE_ROWS + k + b) * HAIR_FIBRE_COLUMNS + i + a];
             out[0] += weight * v.x, out[1] += weight * v.y, out[2] += weight * v.z, out[3] += weight * v.w;
         }
     }
@@ -64,9 +64,9 @@ double longitudinal(double sin_l, double cos_l, double sin_e, double cos_e, doub
 // What makes that symmetric: fibre.glsl has the fit.
 double symmetric(double cos_l, double cos_e, double v)
 {
-    const double s       = v / (v + 0.3);
+    const double s = v / (v + 0.3);
     const double grazing = std::sqrt(s * (0.304161 + s * (-0.101796 + s * (1.961349 - 1.543683 * s)))),
-                 normal  = 1 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
+                 normal = 1 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
     const double g = std::pow(grazing, 3), n = std::pow(normal, 3) - g;
     return std::pow((g + n * std::pow(cos_l, 3)) * (g + n * std::pow(cos_e, 3)), -1.0 / 6);
 }
@@ -82,7 +82,7 @@ angles measure(const Vector3d& tangent, const Vector3d& light, const Vector3d& e
     a.cos_l = std::sqrt(1 - a.sin_l * a.sin_l), a.cos_e = std::sqrt(1 - a.sin_e * a.sin_e);
     a.half = std::sqrt(std::clamp(0.5 + 0.5 * (a.cos_l * a.cos_e + a.sin_l * a.sin_e), 0.0, 1.0));
     const double across = (light.dot(eye) - a.sin_l * a.sin_e) / std::max(a.cos_l * a.cos_e, 1e-9);
-    a.turn              = std::acos(std::clamp(across, -1.0, 1.0)) / pi;
+    a.turn = std::acos(std::clamp(across, -1.0, 1.0)) / pi;
     return a;
 }
 
@@ -115,11 +115,11 @@ struct row_sums {
 
     row_sums(const table& t, double half, int lobe)
     {
-        const double     step = pi / (HAIR_FIBRE_COLUMNS - 1), row = half * (HAIR_FIBRE_ROWS - 1);
-        const int        k   = std::min(int(row), HAIR_FIBRE_ROWS - 2);
+        const double step = pi / (HAIR_FIBRE_COLUMNS - 1), row = half * (HAIR_FIBRE_ROWS - 1);
+        const int k = std::min(int(row), HAIR_FIBRE_ROWS - 2);
         const hair_vec4 *low = t.values + k * HAIR_FIBRE_COLUMNS, *high = low + HAIR_FIBRE_COLUMNS;
         for (int i = 0; i < HAIR_FIBRE_COLUMNS; ++i) {
-            at[i]   = (k + 1 - row) * share_of(low[i], lobe) + (row - k) * share_of(high[i], lobe);
+            at[i] = (k + 1 - row) * share_of(low[i], lobe) + (row - k) * share_of(high[i], lobe);
             upto[i] = i ? upto[i - 1] + 0.5 * step * (at[i - 1] + at[i]) : 0;
         }
     }
@@ -129,8 +129,8 @@ struct row_sums {
     double choose(double random) const
     {
         const double step = pi / (HAIR_FIBRE_COLUMNS - 1), wanted = random * upto[HAIR_FIBRE_COLUMNS - 1];
-        int          i = int(std::upper_bound(upto, upto + HAIR_FIBRE_COLUMNS, wanted) - upto) - 1;
-        i              = std::clamp(i, 0, HAIR_FIBRE_COLUMNS - 2);
+        int i = int(std::upper_bound(upto, upto + HAIR_FIBRE_COLUMNS, wanted) - upto) - 1;
+        i = std::clamp(i, 0, HAIR_FIBRE_COLUMNS - 2);
         const double a = at[i], slope = (at[i + 1] - a) / step, left = wanted - upto[i];
         const double root = std::sqrt(std::max(a * a + 2 * slope * left, 0.0));
         return i * step + std::min(a + root > 0 ? 2 * left / (a + root) : 0, step);
@@ -143,9 +143,9 @@ void hair_reference_scatter(const struct hair_reference_fibre* fibre, const doub
                             const double to_light[3], const double to_eye[3], const double* mu, int count,
                             double* out)
 {
-    const table  t{fibre->table};
+    const table t{fibre->table};
     const angles a = measure(vector_of(tangent), vector_of(to_light), vector_of(to_eye));
-    double       share[4], path[4], m[lobes];
+    double share[4], path[4], m[lobes];
     t.look_up(a.turn, a.half, 0, share);
     t.look_up(a.turn, a.half, 1, path);
     for (int p = 0; p < lobes; ++p) {
@@ -162,12 +162,12 @@ void hair_reference_scatter(const struct hair_reference_fibre* fibre, const doub
 double hair_reference_choose(const struct hair_reference_fibre* fibre, const double tangent[3],
                              const double to_eye[3], const double random[3], double to_light[3])
 {
-    const table    t{fibre->table};
+    const table t{fibre->table};
     const Vector3d along = vector_of(tangent), eye = vector_of(to_eye);
-    const double   sin_e = std::clamp(along.dot(eye), -1.0, 1.0), cos_e = std::sqrt(1 - sin_e * sin_e);
+    const double sin_e = std::clamp(along.dot(eye), -1.0, 1.0), cos_e = std::sqrt(1 - sin_e * sin_e);
     // Lobes about as often as they are strong where the eye's cone is mirrored to.
     double chosen[lobes], all = 0, x = random[0];
-    int    lobe = 0;
+    int lobe = 0;
     for (int p = 0; p < lobes; ++p) all += chosen[p] = row_sums(t, cos_e, p).whole();
     for (double& share : chosen) share /= all;
     while (lobe < lobes - 1 && x >= chosen[lobe]) x -= chosen[lobe++];
@@ -176,16 +176,16 @@ double hair_reference_choose(const struct hair_reference_fibre* fibre, const dou
     // d'Eon et al. 2013: along the fibre, about the cone that the eye's would be mirrored to.
     const double v = width_of[lobe] * fibre->variance, by = tilt_of[lobe] * fibre->tilt;
     const double cone = by - std::asin(sin_e);
-    const double u    = 1 + v * std::log(std::max(x, 1e-12) + (1 - x) * std::exp(-2 / v));
+    const double u = 1 + v * std::log(std::max(x, 1e-12) + (1 - x) * std::exp(-2 / v));
     const double sine = u * std::sin(cone) +
                         std::sqrt(std::max(1 - u * u, 0.0)) * std::cos(2 * pi * random[1]) * std::cos(cone);
     const double level = std::asin(std::clamp(sine, -1.0, 1.0)) + by;
     const double sin_l = std::sin(level), cos_l = std::abs(std::cos(level));
 
     const double half = std::sqrt(std::clamp(0.5 + 0.5 * (cos_l * cos_e + sin_l * sin_e), 0.0, 1.0));
-    const bool   left = random[2] < 0.5;
+    const bool left = random[2] < 0.5;
     const double turn = row_sums(t, half, lobe).choose(2 * random[2] - (left ? 0 : 1));
-    Vector3d     out  = eye - sin_e * along;
+    Vector3d out = eye - sin_e * along;
     if (out.norm() < 1e-9) out = along.unitOrthogonal();
     out.normalize();
     const Vector3d side = along.cross(out);
@@ -194,13 +194,13 @@ double hair_reference_choose(const struct hair_reference_fibre* fibre, const dou
     store(light, to_light);
 
     // Scales turn what lies at the fibre's ends over to the other side.
-    const angles a  = measure(along, light, eye);
+    const angles a = measure(along, light, eye);
     const double at = std::asin(a.sin_l), ways[3] = {at, pi - at, -pi - at};
-    double       share[4], density                = 0;
+    double share[4], density = 0;
     t.look_up(a.turn, a.half, 0, share);
     for (int p = 0; p < lobes; ++p) {
         const tilted l(a, *fibre, p);
-        double       m = 0;
+        double m = 0;
         for (const double way : ways) {
             const double from = way - tilt_of[p] * fibre->tilt;
             if (std::abs(from) < 0.5 * pi)

@@ -11,8 +11,8 @@ extern "C" {
 struct hair_reference_fibre {
     /// As lib/draw/fibre.h has it: HAIR_FIBRE_LAYERS of HAIR_FIBRE_ROWS of HAIR_FIBRE_COLUMNS.
     const hair_vec4* table;
-    double           variance; ///< Of R along the fibre. Radians^2.
-    double           tilt;     ///< Of its scales. Radians.
+    double variance; ///< Of R along the fibre. Radians^2.
+    double tilt; ///< Of its scales. Radians.
 };
 
 /// From a light to the eye, both unit and away from the fibre, whose unit tangent goes to its tip. mu: absorption per radius of

@@ -11,7 +11,7 @@ namespace
 {
 
 using place = std::array<double, 3>;
-using cell  = std::array<int, 3>;
+using cell = std::array<int, 3>;
 
 struct grid {
     int n;
@@ -22,7 +22,7 @@ struct grid {
     {
         return axis * faces() + at[0] + (n + 1) * (at[1] + (n + 1) * at[2]);
     }
-    int  index(const cell& at) const { return at[0] + n * (at[1] + n * at[2]); }
+    int index(const cell& at) const { return at[0] + n * (at[1] + n * at[2]); }
     cell at(int i) const { return {i % n, i / n % n, i / n / n}; }
     bool holds(const cell& at) const
     {
@@ -56,17 +56,17 @@ place middle(int axis, const cell& at)
 
 // Linear between the eight around, of points that lie `offset` from the cells' corners, count[k] of them along an axis.
 struct corners {
-    std::array<cell, 8>   at;
+    std::array<cell, 8> at;
     std::array<double, 8> weight;
 
     corners(const place& p, const place& offset, const cell& count)
     {
-        cell  lowest;
+        cell lowest;
         place part;
         for (int k = 0; k < 3; ++k) {
             const double g = std::clamp(p[k] - offset[k], 0.0, count[k] - 1.0);
-            lowest[k]      = std::min(int(std::floor(g)), count[k] - 2);
-            part[k]        = g - lowest[k];
+            lowest[k] = std::min(int(std::floor(g)), count[k] - 2);
+            part[k] = g - lowest[k];
         }
         for (int c = 0; c < 8; ++c) {
             weight[c] = 1;
@@ -81,24 +81,24 @@ struct corners {
 corners faces_around(const grid& g, int axis, const place& p)
 {
     place offset = {0.5, 0.5, 0.5};
-    cell  count  = {g.n, g.n, g.n};
+    cell count = {g.n, g.n, g.n};
     offset[axis] = 0, count[axis] = g.n + 1;
     return corners(p, offset, count);
 }
 
 double sample(const grid& g, const double* faces, int axis, const place& p)
 {
-    const corners c   = faces_around(g, axis, p);
-    double        sum = 0;
+    const corners c = faces_around(g, axis, p);
+    double sum = 0;
     for (int k = 0; k < 8; ++k) sum += c.weight[k] * faces[g.face(axis, c.at[k])];
     return sum;
 }
 
 place way(const hair_reference_flow& flow, const place& p)
 {
-    const grid    g{int(flow.cells)};
+    const grid g{int(flow.cells)};
     const corners c(p, {0.5, 0.5, 0.5}, {g.n, g.n, g.n});
-    place         sum = {0, 0, 0};
+    place sum = {0, 0, 0};
     for (int k = 0; k < 8; ++k)
         for (int a = 0; a < 3; ++a)
             sum[a] += flow.cells_per * c.weight[k] * flow.air[3 * g.index(c.at[k]) + a];
@@ -110,7 +110,7 @@ place way(const hair_reference_flow& flow, const place& p)
 place trace(const hair_reference_flow& flow, const place& p, double direction)
 {
     const place first = way(flow, p);
-    place       half, end;
+    place half, end;
     for (int k = 0; k < 3; ++k) half[k] = p[k] + 0.5 * direction * first[k];
     const place second = way(flow, half);
     for (int k = 0; k < 3; ++k) end[k] = p[k] + direction * second[k];
@@ -144,7 +144,7 @@ template <typename Function> void for_faces(const grid& g, Function function)
 {
     for (int axis = 0; axis < 3; ++axis)
         for (int i = 0; i < g.faces(); ++i) {
-            const int  m  = g.n + 1;
+            const int m = g.n + 1;
             const cell at = {i % m, i / m % m, i / m / m};
             if (g.is_face(axis, at)) function(axis, at);
         }
@@ -159,7 +159,7 @@ struct row {
         for (int axis = 0; axis < 3; ++axis)
             for (int side = 0; side < 2; ++side) {
                 const double share = open[g.face(axis, next(at, axis, side))];
-                const cell   other = next(at, axis, 2 * side - 1);
+                const cell other = next(at, axis, 2 * side - 1);
                 whole += g.holds(other) ? share : 2 * share;
                 if (g.holds(other)) neighbours += share * pressure[g.index(other)];
             }
@@ -168,7 +168,7 @@ struct row {
 
 } // namespace
 
-double hair_reference_open(uint32_t axis, const int32_t                                             at[3],
+double hair_reference_open(uint32_t axis, const int32_t at[3],
                            double (*distance)(const double place[3], const void* user), const void* user)
 {
     double sum = 0;
@@ -201,7 +201,7 @@ void hair_reference_carry(const hair_reference_flow* flow, double* least, double
     const grid g{int(flow->cells)};
     for_faces(g, [&](int axis, const cell& at) {
         const place from = trace(*flow, shifted(*flow, middle(axis, at), 1), -1);
-        range       r;
+        range r;
         for (const place& p : around(from, flow->blur))
             r.add(g.holds(p) ? sample(g, flow->before, axis, p) : flow->wind[axis]);
         least[g.face(axis, at)] = r.least, most[g.face(axis, at)] = r.most;
@@ -213,12 +213,12 @@ void hair_reference_correct(const hair_reference_flow* flow, const double* carri
 {
     const grid g{int(flow->cells)};
     for_faces(g, [&](int axis, const cell& at) {
-        const int    face = g.face(axis, at);
-        const place  own  = shifted(*flow, middle(axis, at), 1);
-        const place  from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
+        const int face = g.face(axis, at);
+        const place own = shifted(*flow, middle(axis, at), 1);
+        const place from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
         const double was = g.holds(own) ? sample(g, flow->before, axis, own) : NAN;
-        range        better, r;
-        bool         ends = !g.holds(own); // nothing is known of how it would come back
+        range better, r;
+        bool ends = !g.holds(own); // nothing is known of how it would come back
         for (const place& p : around(to, flow->blur)) {
             if (g.holds(own) && g.holds(p))
                 better.add(carried[face] + (was - sample(g, carried, axis, p)) / 2);
@@ -242,15 +242,15 @@ void hair_reference_correct(const hair_reference_flow* flow, const double* carri
 void hair_reference_hold(const hair_reference_flow* flow, const hair_reference_thicket* hair, double* open,
                          double* wall)
 {
-    const grid   g{int(flow->cells)}, nodes{int(hair->nodes)};
+    const grid g{int(flow->cells)}, nodes{int(hair->nodes)};
     const double finer = double(hair->nodes) / flow->cells;
     for_faces(g, [&](int axis, const cell& at) {
-        const int     face = g.face(axis, at);
-        const place   here = middle(axis, at), then = shifted(*flow, here, 1);
+        const int face = g.face(axis, at);
+        const place here = middle(axis, at), then = shifted(*flow, here, 1);
         const corners c({finer * here[0], finer * here[1], finer * here[2]}, {0.5, 0.5, 0.5},
                         {nodes.n, nodes.n, nodes.n});
-        double        density = 0, speed = 0;
-        place         air = way(*flow, then), hairs = {0, 0, 0};
+        double density = 0, speed = 0;
+        place air = way(*flow, then), hairs = {0, 0, 0};
         for (int k = 0; k < 8; ++k) {
             density += c.weight[k] * hair->density[nodes.index(c.at[k])];
             for (int a = 0; a < 3; ++a) hairs[a] += c.weight[k] * hair->flux[3 * nodes.index(c.at[k]) + a];
@@ -262,9 +262,9 @@ void hair_reference_hold(const hair_reference_flow* flow, const hair_reference_t
             speed += (air[a] - hairs[a]) * (air[a] - hairs[a]);
         }
         const double reynolds = std::sqrt(speed) * hair->per_speed;
-        const double across   = reynolds > 0 ? hair_reference_drag_across(reynolds) * reynolds / 2 : 0;
-        const double along    = hair_reference_drag_along(reynolds);
-        const double left     = 1 / (1 + density * hair->viscous * (2 * across + along) / 3);
+        const double across = reynolds > 0 ? hair_reference_drag_across(reynolds) * reynolds / 2 : 0;
+        const double along = hair_reference_drag_along(reynolds);
+        const double left = 1 / (1 + density * hair->viscous * (2 * across + along) / 3);
         const double closed = 1 - open[face], held = open[face] * (1 - left);
         if (closed + held > 0) wall[face] = (held * hairs[axis] + closed * wall[face]) / (closed + held);
         open[face] *= left;
@@ -279,7 +279,7 @@ void hair_reference_inflow(uint32_t cells, const double* open, const double* wal
         right[i] = 0;
         for (int axis = 0; axis < 3; ++axis)
             for (int side = 0; side < 2; ++side) {
-                const int    f    = g.face(axis, next(g.at(i), axis, side));
+                const int f = g.face(axis, next(g.at(i), axis, side));
                 const double flow = open[f] * velocity[f] + (1 - open[f]) * wall[f];
                 right[i] += side ? -flow : flow;
             }
@@ -289,7 +289,7 @@ void hair_reference_inflow(uint32_t cells, const double* open, const double* wal
 void hair_reference_relax(uint32_t cells, const double* open, const double* right, uint32_t color,
                           double share, double* pressure)
 {
-    const grid                g{int(cells)};
+    const grid g{int(cells)};
     const std::vector<double> before(pressure, pressure + g.size());
     for (int i = 0; i < g.size(); ++i) {
         const cell at = g.at(i);
@@ -333,9 +333,9 @@ void hair_reference_release(uint32_t cells, const double* open, const double* wa
 {
     const grid g{int(cells)};
     for_faces(g, [&](int axis, const cell& at) {
-        const int  f     = g.face(axis, at);
+        const int f = g.face(axis, at);
         const cell below = next(at, axis, -1);
-        double     slope = 0;
+        double slope = 0;
         if (!g.holds(below))
             slope = 2 * pressure[g.index(at)];
         else if (!g.holds(at))

@@ -14,18 +14,18 @@ extern "C" {
 
 /// Where air is carried in a step.
 struct hair_reference_flow {
-    uint32_t      cells;
-    double        shift[3];  ///< By which the grid has moved since `before`. Cells.
-    double        cells_per; ///< That air of 1 m/s goes in a step.
-    double        wind[3];   ///< Outside. m/s.
-    double        gain[3];   ///< By which that has changed.
-    const double* before;    ///< Of faces. m/s.
-    const double* air;       ///< At the middles of cells, xyz each: what air is carried by. m/s.
-    double        blur;      ///< By which where air comes from and goes to may be off along each axis. Cells.
+    uint32_t cells;
+    double shift[3]; ///< By which the grid has moved since `before`. Cells.
+    double cells_per; ///< That air of 1 m/s goes in a step.
+    double wind[3]; ///< Outside. m/s.
+    double gain[3]; ///< By which that has changed.
+    const double* before; ///< Of faces. m/s.
+    const double* air; ///< At the middles of cells, xyz each: what air is carried by. m/s.
+    double blur; ///< By which where air comes from and goes to may be off along each axis. Cells.
 };
 
 /// Share of a face that is open. `distance`: to the nearest solid, in sides of a cell, at a place in the same unit.
-double hair_reference_open(uint32_t axis, const int32_t                                             at[3],
+double hair_reference_open(uint32_t axis, const int32_t at[3],
                            double (*distance)(const double place[3], const void* user), const void* user);
 /// Of the grid of half as many cells.
 void hair_reference_coarsen(uint32_t cells, const double* open, double* coarse);
@@ -38,11 +38,11 @@ void hair_reference_correct(const struct hair_reference_flow* flow, const double
 
 /// Strands that lie every way, in a grid of `nodes` along each axis whose cells' middles they are.
 struct hair_reference_thicket {
-    uint32_t      nodes;
-    const double* density;   ///< Metres of them in a cubic metre.
-    const double* flux;      ///< That times their velocity, xyz each. 1/m/s.
-    double        per_speed; ///< Reynolds number of a strand by the speed of air. s/m.
-    double        viscous;   ///< Their drag by a viscous force, over the step. m^2.
+    uint32_t nodes;
+    const double* density; ///< Metres of them in a cubic metre.
+    const double* flux; ///< That times their velocity, xyz each. 1/m/s.
+    double per_speed; ///< Reynolds number of a strand by the speed of air. s/m.
+    double viscous; ///< Their drag by a viscous force, over the step. m^2.
 };
 
 /// How open faces are and what closes them goes, after that is left of air which they hold back implicitly.

@@ -8,25 +8,25 @@ namespace
 {
 
 struct place {
-    Vector3d    position, tangent, bend; // bend: slope of the tangent by u
+    Vector3d position, tangent, bend; // bend: slope of the tangent by u
     Quaterniond frame;
-    double      length; // of the guide
+    double length; // of the guide
 };
 
 // Between samples everything is linear; beyond the tip (u > 1) the guide goes on straight.
 place find(const hair_reference_sample* samples, uint32_t count, double u)
 {
-    const double                 at = std::min(u, 1.0) * (count - 1);
-    const uint32_t               k  = std::min(uint32_t(at), count - 2);
-    const double                 w  = at - k;
+    const double at = std::min(u, 1.0) * (count - 1);
+    const uint32_t k = std::min(uint32_t(at), count - 2);
+    const double w = at - k;
     const hair_reference_sample &a = samples[k], &b = samples[k + 1];
-    Quaterniond                  qa = quaternion_of(a.frame), qb = quaternion_of(b.frame);
+    Quaterniond qa = quaternion_of(a.frame), qb = quaternion_of(b.frame);
     if (qa.dot(qb) < 0) qb.coeffs() *= -1;
     place p;
-    p.tangent  = direction_of((1 - w) * vector_of(a.tangent) + w * vector_of(b.tangent));
-    p.bend     = (count - 1) * (vector_of(b.tangent) - vector_of(a.tangent)) * (u < 1 ? 1 : 0);
-    p.frame    = Quaterniond((1 - w) * qa.coeffs() + w * qb.coeffs()).normalized();
-    p.length   = samples[count - 1].to_root;
+    p.tangent = direction_of((1 - w) * vector_of(a.tangent) + w * vector_of(b.tangent));
+    p.bend = (count - 1) * (vector_of(b.tangent) - vector_of(a.tangent)) * (u < 1 ? 1 : 0);
+    p.frame = Quaterniond((1 - w) * qa.coeffs() + w * qb.coeffs()).normalized();
+    p.length = samples[count - 1].to_root;
     p.position = (1 - w) * vector_of(a.position) + w * vector_of(b.position);
     if (u > 1) p.position += (u - 1) * p.length * p.tangent;
     return p;
@@ -65,9 +65,9 @@ void cut(hair_follower& f, double share)
 void hair_reference_switch(double t, double hit, hair_reference_repair* out)
 {
     const double before = std::max(hit - t, 0.0) / HAIR_SWITCH_ZONE;
-    *out                = {};
-    out->freed          = before < 1 ? 1 - before * before * (3 - 2 * before) : 0;
-    out->freed_slope    = before < 1 ? 6 * before * (1 - before) / HAIR_SWITCH_ZONE : 0;
+    *out = {};
+    out->freed = before < 1 ? 1 - before * before * (3 - 2 * before) : 0;
+    out->freed_slope = before < 1 ? 6 * before * (1 - before) / HAIR_SWITCH_ZONE : 0;
 }
 
 // De Boor's recurrence on the four control points that reach t; the slope is that of a quadratic of their differences.
@@ -75,8 +75,8 @@ void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], doubl
                            hair_reference_repair* out)
 {
     const double at = std::min(std::max(t, 0.0), 1.0) * HAIR_REPAIR_INTERVALS;
-    const int    k  = std::min(int(at), HAIR_REPAIR_INTERVALS - 1);
-    const double x  = at - k;
+    const int k = std::min(int(at), HAIR_REPAIR_INTERVALS - 1);
+    const double x = at - k;
     for (int axis = 0; axis < 4; ++axis) {
         double d[4];
         for (int i = 0; i < 4; ++i) {
@@ -92,7 +92,7 @@ void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], doubl
         const double slope = t > 1 ? 0 : HAIR_REPAIR_INTERVALS * (e[0] + x * (e[1] - e[0]));
         for (int level = 3; level > 0; --level)
             for (int i = 0; i < level; ++i) d[i] += (x + level - 1 - i) / level * (d[i + 1] - d[i]);
-        (axis < 3 ? out->away[axis] : out->freed)             = d[0];
+        (axis < 3 ? out->away[axis] : out->freed) = d[0];
         (axis < 3 ? out->away_slope[axis] : out->freed_slope) = slope;
     }
 }
@@ -102,23 +102,23 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
                              const hair_reference_repair* repair, hair_reference_point* out)
 {
     static const hair_reference_repair none = {};
-    const hair_reference_repair&       r    = repair ? *repair : none;
-    hair_follower                      own  = *follower;
+    const hair_reference_repair& r = repair ? *repair : none;
+    hair_follower own = *follower;
     cut(own, hair_reference_share(*look, own.seed));
-    const uint32_t guide[3]  = {own.guide0, own.guide1, own.guide2};
-    const double   weight[3] = {1 - double(own.weight1) - own.weight2, own.weight1, own.weight2};
-    const double   ratio = own.length_ratio, u = t * ratio, v = std::min(t, 1.0);
-    const place    first  = find(samples + size_t(guide[0]) * count, count, u);
-    const double   length = ratio * first.length;
-    const bezier   offset = evaluate(own.offset, v);
-    const along    width  = hair_reference_curve(look->clump_width, v);
-    const along    single = hair_reference_singleness(*look, v);
+    const uint32_t guide[3] = {own.guide0, own.guide1, own.guide2};
+    const double weight[3] = {1 - double(own.weight1) - own.weight2, own.weight1, own.weight2};
+    const double ratio = own.length_ratio, u = t * ratio, v = std::min(t, 1.0);
+    const place first = find(samples + size_t(guide[0]) * count, count, u);
+    const double length = ratio * first.length;
+    const bezier offset = evaluate(own.offset, v);
+    const along width = hair_reference_curve(look->clump_width, v);
+    const along single = hair_reference_singleness(*look, v);
 
     // One guide: its offset. Three: their mean, and a fixed offset of it from where the strand grows.
-    const Vector3d aside_one  = width.value * offset.point;
-    const Vector3d slope_one  = width.value * offset.slope + width.slope * offset.point;
+    const Vector3d aside_one = width.value * offset.point;
+    const Vector3d slope_one = width.value * offset.slope + width.slope * offset.point;
     const Vector3d aside_many = Vector3d(own.offset[1].w, own.offset[2].w, own.offset[3].w);
-    Vector3d       mean(0, 0, 0), mean_slope(0, 0, 0);
+    Vector3d mean(0, 0, 0), mean_slope(0, 0, 0);
     for (int i = 0; i < 3; ++i) {
         const place p = find(samples + size_t(guide[i]) * count, count, u);
         mean += weight[i] * p.position;
@@ -127,13 +127,13 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
     const double many = own.multi * (1 - single.value) * (1 - r.freed);
     const double many_slope =
         -own.multi * (single.slope * (1 - r.freed) + (1 - single.value) * r.freed_slope);
-    const astray   stray       = hair_reference_astray(*look, own.guide0, own.seed, v, length);
-    const Vector3d local       = (1 - many) * aside_one + many * aside_many + stray.at;
+    const astray stray = hair_reference_astray(*look, own.guide0, own.seed, v, length);
+    const Vector3d local = (1 - many) * aside_one + many * aside_many + stray.at;
     const Vector3d local_slope = (1 - many) * slope_one + many_slope * (aside_many - aside_one) + stray.slope;
-    const Vector3d turned      = first.frame * local;
+    const Vector3d turned = first.frame * local;
 
     const Vector3d position = (1 - many) * first.position + many * mean + turned;
-    const Vector3d slope    = (1 - many) * length * first.tangent + many * mean_slope +
+    const Vector3d slope = (1 - many) * length * first.tangent + many * mean_slope +
                            many_slope * (mean - first.position) + first.frame * local_slope -
                            ratio * first.bend.dot(turned) * first.tangent;
     store(position + Vector3d(r.away), out->position);

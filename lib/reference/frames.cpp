@@ -7,13 +7,13 @@ static Quaterniond least_rotation(const Vector3d& a, const Vector3d& b)
 {
     Quaterniond turn;
     if (1 + a.dot(b) < 1e-6) {
-        turn.w()   = 0;
+        turn.w() = 0;
         turn.vec() = a.unitOrthogonal();
         return turn;
     }
     const Vector3d half = (a + b).normalized();
-    turn.w()            = a.dot(half);
-    turn.vec()          = a.cross(half);
+    turn.w() = a.dot(half);
+    turn.vec() = a.cross(half);
     return turn.normalized();
 }
 
@@ -22,7 +22,7 @@ void hair_reference_frames(uint32_t segments, const double* directions, const do
     Quaterniond frame = quaternion_of(root);
     for (uint32_t i = 0; i < segments; ++i) {
         const Vector3d along = frame * Vector3d(0, 1, 0);
-        frame                = (least_rotation(along, vector_of(directions + 3 * i)) * frame).normalized();
+        frame = (least_rotation(along, vector_of(directions + 3 * i)) * frame).normalized();
         store(frame, frames + 4 * i);
     }
 }

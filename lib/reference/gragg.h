@@ -8,15 +8,15 @@ template <class Vector, class Function>
 Vector gragg_step(const Function& f, double t, const Vector& y, double step)
 {
     const int columns = 8;
-    Vector    table[columns][columns];
+    Vector table[columns][columns];
     for (int k = 0; k < columns; ++k) {
-        const int    parts  = 2 * (k + 1);
-        const double h      = step / parts;
-        Vector       before = y, at = y + h * f(t, y);
+        const int parts = 2 * (k + 1);
+        const double h = step / parts;
+        Vector before = y, at = y + h * f(t, y);
         for (int i = 1; i < parts; ++i) {
             const Vector after = before + 2 * h * f(t + i * h, at);
-            before             = at;
-            at                 = after;
+            before = at;
+            at = after;
         }
         table[k][0] = (at + before + h * f(t + step, at)) / 2;
         for (int j = 1; j <= k; ++j) {

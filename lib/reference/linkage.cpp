@@ -12,15 +12,15 @@ namespace
 
 struct linkage {
     VectorXd length, hanging; // hanging: mass below the upper end of a link
-    double   gravity;
+    double gravity;
 };
 
 linkage linkage_of(uint32_t links, const double* lengths, const double* masses, double gravity)
 {
     linkage l{VectorXd(links), VectorXd(links), gravity};
-    double  sum = 0;
+    double sum = 0;
     for (int i = int(links); i-- > 0;) {
-        l.length[i]  = lengths[i];
+        l.length[i] = lengths[i];
         l.hanging[i] = sum += masses[i];
     }
     return l;
@@ -31,15 +31,15 @@ linkage linkage_of(uint32_t links, const double* lengths, const double* masses, 
 // where H_ij is the mass that both links move, that below the lower of them.
 VectorXd slope(const linkage& l, const VectorXd& state)
 {
-    const int       n = int(l.length.size());
+    const int n = int(l.length.size());
     Eigen::MatrixXd inertia(n, n);
-    VectorXd        torque(n), result(2 * n);
+    VectorXd torque(n), result(2 * n);
     for (int i = 0; i < n; ++i) {
         torque[i] = -l.hanging[i] * l.gravity * l.length[i] * std::sin(state[i]);
         for (int j = 0; j < n; ++j) {
             const double shared = l.hanging[std::max(i, j)] * l.length[i] * l.length[j];
-            const double rate   = state[n + j];
-            inertia(i, j)       = shared * std::cos(state[i] - state[j]);
+            const double rate = state[n + j];
+            inertia(i, j) = shared * std::cos(state[i] - state[j]);
             torque[i] -= shared * std::sin(state[i] - state[j]) * rate * rate;
         }
     }
@@ -54,7 +54,7 @@ void hair_reference_linkage_advance(uint32_t links, const double* lengths, const
                                     double gravity, double dt, uint32_t steps, double* angles, double* rates)
 {
     const linkage l = linkage_of(links, lengths, masses, gravity);
-    VectorXd      state(2 * links);
+    VectorXd state(2 * links);
     for (int i = 0; i < int(links); ++i) state[i] = angles[i], state[int(links) + i] = rates[i];
     const auto f = [&](double, const VectorXd& y) { return slope(l, y); };
     for (uint32_t k = 0; k < steps; ++k) state = gragg_step(f, 0, state, dt / steps);

@@ -13,11 +13,11 @@
 namespace
 {
 
-const double infinity  = std::numeric_limits<double>::infinity();
-const int    always_on = 4; // Strands that every path may meet.
+const double infinity = std::numeric_limits<double>::infinity();
+const int always_on = 4; // Strands that every path may meet.
 
 struct hit {
-    double   way; // m
+    double way; // m
     uint32_t segment;
 };
 
@@ -64,10 +64,10 @@ class grid
         }
         if (!(in < leave)) return false;
         const Vector3d start = (from + in * way - lower_) / cell_;
-        int            at[3], step[3];
-        double         next[3], each[3];
+        int at[3], step[3];
+        double next[3], each[3];
         for (int i = 0; i < 3; ++i) {
-            at[i]   = std::clamp(int(start[i]), 0, size_[i] - 1);
+            at[i] = std::clamp(int(start[i]), 0, size_[i] - 1);
             step[i] = way[i] < 0 ? -1 : 1;
             each[i] = std::abs(cell_ / way[i]);
             next[i] = in + (way[i] < 0 ? start[i] - at[i] : at[i] + 1 - start[i]) * each[i];
@@ -98,9 +98,9 @@ class grid
     // Where a ray is nearest to a segment's axis, if it passes within a radius.
     double crossing(const Vector3d& from, const Vector3d& way, uint32_t segment) const
     {
-        const size_t   v = first_vertex(segment);
+        const size_t v = first_vertex(segment);
         const Vector3d a = vertex(v), along = vertex(v + 1) - a, normal = way.cross(along), to = a - from;
-        const double   square = normal.squaredNorm(), apart = to.dot(normal);
+        const double square = normal.squaredNorm(), apart = to.dot(normal);
         if (apart * apart > hair_.radius * hair_.radius * square || square <= 0) return infinity;
         const double t = to.cross(along).dot(normal) / square, s = to.cross(way).dot(normal) / square;
         return t > 1e-9 && s >= 0 && s <= 1 ? t : infinity;
@@ -109,9 +109,9 @@ class grid
     template <class Function> void for_cells(const Function& function) const
     {
         for (uint32_t segment = 0; segment < hair_.count * (hair_.each - 1); ++segment) {
-            const size_t   v = first_vertex(segment);
+            const size_t v = first_vertex(segment);
             const Vector3d a = vertex(v), b = vertex(v + 1);
-            int            low[3], high[3];
+            int low[3], high[3];
             for (int i = 0; i < 3; ++i) {
                 low[i] = std::max(int((std::min(a[i], b[i]) - hair_.radius - lower_[i]) / cell_), 0);
                 high[i] =
@@ -125,10 +125,10 @@ class grid
     }
 
     const hair_reference_hair& hair_;
-    Vector3d                   lower_, upper_;
-    double                     cell_; // m
-    int                        size_[3];
-    std::vector<uint32_t>      first_, segment_;
+    Vector3d lower_, upper_;
+    double cell_; // m
+    int size_[3];
+    std::vector<uint32_t> first_, segment_;
 };
 
 class tracer
@@ -141,12 +141,12 @@ class tracer
     {
         double left[HAIR_REFERENCE_MOST_COLORS],
             seen[HAIR_REFERENCE_MOST_LIGHTS][HAIR_REFERENCE_MOST_COLORS] = {};
-        uint32_t own                                                     = ~0u;
-        hit      at;
+        uint32_t own = ~0u;
+        hit at;
         std::fill(left, left + hair_.colors, 1.0);
         for (int met = 0; grid_.meet(from, way, own, false, at); ++met) {
             const Vector3d tangent = grid_.tangent(at.segment), to_eye = -way;
-            from += at.way * way, own                                  = grid_.strand(at.segment);
+            from += at.way * way, own = grid_.strand(at.segment);
             add_lights(from, tangent, to_eye, own, left, seen);
             if (met == 0) add(seen, sum.once);
             if (!go_on(tangent, to_eye, met, left, way)) break;
@@ -172,7 +172,7 @@ class tracer
                     const double* left, double (*seen)[HAIR_REFERENCE_MOST_COLORS])
     {
         double scattered[HAIR_REFERENCE_MOST_COLORS];
-        hit    any;
+        hit any;
         for (uint32_t l = 0; l < hair_.lights; ++l) {
             const Vector3d to = vector_of(hair_.to_light + 3 * l);
             if (grid_.meet(from, to, own, true, any)) continue;
@@ -187,7 +187,7 @@ class tracer
     bool go_on(const Vector3d& tangent, const Vector3d& to_eye, int met, double* left, Vector3d& way)
     {
         const double random[3] = {next(), next(), next()};
-        double       scattered[HAIR_REFERENCE_MOST_COLORS], most = 0;
+        double scattered[HAIR_REFERENCE_MOST_COLORS], most = 0;
         const double density =
             hair_reference_choose(&hair_.fibre, tangent.data(), to_eye.data(), random, way.data());
         if (!(density > 0)) return false;
@@ -204,8 +204,8 @@ class tracer
     double next() { return std::generate_canonical<double, 53>(random_); }
 
     const hair_reference_hair& hair_;
-    const grid                 grid_;
-    std::mt19937_64            random_;
+    const grid grid_;
+    std::mt19937_64 random_;
 };
 
 } // namespace
@@ -221,8 +221,8 @@ void hair_reference_paths(const struct hair_reference_hair* hair, const double* 
     for (int l = 0; l < HAIR_REFERENCE_MOST_LIGHTS; ++l)
         for (int i = 0; i < HAIR_REFERENCE_MOST_COLORS; ++i) {
             const double mean = out->often[l][i] / met;
-            out->error[l][i]  = std::sqrt(std::max(out->error[l][i] / met - mean * mean, 0.0) / met);
-            out->often[l][i]  = mean;
+            out->error[l][i] = std::sqrt(std::max(out->error[l][i] / met - mean * mean, 0.0) / met);
+            out->often[l][i] = mean;
             out->once[l][i] /= met;
         }
 }

@@ -14,16 +14,16 @@ extern "C" {
 /// Strands of one radius that are straight between vertices. One scatters light as one fibre does, from where a ray passes
 /// nearest to its axis, and does not hide itself.
 struct hair_reference_hair {
-    const float*                positions; ///< count * each * 3, from root to tip. m.
-    uint32_t                    count;
-    uint32_t                    each;   ///< Vertices.
-    double                      radius; ///< m.
+    const float* positions; ///< count * each * 3, from root to tip. m.
+    uint32_t count;
+    uint32_t each; ///< Vertices.
+    double radius; ///< m.
     struct hair_reference_fibre fibre;
-    const double*               mu; ///< Per colour: absorption per radius.
-    uint32_t                    colors;
-    const double*               to_light; ///< Per light 3: unit, towards it. Far off, of irradiance 1.
-    uint32_t                    lights;
-    double                      sky; ///< Radiance on all sides.
+    const double* mu; ///< Per colour: absorption per radius.
+    uint32_t colors;
+    const double* to_light; ///< Per light 3: unit, towards it. Far off, of irradiance 1.
+    uint32_t lights;
+    double sky; ///< Radiance on all sides.
 };
 
 /// Of all rays that meet hair.

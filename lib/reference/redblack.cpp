@@ -18,7 +18,7 @@ struct strand {
     double* positions;
 
     Vector3d operator[](uint32_t i) const { return vector_of(positions + 3 * i); }
-    void     put(uint32_t i, const Vector3d& p) { store(p, positions + 3 * i); }
+    void put(uint32_t i, const Vector3d& p) { store(p, positions + 3 * i); }
 };
 
 double length_of_substep(const hair_reference_guide& g)
@@ -46,8 +46,8 @@ Vector3d pull(const Vector3d& p, const Vector3d& aim, double squared_frequency, 
 void relax(strand& s, uint32_t a, uint32_t b, double rest_length, double stiffness)
 {
     if (b < pinned) return;
-    const Vector3d link   = s[b] - s[a];
-    const double   length = link.norm();
+    const Vector3d link = s[b] - s[a];
+    const double length = link.norm();
     if (length == 0) return;
     const Vector3d move = stiffness * (length - rest_length) * link / length;
     if (a < pinned) {
@@ -65,14 +65,14 @@ Vector3d blend(const hair_vec4& a, const hair_vec4& b, double share)
 
 Vector3d push_out(const Vector3d& p, const hair_capsule& solid, double share, double margin)
 {
-    const Vector3d a       = blend(solid.start[0], solid.end[0], share);
-    const Vector3d b       = blend(solid.start[1], solid.end[1], share);
-    const double   radius  = (1 - share) * solid.start[0].w + share * solid.end[0].w + margin;
-    const Vector3d axis    = b - a;
-    double         along   = axis.squaredNorm() > 0 ? (p - a).dot(axis) / axis.squaredNorm() : 0;
-    along                  = std::fmin(std::fmax(along, 0), 1);
+    const Vector3d a = blend(solid.start[0], solid.end[0], share);
+    const Vector3d b = blend(solid.start[1], solid.end[1], share);
+    const double radius = (1 - share) * solid.start[0].w + share * solid.end[0].w + margin;
+    const Vector3d axis = b - a;
+    double along = axis.squaredNorm() > 0 ? (p - a).dot(axis) / axis.squaredNorm() : 0;
+    along = std::fmin(std::fmax(along, 0), 1);
     const Vector3d nearest = a + along * axis;
-    const double   depth   = radius - (p - nearest).norm();
+    const double depth = radius - (p - nearest).norm();
     return depth > 0 ? Vector3d(nearest + radius * direction_of(p - nearest)) : p;
 }
 
@@ -98,16 +98,16 @@ angular_moves angular_force(const strand& s, const hair_rest* rest, const Quater
                             double k)
 {
     const Vector3d middle = vector_of(rest[i - 1].position);
-    const Vector3d link   = middle - vector_of(rest[i - 2].position);
-    const Vector3d next   = vector_of(rest[i].position) - middle;
-    const Vector3d edge   = s[i - 1] - s[i - 2];
+    const Vector3d link = middle - vector_of(rest[i - 2].position);
+    const Vector3d next = vector_of(rest[i].position) - middle;
+    const Vector3d edge = s[i - 1] - s[i - 2];
     const Vector3d r = head * direction_of(link), e = direction_of(edge);
     const Vector3d arm = least_rotation(r, e) * (head * next), d = s[i - 1] + arm - s[i];
-    const double   ratio = next.norm() / link.norm(), sum = 1 + ratio;
-    const double   stiffness = k / (1 + 1.5 * (1 + sum * sum + ratio * ratio) * k);
-    const Vector3d torque    = stiffness * arm.cross(d);
-    const Vector3d turning   = (1 + e.dot(r)) / 2 * torque.cross(e) - torque.dot(e) / 2 * r.cross(e);
-    const Vector3d opening   = stiffness * d.squaredNorm() / 4 * (r - e.dot(r) * e);
+    const double ratio = next.norm() / link.norm(), sum = 1 + ratio;
+    const double stiffness = k / (1 + 1.5 * (1 + sum * sum + ratio * ratio) * k);
+    const Vector3d torque = stiffness * arm.cross(d);
+    const Vector3d turning = (1 + e.dot(r)) / 2 * torque.cross(e) - torque.dot(e) / 2 * r.cross(e);
+    const Vector3d opening = stiffness * d.squaredNorm() / 4 * (r - e.dot(r) * e);
     return {(1 + e.dot(r)) / 2 * stiffness * d,
             (turning + opening) / std::fmax(edge.norm(), link.norm() / 2)};
 }
@@ -117,9 +117,9 @@ angular_moves angular_force(const strand& s, const hair_rest* rest, const Quater
 void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const hair_reference_vertex* before,
                               double* positions)
 {
-    strand         s{positions};
-    const double   dt      = length_of_substep(g);
-    const Vector3d head    = vector_of(g.params->substep[substep].displacement);
+    strand s{positions};
+    const double dt = length_of_substep(g);
+    const Vector3d head = vector_of(g.params->substep[substep].displacement);
     const Vector3d gravity = vector_of(g.params->gravity);
     for (uint32_t i = 0; i < g.guide->count; ++i) {
         const Vector3d aim = rest_pose(g, substep, i);
@@ -139,10 +139,10 @@ void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const ha
 void hair_reference_angular(hair_reference_guide g, uint32_t substep, double* positions)
 {
     if (g.params->angular <= 0) return;
-    const Quaterniond     head = head_rotation(g, substep);
-    const double          dt   = length_of_substep(g);
+    const Quaterniond head = head_rotation(g, substep);
+    const double dt = length_of_substep(g);
     std::vector<Vector3d> moved(g.guide->count, Vector3d(0, 0, 0));
-    strand                s{positions};
+    strand s{positions};
     for (uint32_t i = pinned; i < g.guide->count; ++i) {
         const angular_moves moves = angular_force(s, g.rest, head, i, g.params->angular * dt * dt);
         moved[i] += moves.end;
@@ -168,7 +168,7 @@ void hair_reference_bend(hair_reference_guide g, uint32_t phase, double* positio
 
 void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* positions)
 {
-    strand       s{positions};
+    strand s{positions};
     const double share = g.params->substep[substep].displacement.w;
     for (uint32_t i = pinned; i < g.guide->count; ++i)
         for (uint32_t k = 0; k < g.params->solids; ++k)
@@ -180,7 +180,7 @@ void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* po
 static void advance(const hair_reference_guide& g, uint32_t substep, hair_reference_vertex* state)
 {
     std::vector<double> moved(3 * g.guide->count);
-    strand              s{moved.data()};
+    strand s{moved.data()};
     hair_reference_integrate(g, substep, state, moved.data());
     hair_reference_angular(g, substep, moved.data());
     for (uint32_t n = 0; n < g.params->iterations; ++n) {
@@ -190,8 +190,8 @@ static void advance(const hair_reference_guide& g, uint32_t substep, hair_refere
         hair_reference_bend(g, 1, moved.data());
         hair_reference_collide(g, substep, moved.data());
     }
-    bool           sound = true;
-    const Vector3d head  = vector_of(g.params->substep[substep].displacement);
+    bool sound = true;
+    const Vector3d head = vector_of(g.params->substep[substep].displacement);
     for (uint32_t i = 0; i < g.guide->count; ++i) {
         const Vector3d displacement = s[i] - vector_of(state[i].position) + head;
         store(displacement, state[i].displacement);

@@ -18,8 +18,8 @@ extern "C" {
 
 /// One guide and what moves it.
 struct hair_reference_guide {
-    const struct hair_guide*       guide;
-    const struct hair_rest*        rest; ///< Of its own vertices: guide->count of them.
+    const struct hair_guide* guide;
+    const struct hair_rest* rest; ///< Of its own vertices: guide->count of them.
     const struct hair_step_params* params;
 };
 
@@ -87,7 +87,7 @@ struct hair_reference_point {
 /// What is done at t to a follower that meets a solid: slopes are by t.
 struct hair_reference_repair {
     double away[3], away_slope[3]; ///< How far it is moved. m.
-    double freed, freed_slope;     ///< Share to which it is freed of all guides but its own.
+    double freed, freed_slope; ///< Share to which it is freed of all guides but its own.
 };
 
 /// Of Tariq 2010: `hit` is where the first vertex inside is, as a share of the length.

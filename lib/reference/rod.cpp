@@ -21,8 +21,8 @@ std::vector<Vector3d> vectors_of(const double* values, size_t count)
 void set_geometry(hair_reference_rod& rod, const hair_reference_rod_desc& desc)
 {
     const uint32_t n = rod.segments();
-    rod.lengths      = array_of(desc.lengths, n, 0);
-    rod.root_frame   = quaternion_of(desc.root_frame).normalized();
+    rod.lengths = array_of(desc.lengths, n, 0);
+    rod.root_frame = quaternion_of(desc.root_frame).normalized();
     if (desc.positions) {
         rod.x = vectors_of(desc.positions, rod.vertices);
         for (uint32_t j = 0; j < n && !desc.lengths; ++j) rod.lengths[j] = (rod.x[j + 1] - rod.x[j]).norm();
@@ -30,7 +30,7 @@ void set_geometry(hair_reference_rod& rod, const hair_reference_rod_desc& desc)
         rod.x.assign(1, Vector3d(0, 0, 0));
         for (uint32_t j = 0; j < n; ++j) rod.x.push_back(rod.x[j] + rod.lengths[j] * along(rod.root_frame));
     }
-    rod.arm    = rod.x[0];
+    rod.arm = rod.x[0];
     rod.target = desc.pull_target ? vectors_of(desc.pull_target, rod.vertices) : rod.x;
 }
 
@@ -97,8 +97,8 @@ bool is_sound(const hair_reference_rod& rod)
 hair_reference_rod_desc hair_reference_rod_desc_default(void)
 {
     hair_reference_rod_desc desc = {};
-    desc.root_frame[3]           = 1;
-    desc.head.rotation[3]        = 1;
+    desc.root_frame[3] = 1;
+    desc.head.rotation[3] = 1;
     return desc;
 }
 
@@ -107,27 +107,27 @@ hair_reference_rod* hair_reference_rod_create(const hair_reference_rod_desc* des
     if (desc->vertices < 2 || desc->vertices > HAIR_REFERENCE_ROD_MOST_VERTICES) return nullptr;
     if (!desc->positions && !desc->lengths) return nullptr;
     hair_reference_rod* rod = new hair_reference_rod;
-    rod->vertices           = desc->vertices;
+    rod->vertices = desc->vertices;
     set_geometry(*rod, *desc);
     set_masses(*rod, *desc);
     rod->pull = array_of(desc->pull, rod->vertices, 0);
     for (double& w : rod->pull) w *= w;
-    rod->bend[0]     = desc->bend[0];
-    rod->bend[1]     = desc->bend[1];
-    rod->twist       = desc->twist;
-    rod->scale       = array_of(desc->scale, rod->vertices, 1);
+    rod->bend[0] = desc->bend[0];
+    rod->bend[1] = desc->bend[1];
+    rod->twist = desc->twist;
+    rod->scale = array_of(desc->scale, rod->vertices, 1);
     rod->rest_strain = vectors_of(desc->rest_strain, rod->segments());
     rod->rest_real =
         desc->rest_real ? array_of(desc->rest_real, rod->segments(), 0) : real_of(rod->rest_strain);
-    rod->straight      = desc->straight != 0;
-    rod->plain_clamp   = desc->plain_clamp != 0;
-    rod->root          = desc->root;
-    rod->gravity       = vector_of(desc->gravity);
-    rod->wind          = vector_of(desc->wind);
-    rod->damping       = desc->damping;
-    rod->drag          = desc->drag;
-    rod->diameter      = desc->diameter;
-    rod->air           = desc->air;
+    rod->straight = desc->straight != 0;
+    rod->plain_clamp = desc->plain_clamp != 0;
+    rod->root = desc->root;
+    rod->gravity = vector_of(desc->gravity);
+    rod->wind = vector_of(desc->wind);
+    rod->damping = desc->damping;
+    rod->drag = desc->drag;
+    rod->diameter = desc->diameter;
+    rod->air = desc->air;
     rod->root_velocity = Vector3d(0, 0, 0);
     rod->v.assign(rod->vertices, Vector3d(0, 0, 0));
     place(*rod, desc->head);
@@ -206,7 +206,7 @@ double hair_reference_rod_stretch(const hair_reference_rod* rod)
 struct hair_reference_rod_energy hair_reference_rod_energy(const hair_reference_rod* rod)
 {
     struct hair_reference_rod_energy e = {};
-    e.elastic                          = rod->energy;
+    e.elastic = rod->energy;
     for (uint32_t i = 0; i < rod->vertices; ++i) {
         e.kinetic += rod->masses[i] * rod->v[i].squaredNorm() / 2;
         e.gravity -= rod->masses[i] * rod->gravity.dot(rod->x[i]);

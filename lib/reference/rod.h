@@ -32,8 +32,8 @@ extern "C" {
 
 enum hair_reference_rod_root {
     HAIR_REFERENCE_ROD_CLAMPED, ///< Vertex 0 goes with the head, joint 0 ties segment 0 to the root frame.
-    HAIR_REFERENCE_ROD_HINGED,  ///< Vertex 0 goes with the head, there is no joint 0.
-    HAIR_REFERENCE_ROD_FREE     ///< Nothing holds vertex 0.
+    HAIR_REFERENCE_ROD_HINGED, ///< Vertex 0 goes with the head, there is no joint 0.
+    HAIR_REFERENCE_ROD_FREE ///< Nothing holds vertex 0.
 };
 
 struct hair_reference_rod_pose {
@@ -43,31 +43,31 @@ struct hair_reference_rod_pose {
 
 /// Arrays are copied. Start from hair_reference_rod_desc_default().
 struct hair_reference_rod_desc {
-    uint32_t      vertices;  ///< [2, 256].
+    uint32_t vertices; ///< [2, 256].
     const double* positions; ///< Per vertex, in the head's frame. NULL: straight along the root frame from 0.
-    const double* lengths;   ///< Per segment. NULL: as `positions` has them.
+    const double* lengths; ///< Per segment. NULL: as `positions` has them.
 
-    double line_density;    ///< Mass per length, rho A. kg/m. Vertices have half of each segment they end.
-    const double* masses;   ///< Per vertex, instead of line_density. kg.
-    double        tip_mass; ///< On top, at the tip. kg.
+    double line_density; ///< Mass per length, rho A. kg/m. Vertices have half of each segment they end.
+    const double* masses; ///< Per vertex, instead of line_density. kg.
+    double tip_mass; ///< On top, at the tip. kg.
 
-    double        bend[2];     ///< B1 and B2: about the frame's x and z. N m^2.
-    double        twist;       ///< C. N m^2.
-    const double* scale;       ///< Per vertex, of all three. NULL: 1.
+    double bend[2]; ///< B1 and B2: about the frame's x and z. N m^2.
+    double twist; ///< C. N m^2.
+    const double* scale; ///< Per vertex, of all three. NULL: 1.
     const double* rest_strain; ///< U, of vertices - 1 joints. NULL: 0.
-    const double* rest_real;   ///< 2 w0, of vertices - 1 joints. NULL: (4 - |U|^2)^(1/2), 0 if |U| > 2.
-    int           straight;    ///< 1: u is the difference of the unit tangents, B1 alone, no frames, U = 0.
+    const double* rest_real; ///< 2 w0, of vertices - 1 joints. NULL: (4 - |U|^2)^(1/2), 0 if |U| > 2.
+    int straight; ///< 1: u is the difference of the unit tangents, B1 alone, no frames, U = 0.
 
     enum hair_reference_rod_root root;
     double root_frame[4]; ///< In the head's frame: y is where the strand leaves the scalp.
-    int    plain_clamp;   ///< 1: k = 2 whatever hangs on the clamp.
+    int plain_clamp; ///< 1: k = 2 whatever hangs on the clamp.
 
-    double                    gravity[3]; ///< m/s^2.
-    double                    damping;    ///< c of dv/dt = -c (v - wind). 1/s.
-    double                    wind[3];    ///< m/s.
-    double                    drag;       ///< Of the segments, as a multiple of hair_reference_drag. 0: none.
-    double                    diameter;   ///< For that. m.
-    struct hair_reference_air air;        ///< Likewise.
+    double gravity[3]; ///< m/s^2.
+    double damping; ///< c of dv/dt = -c (v - wind). 1/s.
+    double wind[3]; ///< m/s.
+    double drag; ///< Of the segments, as a multiple of hair_reference_drag. 0: none.
+    double diameter; ///< For that. m.
+    struct hair_reference_air air; ///< Likewise.
 
     const double* pull; ///< Angular frequency per vertex of a spring to `pull_target`. NULL: none. 1/s.
     const double* pull_target; ///< Per vertex, in the head's frame. NULL: `positions`.
@@ -87,7 +87,7 @@ struct hair_reference_rod_desc hair_reference_rod_desc_default(void);
 /// Without velocity, in the pose of `positions`. NULL when a value is out of range or not finite.
 struct hair_reference_rod* hair_reference_rod_create(const struct hair_reference_rod_desc* desc);
 struct hair_reference_rod* hair_reference_rod_copy(const struct hair_reference_rod* rod);
-void                       hair_reference_rod_destroy(struct hair_reference_rod* rod);
+void hair_reference_rod_destroy(struct hair_reference_rod* rod);
 
 // State -----------------------------------------------------------------------------------------------------
 
@@ -95,11 +95,11 @@ void                       hair_reference_rod_destroy(struct hair_reference_rod*
 void hair_reference_rod_set_state(struct hair_reference_rod* rod, const double* positions,
                                   const double* velocities);
 /// The clamp's factors follow.
-void     hair_reference_rod_set_gravity(struct hair_reference_rod* rod, const double gravity[3]);
-void     hair_reference_rod_set_damping(struct hair_reference_rod* rod, double damping);
+void hair_reference_rod_set_gravity(struct hair_reference_rod* rod, const double gravity[3]);
+void hair_reference_rod_set_damping(struct hair_reference_rod* rod, double damping);
 uint32_t hair_reference_rod_vertices(const struct hair_reference_rod* rod);
-void     hair_reference_rod_positions(const struct hair_reference_rod* rod, double* positions);
-void     hair_reference_rod_velocities(const struct hair_reference_rod* rod, double* velocities);
+void hair_reference_rod_positions(const struct hair_reference_rod* rod, double* positions);
+void hair_reference_rod_velocities(const struct hair_reference_rod* rod, double* velocities);
 /// Per segment, in the world.
 void hair_reference_rod_frames(const struct hair_reference_rod* rod, double* frames);
 void hair_reference_rod_masses(const struct hair_reference_rod* rod, double* masses);
@@ -124,10 +124,10 @@ int hair_reference_rod_advance(struct hair_reference_rod* rod, const struct hair
 double hair_reference_rod_longest_substep(const struct hair_reference_rod* rod);
 
 struct hair_reference_rod_report {
-    int      converged;
+    int converged;
     uint32_t substeps; ///< Per frame, of the last run.
-    double   change;   ///< Farthest that a vertex was from where it was with half, at any frame's end. m.
-    double   order;    ///< log2 of how much less that was than the time before. NaN of fewer than three runs.
+    double change; ///< Farthest that a vertex was from where it was with half, at any frame's end. m.
+    double order; ///< log2 of how much less that was than the time before. NaN of fewer than three runs.
 };
 
 /// `frames` frames of `dt`, the head at heads[k] (NULL: stays) at the end of frame k, with ever twice as many
@@ -141,9 +141,9 @@ struct hair_reference_rod_report hair_reference_rod_converge(struct hair_referen
 // rod_statics.cpp -------------------------------------------------------------------------------------------
 
 struct hair_reference_rod_rested {
-    int      converged;
+    int converged;
     uint32_t iterations;
-    double   residual; ///< Largest torque left on a segment, over the largest of load times length and B / l.
+    double residual; ///< Largest torque left on a segment, over the largest of load times length and B / l.
 };
 
 /// To rest under gravity and pull, downhill in energy from the pose it has. Not of free rods.

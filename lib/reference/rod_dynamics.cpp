@@ -14,7 +14,7 @@ namespace
 // The head's way over a frame.
 struct journey {
     hair_reference_rod_place from;
-    Vector3d                 velocity, spin; // spin: rad/s
+    Vector3d velocity, spin; // spin: rad/s
 
     hair_reference_rod_place at(double t) const
     {
@@ -26,9 +26,9 @@ journey journey_to(const hair_reference_rod_place& from, const hair_reference_ro
 {
     Quaterniond turn = to.rotation * from.rotation.conjugate();
     if (turn.w() < 0) turn.coeffs() *= -1;
-    const double   sine  = turn.vec().norm();
-    const double   angle = 2 * std::atan2(sine, turn.w());
-    const Vector3d spin  = sine > 0 ? Vector3d(turn.vec() * (angle / sine / dt)) : Vector3d(0, 0, 0);
+    const double sine = turn.vec().norm();
+    const double angle = 2 * std::atan2(sine, turn.w());
+    const Vector3d spin = sine > 0 ? Vector3d(turn.vec() * (angle / sine / dt)) : Vector3d(0, 0, 0);
     return {from, (to.position - from.position) / dt, spin};
 }
 
@@ -83,7 +83,7 @@ void push(const hair_reference_rod& rod, const std::vector<Vector3d>& along, con
 bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
 {
     const std::vector<Vector3d> start = rod.x, along = directions(rod.x);
-    double                      previous = INFINITY;
+    double previous = INFINITY;
     for (int iteration = 0; iteration < 50; ++iteration) {
         double farthest = 0, sum = 0, error = 0;
         for (uint32_t i = 0; i < rod.vertices; ++i) {
@@ -91,12 +91,12 @@ bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
             farthest = std::fmax(farthest, rod.x[i].cwiseAbs().maxCoeff());
             sum += rod.x[i].sum(); // Which is not finite if one of them is not; a maximum may be.
         }
-        std::vector<Vector3d> now      = directions(rod.x);
-        double                rounding = 0;
+        std::vector<Vector3d> now = directions(rod.x);
+        double rounding = 0;
         for (uint32_t j = 0; j < rod.segments(); ++j) {
             t.right[j] = rod.lengths[j] - (rod.x[j + 1] - rod.x[j]).norm();
-            error      = std::fmax(error, std::fabs(t.right[j]) / rod.lengths[j]);
-            rounding   = std::fmax(rounding, 4e-16 * farthest / rod.lengths[j]);
+            error = std::fmax(error, std::fabs(t.right[j]) / rod.lengths[j]);
+            rounding = std::fmax(rounding, 4e-16 * farthest / rod.lengths[j]);
         }
         if (!std::isfinite(sum) || error > 1e3) return false;
         if (error < 1e-14 + rounding || (error < 1e-10 && error >= previous / 2)) return true;
@@ -159,8 +159,8 @@ void damp(hair_reference_rod& rod, double dt)
 
 bool advance(hair_reference_rod& rod, const journey& head, double dt, uint32_t substeps)
 {
-    const double          h = dt / substeps;
-    tridiagonal           t(rod.segments());
+    const double h = dt / substeps;
+    tridiagonal t(rod.segments());
     std::vector<Vector3d> step(rod.vertices);
     for (uint32_t k = 0; k < substeps; ++k) {
         damp(rod, h / 2);
@@ -198,7 +198,7 @@ double hair_reference_rod_longest_substep(const hair_reference_rod* rod)
 {
     std::vector<double> sums(rod->vertices);
     for (uint32_t i = hair_reference_rod_first_joint(*rod); i < rod->segments(); ++i) {
-        const double k      = rod->stiffness[i].maxCoeff(); // Twist bends a curved rod.
+        const double k = rod->stiffness[i].maxCoeff(); // Twist bends a curved rod.
         const double row[3] = {i ? 1 / rod->lengths[i - 1] : 0,
                                (i ? 1 / rod->lengths[i - 1] : 0) + 1 / rod->lengths[i], 1 / rod->lengths[i]};
         for (uint32_t a = i ? 0 : 1; a < 3; ++a) sums[i + a - 1] += k * row[a] * (row[0] + row[1] + row[2]);
@@ -214,16 +214,16 @@ hair_reference_rod_report hair_reference_rod_converge(hair_reference_rod* rod, u
                                                       uint32_t substeps, uint32_t most, double tolerance,
                                                       double* positions)
 {
-    const size_t              size   = 3 * size_t(rod->vertices);
+    const size_t size = 3 * size_t(rod->vertices);
     hair_reference_rod_report report = {0, 0, INFINITY, NAN};
-    std::vector<double>       before, now(frames * size);
-    const hair_reference_rod  start = *rod;
-    double                    last  = NAN;
-    const double              needs = std::ceil(2 * dt / hair_reference_rod_longest_substep(rod));
-    uint32_t                  count = substeps ? substeps : 1;
+    std::vector<double> before, now(frames * size);
+    const hair_reference_rod start = *rod;
+    double last = NAN;
+    const double needs = std::ceil(2 * dt / hair_reference_rod_longest_substep(rod));
+    uint32_t count = substeps ? substeps : 1;
     while (count < needs) count *= 2;
     for (; count <= most && !report.converged; count *= 2) {
-        *rod    = start;
+        *rod = start;
         bool ok = true;
         for (uint32_t k = 0; k < frames && ok; ++k) {
             ok = hair_reference_rod_advance(rod, heads ? heads + k : nullptr, dt, count);
@@ -234,9 +234,9 @@ hair_reference_rod_report hair_reference_rod_converge(hair_reference_rod* rod, u
             report.change = 0;
             for (size_t i = 0; i < now.size(); i += 3)
                 report.change = std::fmax(report.change, (vector_of(&now[i]) - vector_of(&before[i])).norm());
-            report.order     = std::log2(last / report.change);
+            report.order = std::log2(last / report.change);
             report.converged = report.change < tolerance;
-            last             = report.change;
+            last = report.change;
         }
         before = ok ? now : std::vector<double>();
         if (!ok) last = NAN;

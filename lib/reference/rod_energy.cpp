@@ -6,8 +6,8 @@
 Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to)
 {
     const Vector3d from = along(q);
-    const double   w    = 1 + from.dot(to);
-    Quaterniond    turn(0, 0, 0, 0);
+    const double w = 1 + from.dot(to);
+    Quaterniond turn(0, 0, 0, 0);
     if (w < 1e-12)
         turn.vec() = from.unitOrthogonal();
     else
@@ -32,9 +32,9 @@ void hair_reference_rod_stiffen(hair_reference_rod& rod)
     const double weight = hanging * rod.gravity.norm();
     rod.stiffness.assign(rod.segments(), Vector3d(0, 0, 0));
     for (uint32_t i = 0; i < rod.segments(); ++i) {
-        const double   length = i ? (rod.lengths[i - 1] + rod.lengths[i]) / 2 : rod.lengths[0];
-        const Vector3d k      = rod.scale[i] * Vector3d(rod.bend[0], rod.twist, rod.bend[1]);
-        Vector3d       factor(1, 1, 1);
+        const double length = i ? (rod.lengths[i - 1] + rod.lengths[i]) / 2 : rod.lengths[0];
+        const Vector3d k = rod.scale[i] * Vector3d(rod.bend[0], rod.twist, rod.bend[1]);
+        Vector3d factor(1, 1, 1);
         if (i == 0) {
             factor = Vector3d(2, 2, 2);
             if (!rod.plain_clamp)
@@ -48,16 +48,16 @@ void hair_reference_rod_stiffen(hair_reference_rod& rod)
 hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& rod, uint32_t i,
                                                      const Quaterniond& before, const Quaterniond& after)
 {
-    const Quaterniond        r    = before.conjugate() * after;
-    const double             sign = r.w() < 0 ? -1 : 1;
+    const Quaterniond r = before.conjugate() * after;
+    const double sign = r.w() < 0 ? -1 : 1;
     hair_reference_rod_joint joint;
-    joint.w               = sign * r.w();
-    joint.v               = sign * r.vec();
+    joint.w = sign * r.w();
+    joint.v = sign * r.vec();
     const Vector3d excess = 2 * joint.v - rod.rest_strain[i];
-    joint.g               = rod.stiffness[i].cwiseProduct(excess);
-    const double off      = 2 * joint.w - rod.rest_real[i];
-    joint.e               = hair_reference_rod_real_stiffness(rod, i) * off;
-    joint.energy          = (joint.g.dot(excess) + joint.e * off) / 2;
+    joint.g = rod.stiffness[i].cwiseProduct(excess);
+    const double off = 2 * joint.w - rod.rest_real[i];
+    joint.e = hair_reference_rod_real_stiffness(rod, i) * off;
+    joint.energy = (joint.g.dot(excess) + joint.e * off) / 2;
     return joint;
 }
 
@@ -67,7 +67,7 @@ namespace
 // The energy as a function of the angles by which the frames are turned about their segments, to second
 // order: its second derivatives are a tridiagonal matrix.
 struct expansion {
-    double              energy = 0;
+    double energy = 0;
     std::vector<double> slope, diagonal, beside; // beside[j]: of segments j and j + 1
 };
 
@@ -76,16 +76,16 @@ struct expansion {
 expansion expand(const hair_reference_rod& rod)
 {
     const uint32_t n = rod.segments();
-    expansion      e;
+    expansion e;
     e.slope.assign(n, 0), e.diagonal.assign(n, 0), e.beside.assign(n, 0);
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < n; ++i) {
         const hair_reference_rod_joint j =
             hair_reference_rod_joint_at(rod, i, hair_reference_rod_before(rod, i), rod.frames[i]);
         const Vector3d by_a(-j.v.z(), -j.w, j.v.x()); // -(w y + y x v)
-        const Vector3d by_b(-j.v.z(), j.w, j.v.x());  //   w y + v x y
-        const Vector3d k       = rod.stiffness[i];
-        const double   of_real = hair_reference_rod_real_stiffness(rod, i) * j.v.y() * j.v.y();
-        const double   c       = of_real - 0.5 * (j.g.dot(j.v) + j.e * j.w);
+        const Vector3d by_b(-j.v.z(), j.w, j.v.x()); //   w y + v x y
+        const Vector3d k = rod.stiffness[i];
+        const double of_real = hair_reference_rod_real_stiffness(rod, i) * j.v.y() * j.v.y();
+        const double c = of_real - 0.5 * (j.g.dot(j.v) + j.e * j.w);
         e.energy += j.energy;
         e.slope[i] += j.g.dot(by_b) - j.e * j.v.y();
         e.diagonal[i] += by_b.dot(k.cwiseProduct(by_b)) + c;
@@ -101,10 +101,10 @@ expansion expand(const hair_reference_rod& rod)
 // angles = -(H + shift)^-1 slope. False when H + shift is not positive definite.
 bool solve(const expansion& e, double shift, std::vector<double>& angles)
 {
-    const size_t        n = e.slope.size();
+    const size_t n = e.slope.size();
     std::vector<double> pivot(n);
     for (size_t j = 0; j < n; ++j) {
-        pivot[j]  = e.diagonal[j] + shift;
+        pivot[j] = e.diagonal[j] + shift;
         angles[j] = -e.slope[j];
         if (j > 0) {
             const double f = e.beside[j - 1] / pivot[j - 1];
@@ -131,15 +131,15 @@ void turn_about_segments(std::vector<Quaterniond>& frames, const std::vector<dou
 {
     for (size_t j = 0; j < frames.size(); ++j) {
         const double half = share * angles[j] / 2;
-        frames[j]         = (frames[j] * Quaterniond(std::cos(half), 0, std::sin(half), 0)).normalized();
+        frames[j] = (frames[j] * Quaterniond(std::cos(half), 0, std::sin(half), 0)).normalized();
     }
 }
 
 // Newton, and where the energy is not convex, or the step too long, down its slope.
 void settle_twist(hair_reference_rod& rod)
 {
-    expansion           e     = expand(rod);
-    const double        scale = largest(e.diagonal);
+    expansion e = expand(rod);
+    const double scale = largest(e.diagonal);
     std::vector<double> angles(rod.segments());
     if (scale == 0) return;
     for (int iteration = 0; iteration < 100; ++iteration) {
@@ -149,8 +149,8 @@ void settle_twist(hair_reference_rod& rod)
             shift = std::fmax(4 * shift, 1e-3 * scale);
             if (!(shift < 1e9 * scale)) return; // Nothing is finite.
         }
-        const double step  = largest(angles);
-        double       share = std::fmin(1, 0.5 / step);
+        const double step = largest(angles);
+        double share = std::fmin(1, 0.5 / step);
         for (const auto from = rod.frames;;) {
             turn_about_segments(rod.frames, angles, share);
             if (step < 1e-9) return; // Squared, it is nothing.
@@ -169,7 +169,7 @@ void settle_twist(hair_reference_rod& rod)
 void couple(hair_reference_rod& rod, uint32_t segment, const Vector3d& torque)
 {
     const Vector3d link = rod.x[segment + 1] - rod.x[segment];
-    const Vector3d f    = torque.cross(link) / link.squaredNorm();
+    const Vector3d f = torque.cross(link) / link.squaredNorm();
     rod.force[segment + 1] += f;
     rod.force[segment] -= f;
 }
@@ -179,7 +179,7 @@ void update_straight(hair_reference_rod& rod)
 {
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
         const Vector3d before = along(hair_reference_rod_before(rod, i)), after = along(rod.frames[i]);
-        const double   k      = rod.stiffness[i].x();
+        const double k = rod.stiffness[i].x();
         const Vector3d torque = k * after.cross(before); // -dE / (turn of segment i)
         rod.energy += k * (after - before).squaredNorm() / 2;
         couple(rod, i, torque);
@@ -200,9 +200,9 @@ void hair_reference_rod_update(hair_reference_rod& rod)
     // Turning segment i by d changes u by w d' + d' x v and 2 w by -v.d', d' as segment i-1 sees d. With no
     // torque about the segments, how the frames turn about them as the segments move does not matter.
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
-        const Quaterniond              before = hair_reference_rod_before(rod, i);
-        const hair_reference_rod_joint j      = hair_reference_rod_joint_at(rod, i, before, rod.frames[i]);
-        const Vector3d                 torque = -(before * (j.w * j.g + j.v.cross(j.g) - j.e * j.v));
+        const Quaterniond before = hair_reference_rod_before(rod, i);
+        const hair_reference_rod_joint j = hair_reference_rod_joint_at(rod, i, before, rod.frames[i]);
+        const Vector3d torque = -(before * (j.w * j.g + j.v.cross(j.g) - j.e * j.v));
         rod.energy += j.energy;
         couple(rod, i, torque);
         if (i > 0) couple(rod, i - 1, -torque);

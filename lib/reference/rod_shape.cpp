@@ -20,7 +20,7 @@ double real_of(const Quaterniond& before, const Quaterniond& after)
 Vector3d stress_for(const Quaterniond& before, const Quaterniond& after, const Vector3d& wanted)
 {
     const Vector3d u = strain_of(before, after), v = u / 2;
-    const double   w      = std::sqrt(std::fmax(1 - v.squaredNorm(), 1e-12));
+    const double w = std::sqrt(std::fmax(1 - v.squaredNorm(), 1e-12));
     const Vector3d torque = before.conjugate() * -wanted;
     return w * torque - v.cross(torque) + v * (v.dot(torque) / w);
 }
@@ -32,7 +32,7 @@ void hair_reference_rod_strain(uint32_t vertices, const double* positions, const
 {
     Quaterniond before = quaternion_of(root_frame).normalized();
     for (uint32_t j = 0; j + 1 < vertices; ++j) {
-        const Vector3d    link  = vector_of(positions + 3 * j + 3) - vector_of(positions + 3 * j);
+        const Vector3d link = vector_of(positions + 3 * j + 3) - vector_of(positions + 3 * j);
         const Quaterniond after = hair_reference_rod_turned(before, direction_of(link));
         store(strain_of(before, after), strain + 3 * j);
         before = after;
@@ -45,7 +45,7 @@ void hair_reference_rod_strain(uint32_t vertices, const double* positions, const
 int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain, double* real)
 {
     hair_reference_rod* rod = hair_reference_rod_create(desc);
-    const bool          fit = rod && !rod->straight && rod->root == HAIR_REFERENCE_ROD_CLAMPED;
+    const bool fit = rod && !rod->straight && rod->root == HAIR_REFERENCE_ROD_CLAMPED;
     if (fit) {
         for (uint32_t j = 0; j < rod->segments(); ++j) {
             const Vector3d link = rod->x[j + 1] - rod->x[j];
@@ -58,8 +58,8 @@ int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain,
             load += rod->masses[j + 1] * (rod->gravity + pulled);
             torque -= (rod->x[j + 1] - rod->x[j]).cross(load);
             const Quaterniond before = hair_reference_rod_before(*rod, j), after = rod->frames[j];
-            const Vector3d    stress = stress_for(before, after, torque);
-            Vector3d          excess(0, 0, 0);
+            const Vector3d stress = stress_for(before, after, torque);
+            Vector3d excess(0, 0, 0);
             for (int k = 0; k < 3; ++k)
                 if (rod->stiffness[j][k] > 0) excess[k] = stress[k] / rod->stiffness[j][k];
             store(Vector3d(strain_of(before, after) - excess), strain + 3 * j);

@@ -9,48 +9,48 @@
 #include "lib/reference/rod.h"
 
 struct hair_reference_rod_place {
-    Vector3d    position;
+    Vector3d position;
     Quaterniond rotation;
 };
 
 struct hair_reference_rod {
-    uint32_t                vertices;
-    std::vector<double>     lengths, masses, pull; // pull: squared angular frequency
-    std::vector<Vector3d>   target;                // in the head's frame
-    double                  bend[2], twist;
-    std::vector<double>     scale;
-    std::vector<Vector3d>   rest_strain;
-    std::vector<double>     rest_real; // 2 w at rest
-    bool                    straight, plain_clamp;
+    uint32_t vertices;
+    std::vector<double> lengths, masses, pull; // pull: squared angular frequency
+    std::vector<Vector3d> target; // in the head's frame
+    double bend[2], twist;
+    std::vector<double> scale;
+    std::vector<Vector3d> rest_strain;
+    std::vector<double> rest_real; // 2 w at rest
+    bool straight, plain_clamp;
     hair_reference_rod_root root;
-    Quaterniond             root_frame; // in the head's frame, as the root's place is:
-    Vector3d                arm;
-    Vector3d                gravity, wind;
-    double                  damping, drag, diameter;
-    hair_reference_air      air;
+    Quaterniond root_frame; // in the head's frame, as the root's place is:
+    Vector3d arm;
+    Vector3d gravity, wind;
+    double damping, drag, diameter;
+    hair_reference_air air;
 
     std::vector<Vector3d> stiffness; // per joint: B1, C, B2 over length, times the clamp's factors
 
     hair_reference_rod_place head;
-    Vector3d                 root_velocity;
-    std::vector<Vector3d>    x, v;
+    Vector3d root_velocity;
+    std::vector<Vector3d> x, v;
     std::vector<Quaterniond> frames; // per segment
-    std::vector<Vector3d>    force;  // elastic, per vertex
-    double                   energy; // elastic
+    std::vector<Vector3d> force; // elastic, per vertex
+    double energy; // elastic
 
-    uint32_t    segments() const { return vertices - 1; }
-    bool        is_held() const { return root != HAIR_REFERENCE_ROD_FREE; }
+    uint32_t segments() const { return vertices - 1; }
+    bool is_held() const { return root != HAIR_REFERENCE_ROD_FREE; }
     Quaterniond scalp() const { return head.rotation * root_frame; }
-    Vector3d    root_position() const { return head.position + head.rotation * arm; }
-    Vector3d    target_of(uint32_t i) const { return head.position + head.rotation * target[i]; }
-    double      inverse_mass(uint32_t i) const { return i == 0 && is_held() ? 0 : 1 / masses[i]; }
+    Vector3d root_position() const { return head.position + head.rotation * arm; }
+    Vector3d target_of(uint32_t i) const { return head.position + head.rotation * target[i]; }
+    double inverse_mass(uint32_t i) const { return i == 0 && is_held() ? 0 : 1 / masses[i]; }
 };
 
 // A joint's strain and what follows from it: g = dE/du, e = dE/d(2 w).
 struct hair_reference_rod_joint {
-    double   w;
+    double w;
     Vector3d v, g;
-    double   e, energy;
+    double e, energy;
 };
 
 // The stiffness of a joint by 2 w: that by the strain about z.

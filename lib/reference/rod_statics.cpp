@@ -28,7 +28,7 @@ int eigenvalues_below(const hair_reference_turns& t, double lambda)
 // move by the turns of both. Twist, without inertia, adds none while it is stable.
 int squares_below(const hair_reference_rod& rod, const hair_reference_turns& t, double lambda)
 {
-    const int           n = int(rod.segments());
+    const int n = int(rod.segments());
     hair_reference_band h(3 * n, 3 * n - 1);
     for (int i = 0; i < h.size; ++i)
         for (int j = std::max(i - t.curvature.width, 0); j <= i; ++j) h.at(i, j) = t.curvature.at(i, j);
@@ -53,14 +53,14 @@ hair_reference_rod_rested hair_reference_rod_rest(hair_reference_rod* rod)
     double last = INFINITY;
     for (; rested.iterations < 2000; ++rested.iterations) {
         const hair_reference_turns t = hair_reference_rod_turns(*rod);
-        rested.residual              = t.size > 0 ? t.slope.cwiseAbs().maxCoeff() / t.size : 0;
+        rested.residual = t.size > 0 ? t.slope.cwiseAbs().maxCoeff() / t.size : 0;
         // Newton's method doubles the digits until there is only rounding left.
         if (rested.residual < 1e-15 || (rested.residual < 1e-11 && rested.residual >= last / 2)) break;
-        last                           = rested.residual;
-        const VectorXd           step  = newton_step(t);
-        const double             most  = step.cwiseAbs().maxCoeff();
-        double                   share = std::fmin(1, 0.7 / most);
-        const hair_reference_rod from  = *rod;
+        last = rested.residual;
+        const VectorXd step = newton_step(t);
+        const double most = step.cwiseAbs().maxCoeff();
+        double share = std::fmin(1, 0.7 / most);
+        const hair_reference_rod from = *rod;
         for (;; share /= 2, *rod = from) {
             hair_reference_rod_turn(*rod, step, share);
             const double gain = t.energy - hair_reference_rod_potential(*rod);
@@ -76,19 +76,19 @@ hair_reference_rod_rested hair_reference_rod_rest(hair_reference_rod* rod)
 
 double hair_reference_rod_stability(const hair_reference_rod* rod)
 {
-    const hair_reference_turns t   = hair_reference_rod_turns(*rod);
-    const hair_reference_band& h   = t.curvature;
-    double                     low = INFINITY, high = INFINITY;
+    const hair_reference_turns t = hair_reference_rod_turns(*rod);
+    const hair_reference_band& h = t.curvature;
+    double low = INFINITY, high = INFINITY;
     for (int i = 0; i < h.size; ++i) {
         double beside = 0;
         for (int j = std::max(i - h.width, 0); j < i; ++j) beside += std::fabs(h.at(i, j));
         for (int j = i + 1; j < h.size && j <= i + h.width; ++j) beside += std::fabs(h.at(j, i));
-        low  = std::fmin(low, (h.at(i, i) - beside) / t.length[i]);
+        low = std::fmin(low, (h.at(i, i) - beside) / t.length[i]);
         high = std::fmin(high, h.at(i, i) / t.length[i]);
     }
     const double precision = 1e-14 * std::fmax(std::fabs(low), std::fabs(high));
     while (high - low > precision) {
-        const double middle                         = (low + high) / 2;
+        const double middle = (low + high) / 2;
         (eigenvalues_below(t, middle) ? high : low) = middle;
     }
     return (low + high) / 2;
@@ -97,8 +97,8 @@ double hair_reference_rod_stability(const hair_reference_rod* rod)
 uint32_t hair_reference_rod_modes(const hair_reference_rod* rod, uint32_t count, double* frequencies)
 {
     if (!rod->is_held()) return 0;
-    const hair_reference_turns t   = hair_reference_rod_turns(*rod);
-    double                     low = -1, high = 1;
+    const hair_reference_turns t = hair_reference_rod_turns(*rod);
+    double low = -1, high = 1;
     while (squares_below(*rod, t, low) > 0 && low > -1e30) low *= 4;
     count = std::min(count, 2 * rod->segments());
     for (uint32_t i = 0; i < count; ++i) {

@@ -39,7 +39,7 @@ void add_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& 
     const Matrix3d by_a = -(j.w * one - turn), by_b = j.w * one + turn;
     const Matrix3d of_real = hair_reference_rod_real_stiffness(rod, i) * j.v * j.v.transpose();
     const Matrix3d k = rod.stiffness[i].asDiagonal(), c = of_real - 0.5 * (j.g.dot(j.v) + j.e * j.w) * one;
-    const int      n = int(i);
+    const int n = int(i);
     t.energy += j.energy;
     t.size = std::fmax(t.size,
                        rod.stiffness[i].maxCoeff()); // Strains are good to a share of 1, not of themselves.
@@ -58,8 +58,8 @@ void add_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& 
 void add_straight_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& t)
 {
     const Quaterniond before = hair_reference_rod_before(rod, i), after = rod.frames[i];
-    const double      k = rod.stiffness[i].x();
-    const int         n = int(i);
+    const double k = rod.stiffness[i].x();
+    const int n = int(i);
     t.energy += k * (along(after) - along(before)).squaredNorm() / 2;
     add_load(t, i, k * (after.conjugate() * along(before)));
     if (i == 0) return;
@@ -72,9 +72,9 @@ void add_straight_joint(const hair_reference_rod& rod, uint32_t i, hair_referenc
 void add_loads(const hair_reference_rod& rod, bool is_pulled, hair_reference_turns& t)
 {
     Vector3d load(0, 0, 0);
-    double   spring = 0;
+    double spring = 0;
     for (uint32_t j = rod.segments(); j-- > 0;) {
-        const double   k   = rod.masses[j + 1] * rod.pull[j + 1];
+        const double k = rod.masses[j + 1] * rod.pull[j + 1];
         const Vector3d off = rod.x[j + 1] - rod.target_of(j + 1);
         load += rod.masses[j + 1] * rod.gravity - k * off;
         spring += k;
@@ -108,11 +108,11 @@ void hair_reference_band::add(int i, int j, const Matrix3d& block)
 
 int hair_reference_band::factor()
 {
-    int                 not_positive = 0;
+    int not_positive = 0;
     std::vector<double> row(static_cast<size_t>(width) + 1); // of L D
     for (int i = 0; i < size; ++i) {
-        const int from  = std::max(i - width, 0);
-        double    pivot = at(i, i);
+        const int from = std::max(i - width, 0);
+        double pivot = at(i, i);
         for (int j = from; j < i; ++j) {
             double sum = at(i, j);
             for (int k = std::max(from, j - width); k < j; ++k) sum -= row[size_t(k - from)] * at(j, k);
@@ -146,17 +146,17 @@ Matrix3d hair_reference_rod_arm(const hair_reference_rod& rod, uint32_t j)
 
 hair_reference_turns hair_reference_rod_turns(const hair_reference_rod& rod)
 {
-    const int n         = 3 * int(rod.segments());
-    bool      is_pulled = false;
+    const int n = 3 * int(rod.segments());
+    bool is_pulled = false;
     for (double k : rod.pull) is_pulled = is_pulled || k > 0;
-    const int            width = is_pulled ? n - 1 : std::min(5, n - 1);
+    const int width = is_pulled ? n - 1 : std::min(5, n - 1);
     hair_reference_turns t{0, 0, 0, VectorXd::Zero(n), VectorXd(n), hair_reference_band(n, width)};
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i)
         rod.straight ? add_straight_joint(rod, i, t) : add_joint(rod, i, t);
     add_loads(rod, is_pulled, t);
     for (int i = 0; i < n; ++i) {
         t.length[i] = rod.lengths[size_t(i) / 3];
-        t.stiffest  = std::fmax(t.stiffest, std::fabs(t.curvature.at(i, i)));
+        t.stiffest = std::fmax(t.stiffest, std::fabs(t.curvature.at(i, i)));
     }
     if (rod.straight) forget_twist(t);
     return t;
@@ -180,7 +180,7 @@ void hair_reference_rod_turn(hair_reference_rod& rod, const VectorXd& turns, dou
 {
     for (uint32_t j = 0; j < rod.segments(); ++j) {
         const Vector3d turn = share * turns.segment<3>(3 * int(j));
-        rod.frames[j]       = (rod.frames[j] * rotation_by(turn)).normalized();
-        rod.x[j + 1]        = rod.x[j] + rod.lengths[j] * along(rod.frames[j]);
+        rod.frames[j] = (rod.frames[j] * rotation_by(turn)).normalized();
+        rod.x[j + 1] = rod.x[j] + rod.lengths[j] * along(rod.frames[j]);
     }
 }

@@ -12,16 +12,16 @@ using Eigen::VectorXd;
 
 // A symmetric matrix, of which only what is at most `width` beside the diagonal is not 0.
 struct hair_reference_band {
-    int                 size, width;
+    int size, width;
     std::vector<double> values; // Row by row, the lower half: (i, i - width) … (i, i).
 
     hair_reference_band(int n, int w) : size(n), width(w), values(size_t(n) * size_t(w + 1), 0) {}
     double& at(int i, int j) { return values[size_t(i) * size_t(width + 1) + size_t(j - i + width)]; }
-    double  at(int i, int j) const { return values[size_t(i) * size_t(width + 1) + size_t(j - i + width)]; }
+    double at(int i, int j) const { return values[size_t(i) * size_t(width + 1) + size_t(j - i + width)]; }
 
     void add(int i, int j, const Matrix3d& block); // At row 3 i and column 3 j <= 3 i.
     // To L D L^T in place. Returns how many of D are not positive: as many eigenvalues (Sylvester).
-    int      factor();
+    int factor();
     VectorXd solve(VectorXd right) const; // After factor().
 };
 
@@ -29,9 +29,9 @@ struct hair_reference_band {
 // gravity and pull, energy + slope b + b curvature b / 2. Three numbers a segment. A straight rod knows no
 // turn about its segments: their curvature is `stiffest`, and nothing else.
 struct hair_reference_turns {
-    double              energy, stiffest;
-    double              size; // of the torques that the slope is the rest of: load times length, or B / l
-    VectorXd            slope, length;
+    double energy, stiffest;
+    double size; // of the torques that the slope is the rest of: load times length, or B / l
+    VectorXd slope, length;
     hair_reference_band curvature;
 };
 

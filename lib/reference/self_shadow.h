@@ -11,9 +11,9 @@ extern "C" {
 
 /// Positions are in its own axes.
 struct hair_reference_grid {
-    double        lower[3]; ///< Node 0. m.
-    double        cell;     ///< m.
-    uint32_t      nodes[3];
+    double lower[3]; ///< Node 0. m.
+    double cell; ///< m.
+    uint32_t nodes[3];
     const double* density; ///< Per node: strands that light meets on the way through a cell there.
 };
 
@@ -37,10 +37,10 @@ double hair_reference_around(const struct hair_reference_grid* grid, const doubl
 
 /// Parallel rays along z, in the middles of equal squares of a large one.
 struct hair_reference_rays {
-    double         lower[2]; ///< m.
-    double         side;     ///< m.
-    uint32_t       count;    ///< Along each side.
-    unsigned char* stopped;  ///< Per ray, row after row: 1: it has met a strand.
+    double lower[2]; ///< m.
+    double side; ///< m.
+    uint32_t count; ///< Along each side.
+    unsigned char* stopped; ///< Per ray, row after row: 1: it has met a strand.
 };
 
 /// Stop those that meet the ribbon from a to b, x and y, of half so wide at both ends, which it turns to them.

@@ -9,7 +9,7 @@ void hair_reference_slope(const double before[3], const double at[3], const doub
                           double length_before, double length_after, double slope[3])
 {
     // Newton's divided differences: f[0,1] + (x1 - x0) f[0,1,2].
-    const Vector3d first  = (vector_of(at) - vector_of(before)) / length_before;
+    const Vector3d first = (vector_of(at) - vector_of(before)) / length_before;
     const Vector3d second = (vector_of(after) - vector_of(at)) / length_after;
     store(first + length_before * (second - first) / (length_before + length_after), slope);
 }
@@ -38,10 +38,10 @@ struct chords {
 void place(const hair_reference_guide& g, const hair_reference_vertex* state, chords& c)
 {
     const Quaterniond before = quaternion_of(g.params->rotation_before);
-    const Quaterniond after  = quaternion_of(g.params->rotation_after);
-    const Quaterniond now    = quaternion_of(g.params->rotation_now);
-    const Vector3d    head   = vector_of(g.params->last_displacement);
-    const double      alpha  = g.params->alpha;
+    const Quaterniond after = quaternion_of(g.params->rotation_after);
+    const Quaterniond now = quaternion_of(g.params->rotation_now);
+    const Vector3d head = vector_of(g.params->last_displacement);
+    const double alpha = g.params->alpha;
     for (uint32_t i = 0; i < g.guide->count; ++i) {
         const Vector3d at_end = vector_of(state[i].position);
         const Vector3d at_start =
@@ -54,7 +54,7 @@ void place(const hair_reference_guide& g, const hair_reference_vertex* state, ch
 chords measure(const hair_reference_guide& g, const hair_reference_vertex* state)
 {
     const uint32_t count = g.guide->count, segments = count - 1;
-    chords         c{std::vector<double>(3 * count), std::vector<double>(3 * segments),
+    chords c{std::vector<double>(3 * count), std::vector<double>(3 * segments),
              std::vector<double>(3 * count), std::vector<double>(4 * segments), std::vector<double>(count)};
     place(g, state, c);
     const double* p = c.positions.data();
@@ -80,15 +80,15 @@ chords measure(const hair_reference_guide& g, const hair_reference_vertex* state
 void hair_reference_smooth(hair_reference_guide g, const hair_reference_vertex* state,
                            hair_reference_sample* samples)
 {
-    const chords   c        = measure(g, state);
+    const chords c = measure(g, state);
     const uint32_t segments = g.guide->count - 1;
-    uint32_t       j        = 0;
+    uint32_t j = 0;
     for (uint32_t k = 0; k < g.params->smooth_vertices; ++k) {
         hair_reference_sample& sample = samples[k];
-        const double           s      = c.from_root[segments] * k / (g.params->smooth_vertices - 1);
+        const double s = c.from_root[segments] * k / (g.params->smooth_vertices - 1);
         while (j + 1 < segments && c.from_root[j + 1] <= s) ++j;
         const double length = c.from_root[j + 1] - c.from_root[j];
-        const double w      = std::fmin((s - c.from_root[j]) / length, 1);
+        const double w = std::fmin((s - c.from_root[j]) / length, 1);
         hair_reference_hermite(&c.positions[3 * j], &c.slopes[3 * j], &c.positions[3 * j + 3],
                                &c.slopes[3 * j + 3], length, w, sample.position, sample.tangent);
         store(direction_of(vector_of(sample.tangent)), sample.tangent);

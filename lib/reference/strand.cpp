@@ -13,7 +13,7 @@ namespace
 uint32_t hash(uint32_t seed)
 {
     const uint32_t state = seed * 747796405u + 2891336453u;
-    const uint32_t word  = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    const uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return (word >> 22u) ^ word;
 }
 
@@ -31,7 +31,7 @@ double high(uint32_t seed)
 along cubic(double a, double b, double slope_a, double slope_b, double x)
 {
     const double p[4] = {a, a + slope_a / 3, b - slope_b / 3, b};
-    const double s    = 1 - x;
+    const double s = 1 - x;
     return {s * s * s * p[0] + 3 * s * s * x * p[1] + 3 * s * x * x * p[2] + x * x * x * p[3],
             3 * (s * s * (p[1] - p[0]) + 2 * s * x * (p[2] - p[1]) + x * x * (p[3] - p[2]))};
 }
@@ -51,11 +51,11 @@ double at_end(double rise, double next)
 astray wander(uint32_t seed, double t, double waves)
 {
     const double at = t * waves, k = std::floor(at), x = at - k;
-    Vector3d     d[4], e[3];
+    Vector3d d[4], e[3];
     for (uint32_t i = 0; i < 4; ++i) {
         const uint32_t h = hash(seed + uint32_t(k) + i);
-        d[i]             = Vector3d(std::max(int16_t(h & 65535) / 32767.0, -1.0), 0,
-                                    std::max(int16_t(h >> 16) / 32767.0, -1.0));
+        d[i] = Vector3d(std::max(int16_t(h & 65535) / 32767.0, -1.0), 0,
+                        std::max(int16_t(h >> 16) / 32767.0, -1.0));
     }
     for (int i = 0; i < 3; ++i) e[i] = d[i + 1] - d[i];
     for (int i = 0; i < 2; ++i) e[i] += (x + 1 - i) / 2 * (e[i + 1] - e[i]);
@@ -78,36 +78,36 @@ astray sum(const astray& a, const astray& b)
 // The periodic spline through 16 values: equal second derivatives on both sides of each.
 along turn(const float* values, double turns)
 {
-    const int       n      = HAIR_TURN_PLACES;
+    const int n = HAIR_TURN_PLACES;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd right(n);
     for (int i = 0; i < n; ++i) {
-        matrix(i, i)           = 4;
+        matrix(i, i) = 4;
         matrix(i, (i + 1) % n) = matrix(i, (i + n - 1) % n) = 1;
         right(i) = 3 * (double(values[(i + 1) % n]) - values[(i + n - 1) % n]);
     }
     const Eigen::VectorXd slope = matrix.partialPivLu().solve(right);
-    const double          at    = n * (turns - std::floor(turns));
-    const int             k = std::min(int(at), n - 1), next = (k + 1) % n;
-    const along           c = cubic(values[k], values[next], slope(k), slope(next), at - k);
+    const double at = n * (turns - std::floor(turns));
+    const int k = std::min(int(at), n - 1), next = (k + 1) % n;
+    const along c = cubic(values[k], values[next], slope(k), slope(next), at - k);
     return {c.value, n * c.slope};
 }
 
 astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
     const double spread = look.curl_spread * (2 * high(seed + 2) - 1);
-    const double turns  = (length / look.curl_wavelength + look.curl_turns) / (1 + spread);
-    const double phase  = look.curl_lock_phase * low(guide) + look.curl_phase * low(seed + 2);
-    const double hand   = high(guide) < double(look.curl_left) ? -1 : 1;
+    const double turns = (length / look.curl_wavelength + look.curl_turns) / (1 + spread);
+    const double phase = look.curl_lock_phase * low(guide) + look.curl_phase * low(seed + 2);
+    const double hand = high(guide) < double(look.curl_left) ? -1 : 1;
     const double flat = 1 - double(look.curl_flatness), at = t * turns + phase;
-    along        x, z;
+    along x, z;
     if (look.curls == HAIR_CURLS_EXAMPLE) {
         x = turn(look.curl_x, at);
         z = turn(look.curl_z, at);
     } else {
         const double angle = 6.283185307179586 * at;
-        x                  = {std::cos(angle), -6.283185307179586 * std::sin(angle)};
-        z                  = {std::sin(angle), 6.283185307179586 * std::cos(angle)};
+        x = {std::cos(angle), -6.283185307179586 * std::sin(angle)};
+        z = {std::sin(angle), 6.283185307179586 * std::cos(angle)};
     }
     const astray around = {Vector3d(x.value, 0, hand * flat * z.value),
                            turns * Vector3d(x.slope, 0, hand * flat * z.slope)};
@@ -120,12 +120,12 @@ astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, doub
 along hair_reference_curve(const hair_curve& curve, double t)
 {
     const int n = HAIR_CURVE_INTERVALS;
-    double    rise[n], slope[n + 1];
+    double rise[n], slope[n + 1];
     for (int i = 0; i < n; ++i) rise[i] = double(curve.at[i + 1]) - curve.at[i];
     for (int i = 1; i < n; ++i) slope[i] = harmonic(rise[i - 1], rise[i]);
-    slope[0]        = at_end(rise[0], slope[1]);
-    slope[n]        = at_end(rise[n - 1], slope[n - 1]);
-    const int   k   = std::min(int(n * t), n - 1);
+    slope[0] = at_end(rise[0], slope[1]);
+    slope[n] = at_end(rise[n - 1], slope[n - 1]);
+    const int k = std::min(int(n * t), n - 1);
     const along own = cubic(curve.at[k], curve.at[k + 1], slope[k], slope[k + 1], n * t - k);
     return {own.value, n * own.slope};
 }
@@ -145,10 +145,10 @@ double hair_reference_share(const hair_look& look, uint32_t seed)
 astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
     const along by_tip = hair_reference_curve(look.tip_stray, t), by = hair_reference_curve(look.stray, t);
-    const bool  tip = low(seed + 1) < double(look.tip_strays), whole = high(seed + 1) < double(look.strays);
+    const bool tip = low(seed + 1) < double(look.tip_strays), whole = high(seed + 1) < double(look.strays);
     const along stray = {tip * by_tip.value + whole * by.value, tip * by_tip.slope + whole * by.slope};
-    astray      all   = times(wander(seed + 16, t, 6), length, stray);
-    all               = sum(all, times(wander(seed + 0x55555555u, t, length / look.kink), 1,
-                                       hair_reference_curve(look.frizz, t)));
+    astray all = times(wander(seed + 16, t, 6), length, stray);
+    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.kink), 1,
+                         hair_reference_curve(look.frizz, t)));
     return sum(all, curl(look, guide, seed, t, length));
 }

@@ -4,7 +4,7 @@
 #include "lib/sim/sim.h"
 
 #define BLOCK (1.0 / 60) // s, or a substep if that is longer
-#define AROUND 1.5f      // of the field's longest side: that of the box, unless the wind says
+#define AROUND 1.5f // of the field's longest side: that of the box, unless the wind says
 
 int hair_blow_is_on(const struct hair_sim* sim)
 {
@@ -26,10 +26,10 @@ static uint32_t enough(hair_projection projection, uint32_t cells)
 
 static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
 {
-    const hair_wind*       wind = &sim->wind;
-    hair_vec3              size = field_size(&sim->blow.field->box);
-    struct hair_fluid_desc desc = {.cells  = (wind->resolution + 15) / 16 * 16,
-                                   .side   = wind->box,
+    const hair_wind* wind = &sim->wind;
+    hair_vec3 size = field_size(&sim->blow.field->box);
+    struct hair_fluid_desc desc = {.cells = (wind->resolution + 15) / 16 * 16,
+                                   .side = wind->box,
                                    .method = (hair_fluid_method)wind->projection,
                                    .cycles = wind->cycles};
     if (desc.side == 0) desc.side = AROUND * fmaxf(size.x, fmaxf(size.y, size.z));
@@ -50,8 +50,8 @@ static int is_porous(const struct hair_sim* sim)
 
 static hair_result need_hair(struct hair_sim* sim)
 {
-    struct hair_blow* blow   = &sim->blow;
-    int               wanted = is_porous(sim);
+    struct hair_blow* blow = &sim->blow;
+    int wanted = is_porous(sim);
     if (!wanted) free_hair(blow, sim->gl);
     hair_result result = hair_fluid_need_hair(&blow->fluid, wanted);
     if (!result && wanted && !blow->share) result = hair_crowd_weigh(sim, &blow->share, &blow->metres);
@@ -107,19 +107,19 @@ static uint32_t block_length(const struct hair_sim* sim)
 // Mass and momentum of hair, in the fluid's box.
 static void gather_hair(struct hair_sim* sim)
 {
-    struct hair_gl*          gl    = sim->gl;
+    struct hair_gl* gl = sim->gl;
     const struct hair_fluid* fluid = &sim->blow.fluid;
-    uint32_t                 nodes = hair_fluid_nodes(fluid), fours = nodes * nodes * nodes;
-    float                    cell = fluid->desc.side / (float)nodes, half = 0.5f * cell;
-    hair_vec3                lower     = hair_add(fluid->lower, hair_v3(half, half, half));
-    struct hair_crowd_params params    = {.rotation = {0, 0, 0, 1},
-                                          .moved    = {0, 0, 0, (float)(1 / sim->last_substep)},
-                                          .lower    = {lower.x, lower.y, lower.z, cell},
-                                          .nodes_x  = nodes,
-                                          .nodes_y  = nodes,
-                                          .nodes_z  = nodes,
-                                          .vertices = sim->guide_vertices};
-    GLuint                   storage[] = {sim->state, fluid->hair.grid.buffer, sim->history, sim->blow.share};
+    uint32_t nodes = hair_fluid_nodes(fluid), fours = nodes * nodes * nodes;
+    float cell = fluid->desc.side / (float)nodes, half = 0.5f * cell;
+    hair_vec3 lower = hair_add(fluid->lower, hair_v3(half, half, half));
+    struct hair_crowd_params params = {.rotation = {0, 0, 0, 1},
+                                       .moved = {0, 0, 0, (float)(1 / sim->last_substep)},
+                                       .lower = {lower.x, lower.y, lower.z, cell},
+                                       .nodes_x = nodes,
+                                       .nodes_y = nodes,
+                                       .nodes_z = nodes,
+                                       .vertices = sim->guide_vertices};
+    GLuint storage[] = {sim->state, fluid->hair.grid.buffer, sim->history, sim->blow.share};
     hair_gl_write_uniform(gl, sim->blow.params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_CROWD_PARAMS, 1, &sim->blow.params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
@@ -130,29 +130,29 @@ static void gather_hair(struct hair_sim* sim)
 // By the drag that guides have of it: what air loses, they gain.
 static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
 {
-    const hair_wind* wind      = &sim->wind;
-    double           viscosity = (double)wind->viscosity / (double)wind->density;
+    const hair_wind* wind = &sim->wind;
+    double viscosity = (double)wind->viscosity / (double)wind->density;
     return (struct hair_fluid_strands){
-        .metres    = sim->blow.metres * wind->strands / sim->guides,
+        .metres = sim->blow.metres * wind->strands / sim->guides,
         .per_speed = (float)(2 * (double)sim->physics.fiber_radius / viscosity),
-        .viscous   = (float)((double)sim->physics.drag * viscosity),
+        .viscous = (float)((double)sim->physics.drag * viscosity),
     };
 }
 
 uint32_t hair_blow_left(struct hair_sim* sim, double dt)
 {
-    struct hair_blow*            blow   = &sim->blow;
-    const struct hair_field_box* box    = &blow->field->box;
-    uint32_t                     length = block_length(sim);
+    struct hair_blow* blow = &sim->blow;
+    const struct hair_field_box* box = &blow->field->box;
+    uint32_t length = block_length(sim);
     if (blow->beat >= length) blow->beat = 0; // Substeps have become longer.
     if (blow->beat != 0) return length - blow->beat;
-    struct hair_fluid_now now = {.head      = sim->last_after,
-                                 .middle    = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
-                                 .wind      = hair_load3(sim->wind.velocity),
-                                 .gusts     = hair_air_gusts_from(&sim->air, &sim->wind, &sim->last_after),
-                                 .dt        = length * sim->substep,
-                                 .field     = blow->field,
-                                 .solids    = &sim->solids,
+    struct hair_fluid_now now = {.head = sim->last_after,
+                                 .middle = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
+                                 .wind = hair_load3(sim->wind.velocity),
+                                 .gusts = hair_air_gusts_from(&sim->air, &sim->wind, &sim->last_after),
+                                 .dt = length * sim->substep,
+                                 .field = blow->field,
+                                 .solids = &sim->solids,
                                  .solids_dt = dt};
     if (blow->share) now.strands = strands_of(sim);
     hair_fluid_place(&blow->fluid, &now);
@@ -172,7 +172,7 @@ void hair_blow_count(struct hair_sim* sim, uint32_t substeps)
 hair_vec4 hair_blow_box(const struct hair_sim* sim)
 {
     const struct hair_fluid* fluid = &sim->blow.fluid;
-    double                   cell  = (double)hair_fluid_cell(fluid), lower[3];
+    double cell = (double)hair_fluid_cell(fluid), lower[3];
     for (int k = 0; k < 3; ++k) lower[k] = fluid->origin[k] * cell - sim->last_after.position[k];
     return (hair_vec4){(float)lower[0], (float)lower[1], (float)lower[2], 1 / fluid->desc.side};
 }

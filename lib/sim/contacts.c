@@ -3,10 +3,10 @@
 
 #define FIT                                                                                                  \
     0.02f // m: farther than it would go freely no vertex is moved, as glsl/sim/contact_lists.glsl has it
-#define FASTEST 5.0f    // m/s: hair relative to the head; what is faster may pass through what is thin
-#define MOST_GIVE 0.1f  // m
-#define LOOSE 1.05f     // hair may stretch a little
-#define FARTHEST 1e4f   // m: as glsl/sim/rod.glsl has it
+#define FASTEST 5.0f // m/s: hair relative to the head; what is faster may pass through what is thin
+#define MOST_GIVE 0.1f // m
+#define LOOSE 1.05f // hair may stretch a little
+#define FARTHEST 1e4f // m: as glsl/sim/rod.glsl has it
 #define MOST_ROUNDS 630 // of walks in a list on a software rasteriser: see rounds_of_list in rounds.c
 
 static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, float share_start)
@@ -14,11 +14,11 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->at_step);
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = LOOSE * sim->reach;
-    int   may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim); // Be farther.
+    int may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim); // Be farther.
     return (struct hair_cells_desc){
-        .reach       = may ? FARTHEST : fminf(far, FARTHEST),
-        .give        = FIT + fminf(half, MOST_GIVE),
-        .margin      = sim->physics.margin,
+        .reach = may ? FARTHEST : fminf(far, FARTHEST),
+        .give = FIT + fminf(half, MOST_GIVE),
+        .margin = sim->physics.margin,
         .share_start = share_start,
         .most_rounds = sim->gl->software ? MOST_ROUNDS : UINT32_MAX,
     };
@@ -39,9 +39,9 @@ static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
 static hair_result hold_forms(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
-    struct hair_cells*    cells    = &contacts->cells;
-    uint32_t              count = 0, taken = 0;
-    hair_result           result = HAIR_OK;
+    struct hair_cells* cells = &contacts->cells;
+    uint32_t count = 0, taken = 0;
+    hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < cells->contacts; ++i) count += cells->contact[i].body.size.w == HAIR_SHAPE_FORM;
     if (!count && !contacts->holds) return HAIR_OK;
     uint32_t* held = hair_alloc(&sim->gl->host, count, sizeof *held);
@@ -58,7 +58,7 @@ static hair_result hold_forms(struct hair_sim* sim)
     }
     let_go(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
-    contacts->held  = held;
+    contacts->held = held;
     contacts->holds = taken;
     if (taken) result = hair_forms_need_texture(contacts->forms);
     for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // Taking may have moved them all.
@@ -70,9 +70,9 @@ static hair_result hold_forms(struct hair_sim* sim)
 static hair_result put(struct hair_gl* gl, const char* label, GLenum format, size_t size, const void* data,
                        GLuint* buffer, GLuint* texture)
 {
-    size_t      texel  = format == GL_R32UI ? 4 : 16;
+    size_t texel = format == GL_R32UI ? 4 : 16;
     hair_result result = HAIR_OK;
-    GLint       most   = 0;
+    GLint most = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (size / texel > (size_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
@@ -84,10 +84,10 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
 
 static hair_result upload(struct hair_sim* sim)
 {
-    struct hair_contacts*     contacts = &sim->contacts;
-    const struct hair_cells*  cells    = &contacts->cells;
-    const struct hair_contact none     = {.grid = {0, 0, 0, 0}};
-    hair_result               result =
+    struct hair_contacts* contacts = &sim->contacts;
+    const struct hair_cells* cells = &contacts->cells;
+    const struct hair_contact none = {.grid = {0, 0, 0, 0}};
+    hair_result result =
         put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
             cells->contacts ? cells->contact : &none, &contacts->solid, &contacts->solid_texture);
     if (!result)
@@ -98,10 +98,10 @@ static hair_result upload(struct hair_sim* sim)
 
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start)
 {
-    const hair_host*       host   = &sim->gl->host;
-    struct hair_cells*     cells  = &sim->contacts.cells;
-    struct hair_cells_desc desc   = describe(sim, dt, share_start);
-    int                    others = 0;
+    const hair_host* host = &sim->gl->host;
+    struct hair_cells* cells = &sim->contacts.cells;
+    struct hair_cells_desc desc = describe(sim, dt, share_start);
+    int others = 0;
     hair_result result = hair_cells_gather(host, cells, &sim->solids, &sim->at_step, &sim->head, &desc);
     if (!result) result = hold_forms(sim);
     if (!result) result = hair_cells_list(host, cells, &desc, &others);
@@ -113,12 +113,12 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
-    params->solids                 = cells->contacts;
+    params->solids = cells->contacts;
     params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
-    params->cells_x     = cells->cells[0];
-    params->cells_y     = cells->cells[1];
-    params->cells_z     = cells->cells[2];
-    params->cells_give  = cells->made_for.give - FIT;
+    params->cells_x = cells->cells[0];
+    params->cells_y = cells->cells[1];
+    params->cells_z = cells->cells[2];
+    params->cells_give = cells->made_for.give - FIT;
 }
 
 void hair_contacts_bind(const struct hair_sim* sim)

@@ -4,8 +4,8 @@
 #include "lib/sim/sim.h"
 
 #define BLOCK (1.0 / 120) // s, or a substep if that is longer
-#define LEAST_CELL 0.01f  // m: finer than guides are apart there would be nothing to gather
-#define MOST_IN_BIN 32    // vertices that are looked at of those in a cell
+#define LEAST_CELL 0.01f // m: finer than guides are apart there would be nothing to gather
+#define MOST_IN_BIN 32 // vertices that are looked at of those in a cell
 #define MOST_OF_STRAND 16 // cells of it at a node, as the grid's units have to hold: more counts as that much
 
 int hair_crowd_is_on(const struct hair_sim* sim)
@@ -16,21 +16,21 @@ int hair_crowd_is_on(const struct hair_sim* sim)
 // Around all that hair can reach that keeps its length.
 static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
 {
-    struct hair_crowd* crowd    = &sim->crowd;
-    float              lower[3] = {INFINITY, INFINITY, INFINITY};
-    float              upper[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    struct hair_crowd* crowd = &sim->crowd;
+    float lower[3] = {INFINITY, INFINITY, INFINITY};
+    float upper[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
     for (uint32_t i = 0; i < sim->guides; ++i) {
         const float* root = &rest[guides[i].first].position.x;
         for (int k = 0; k < 3; ++k) {
             lower[k] = fminf(lower[k], root[k] - guides[i].arc_length);
             upper[k] = fmaxf(upper[k], root[k] + guides[i].arc_length);
-            widest   = fmaxf(widest, upper[k] - lower[k]);
+            widest = fmaxf(widest, upper[k] - lower[k]);
         }
     }
     crowd->lower = hair_load3(lower);
-    crowd->cell  = fmaxf(LEAST_CELL, widest / (HAIR_CROWD_NODES - 1));
+    crowd->cell = fmaxf(LEAST_CELL, widest / (HAIR_CROWD_NODES - 1));
     for (int k = 0; k < 3; ++k) {
-        uint32_t nodes  = (uint32_t)ceilf((upper[k] - lower[k]) / crowd->cell) + 1;
+        uint32_t nodes = (uint32_t)ceilf((upper[k] - lower[k]) / crowd->cell) + 1;
         crowd->nodes[k] = nodes < 2 ? 2 : nodes < HAIR_CROWD_NODES ? nodes : HAIR_CROWD_NODES;
     }
 }
@@ -48,7 +48,7 @@ static uint32_t grid_fours(const struct hair_crowd* crowd)
 
 struct spot {
     uint32_t node[3]; // the lowest of the eight around
-    float    part[3]; // of the way to the next, per axis
+    float part[3]; // of the way to the next, per axis
 };
 
 static struct spot spot_of(const struct hair_crowd* crowd, const hair_vec4* position)
@@ -57,8 +57,8 @@ static struct spot spot_of(const struct hair_crowd* crowd, const hair_vec4* posi
                          position->z - crowd->lower.z};
     struct spot spot;
     for (int k = 0; k < 3; ++k) {
-        float    g   = fminf(fmaxf(at[k] / crowd->cell, 0), (float)(crowd->nodes[k] - 1));
-        uint32_t n   = (uint32_t)g;
+        float g = fminf(fmaxf(at[k] / crowd->cell, 0), (float)(crowd->nodes[k] - 1));
+        uint32_t n = (uint32_t)g;
         spot.node[k] = n < crowd->nodes[k] - 2 ? n : crowd->nodes[k] - 2;
         spot.part[k] = g - (float)spot.node[k];
     }
@@ -72,10 +72,10 @@ static uint32_t node_at(const struct hair_crowd* crowd, uint32_t x, uint32_t y, 
 
 // What is worked out at rest. Arrays of one block.
 struct draft {
-    double*   mass;   // of every vertex: half the length of the segments beside it. m
-    double*   volume; // that it has for itself, in cells
-    double*   filled; // of every node, by volume
-    uint32_t* bin;    // where the vertices of the cell begin in `vertex`
+    double* mass; // of every vertex: half the length of the segments beside it. m
+    double* volume; // that it has for itself, in cells
+    double* filled; // of every node, by volume
+    uint32_t* bin; // where the vertices of the cell begin in `vertex`
     uint32_t* vertex; // sorted by cell
 };
 
@@ -84,9 +84,9 @@ static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, c
 {
     for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0; i < guides[g].count; ++i) {
-            uint32_t at     = guides[g].first + i;
-            double   before = i > 0 ? (double)rest[at - 1].position.w : 0;
-            mass[at]        = (before + (double)rest[at].position.w) / 2;
+            uint32_t at = guides[g].first + i;
+            double before = i > 0 ? (double)rest[at - 1].position.w : 0;
+            mass[at] = (before + (double)rest[at].position.w) / 2;
         }
 }
 
@@ -95,8 +95,8 @@ static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struc
     const struct hair_crowd* crowd = &sim->crowd;
     for (int place = 0; place < 2; ++place) {
         for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
-            struct spot s   = spot_of(crowd, &rest[i].position);
-            uint32_t    bin = node_at(crowd, s.node[0], s.node[1], s.node[2]);
+            struct spot s = spot_of(crowd, &rest[i].position);
+            uint32_t bin = node_at(crowd, s.node[0], s.node[1], s.node[2]);
             if (place)
                 draft->vertex[draft->bin[bin + 1]++] = i;
             else
@@ -112,8 +112,8 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
                           uint32_t i)
 {
     const struct hair_crowd* crowd = &sim->crowd;
-    struct spot              s     = spot_of(crowd, &rest[i].position);
-    double                   sum = 0, cell = (double)crowd->cell;
+    struct spot s = spot_of(crowd, &rest[i].position);
+    double sum = 0, cell = (double)crowd->cell;
     for (uint32_t n = 0; n < 27; ++n) {
         uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
         if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue; // -1 too
@@ -133,7 +133,7 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
 {
     const struct hair_crowd* crowd = &sim->crowd;
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
-        struct spot s    = spot_of(crowd, &rest[i].position);
+        struct spot s = spot_of(crowd, &rest[i].position);
         draft->volume[i] = draft->mass[i] / mass_around(sim, rest, draft, i);
         for (uint32_t c = 0; c < 8; ++c) {
             double weight = draft->volume[i];
@@ -148,14 +148,14 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
 static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* guides, const double* mass,
                                  const double* volume, GLuint* out)
 {
-    const hair_host*   host     = &sim->gl->host;
-    uint32_t           vertices = sim->guide_vertices;
-    struct hair_share* share    = hair_alloc(host, vertices, sizeof *share);
-    double             masses = 0, volumes = 0;
+    const hair_host* host = &sim->gl->host;
+    uint32_t vertices = sim->guide_vertices;
+    struct hair_share* share = hair_alloc(host, vertices, sizeof *share);
+    double masses = 0, volumes = 0;
     if (!share) return hair_fail_memory(host, "the crowd's grid");
     for (uint32_t i = 0; i < vertices; ++i) masses += mass[i], volumes += volume ? volume[i] : 0;
     for (uint32_t i = 0; i < vertices; ++i) {
-        share[i].mass   = (uint32_t)(mass[i] * (HAIR_CROWD_UNITS / masses) + 0.5);
+        share[i].mass = (uint32_t)(mass[i] * (HAIR_CROWD_UNITS / masses) + 0.5);
         share[i].volume = volume ? (uint32_t)(volume[i] * (HAIR_CROWD_UNITS / volumes) + 0.5) : 0;
     }
     for (uint32_t g = 0; g < sim->guides; ++g)
@@ -169,12 +169,12 @@ static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* 
 // A node presses from where it is full, or as it is at rest.
 static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct draft* draft)
 {
-    const hair_host*   host   = &sim->gl->host;
-    struct hair_crowd* crowd  = &sim->crowd;
-    uint32_t           nodes  = node_count(crowd);
-    float*             limit  = hair_alloc(host, nodes, sizeof *limit);
-    double             volume = 0;
-    hair_result        result = limit ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
+    const hair_host* host = &sim->gl->host;
+    struct hair_crowd* crowd = &sim->crowd;
+    uint32_t nodes = node_count(crowd);
+    float* limit = hair_alloc(host, nodes, sizeof *limit);
+    double volume = 0;
+    hair_result result = limit ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) volume += draft->volume[i];
     for (uint32_t n = 0; n < nodes && !result; ++n)
         limit[n] = (float)(fmax(draft->filled[n], 1) * (HAIR_CROWD_UNITS / volume));
@@ -187,17 +187,17 @@ static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides,
 static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guides,
                              const struct hair_rest* rest)
 {
-    const hair_host* host     = &sim->gl->host;
-    uint32_t         vertices = sim->guide_vertices, nodes;
+    const hair_host* host = &sim->gl->host;
+    uint32_t vertices = sim->guide_vertices, nodes;
     place_grid(sim, guides, rest);
-    nodes              = node_count(&sim->crowd);
+    nodes = node_count(&sim->crowd);
     struct draft draft = {0};
-    draft.mass         = hair_alloc(host, vertices, sizeof *draft.mass);
-    draft.volume       = hair_alloc(host, vertices, sizeof *draft.volume);
-    draft.filled       = hair_alloc(host, nodes, sizeof *draft.filled);
-    draft.bin          = hair_alloc(host, nodes + 2, sizeof *draft.bin);
-    draft.vertex       = hair_alloc(host, vertices, sizeof *draft.vertex);
-    int         whole  = draft.mass && draft.volume && draft.filled && draft.bin && draft.vertex;
+    draft.mass = hair_alloc(host, vertices, sizeof *draft.mass);
+    draft.volume = hair_alloc(host, vertices, sizeof *draft.volume);
+    draft.filled = hair_alloc(host, nodes, sizeof *draft.filled);
+    draft.bin = hair_alloc(host, nodes + 2, sizeof *draft.bin);
+    draft.vertex = hair_alloc(host, vertices, sizeof *draft.vertex);
+    int whole = draft.mass && draft.volume && draft.filled && draft.bin && draft.vertex;
     hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
     if (!result) {
         weigh(sim, guides, rest, draft.mass);
@@ -217,10 +217,10 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
 
 hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres)
 {
-    const hair_host*         host = &sim->gl->host;
-    const struct hair_rest*  rest;
+    const hair_host* host = &sim->gl->host;
+    const struct hair_rest* rest;
     const struct hair_guide* guides = hair_sim_guides(sim, &rest);
-    double*                  mass   = hair_alloc(host, sim->guide_vertices, sizeof *mass);
+    double* mass = hair_alloc(host, sim->guide_vertices, sizeof *mass);
     if (!mass) return hair_fail_memory(host, "the lengths of guides");
     weigh(sim, guides, rest, mass);
     *metres = 0;
@@ -233,7 +233,7 @@ hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres
 hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
                             const struct hair_rest* rest)
 {
-    struct hair_gl*    gl    = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_crowd* crowd = &sim->crowd;
     if (!hair_crowd_is_on(sim) || crowd->texture) return HAIR_OK;
     hair_result result = make_rest(sim, guides, rest);
@@ -269,33 +269,33 @@ static uint32_t block_length(const struct hair_sim* sim)
 static void write_params(const struct hair_sim* sim, struct hair_crowd_params* params)
 {
     const struct hair_crowd* crowd = &sim->crowd;
-    double                   time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
-    float     sound = 0.5f * crowd->cell / (float)time; // No faster than half a cell a block: that is stable.
-    hair_quat q     = sim->last_after.rotation;
+    double time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
+    float sound = 0.5f * crowd->cell / (float)time; // No faster than half a cell a block: that is stable.
+    hair_quat q = sim->last_after.rotation;
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     // What is left of a relative velocity after a block is exp(-rate time), however long it is.
     *params = (struct hair_crowd_params){
-        .rotation   = {q.x, q.y, q.z, q.w},
-        .moved      = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
-        .lower      = {crowd->lower.x, crowd->lower.y, crowd->lower.z, crowd->cell},
-        .nodes_x    = crowd->nodes[0],
-        .nodes_y    = crowd->nodes[1],
-        .nodes_z    = crowd->nodes[2],
-        .vertices   = sim->guide_vertices,
-        .cohesion   = (float)(-expm1(-rate * time) / time),
-        .volume     = fminf(sim->physics.volume, sound * sound),
+        .rotation = {q.x, q.y, q.z, q.w},
+        .moved = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
+        .lower = {crowd->lower.x, crowd->lower.y, crowd->lower.z, crowd->cell},
+        .nodes_x = crowd->nodes[0],
+        .nodes_y = crowd->nodes[1],
+        .nodes_z = crowd->nodes[2],
+        .vertices = sim->guide_vertices,
+        .cohesion = (float)(-expm1(-rate * time) / time),
+        .volume = fminf(sim->physics.volume, sound * sound),
         .per_strand = (float)(crowd->metres / HAIR_CROWD_UNITS) / (MOST_OF_STRAND * crowd->cell),
-        .ahead      = HAIR_CROWD_SPEED * 0.5f * (float)time / crowd->cell,
+        .ahead = HAIR_CROWD_SPEED * 0.5f * (float)time / crowd->cell,
     };
 }
 
 static void find_push(struct hair_sim* sim)
 {
-    struct hair_gl*          gl    = sim->gl;
-    struct hair_crowd*       crowd = &sim->crowd;
+    struct hair_gl* gl = sim->gl;
+    struct hair_crowd* crowd = &sim->crowd;
     struct hair_crowd_params params;
-    GLuint   storage[] = {sim->state, crowd->grid, sim->history, crowd->share, crowd->limit, crowd->push};
-    uint32_t groups    = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    GLuint storage[] = {sim->state, crowd->grid, sim->history, crowd->share, crowd->limit, crowd->push};
+    uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     write_params(sim, &params);
     hair_gl_write_uniform(gl, crowd->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_CROWD_PARAMS, 1, &crowd->params);

@@ -14,28 +14,28 @@
 // units, as many times fewer for a speed as HAIR_CROWD_SPEED says, which no vertex exceeds.
 #define HAIR_CROWD_UNITS 1073741824.0
 
-struct hair_crowd {                                      // All 0 until hair first has cohesion or volume.
-    GLuint    params, grid, share, limit, push, texture; // buffers, as in shared.h; of push
-    hair_vec3 lower;                                     // node 0, in the head's frame. m
-    float     cell;                                      // m
-    double    metres;                                    // of all guides
-    uint32_t  nodes[3];
-    uint32_t  beat; // substeps done of the block under way
+struct hair_crowd { // All 0 until hair first has cohesion or volume.
+    GLuint params, grid, share, limit, push, texture; // buffers, as in shared.h; of push
+    hair_vec3 lower; // node 0, in the head's frame. m
+    float cell; // m
+    double metres; // of all guides
+    uint32_t nodes[3];
+    uint32_t beat; // substeps done of the block under way
 };
 
 struct hair_sim;
 
-int         hair_crowd_is_on(const struct hair_sim* sim);
+int hair_crowd_is_on(const struct hair_sim* sim);
 hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
                             const struct hair_rest* rest); // if it is on and not yet made
-void        hair_crowd_free(struct hair_sim* sim);
+void hair_crowd_free(struct hair_sim* sim);
 
 // What guide vertices put into a grid of mass alone, as hair_share[]; and of how many metres of guides a unit of mass is.
 hair_result hair_crowd_weigh(struct hair_sim* sim, GLuint* share, double* metres);
 
 // How many substeps the block under way still has. At its start: find its accelerations first.
 uint32_t hair_crowd_left(struct hair_sim* sim);
-void     hair_crowd_bind(struct hair_sim* sim); // what the solver reads
-void     hair_crowd_count(struct hair_sim* sim, uint32_t substeps);
+void hair_crowd_bind(struct hair_sim* sim); // what the solver reads
+void hair_crowd_count(struct hair_sim* sim, uint32_t substeps);
 
 #endif

@@ -5,9 +5,9 @@
 
 static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* guides)
 {
-    struct hair_gl*       gl       = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_feedback* feedback = &sim->feedback;
-    uint32_t*             owners   = hair_alloc(&gl->host, sim->guide_vertices, sizeof *owners);
+    uint32_t* owners = hair_alloc(&gl->host, sim->guide_vertices, sizeof *owners);
     if (!owners) return hair_fail_memory(&gl->host, "the guides of vertices");
     for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0; i < guides[g].count; ++i) owners[guides[g].first + i] = g;
@@ -21,10 +21,10 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
 
 hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides)
 {
-    struct hair_gl*       gl       = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_feedback* feedback = &sim->feedback;
-    size_t                size     = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result           result   = make_owners(sim, guides);
+    size_t size = sim->guide_vertices * sizeof(struct hair_state);
+    hair_result result = make_owners(sim, guides);
     gl->CreateTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
     for (int i = 0; i < HAIR_FEEDBACK_STATES && !result; ++i) {
         if (i != GUIDES) result = hair_gl_buffer(gl, "hair feedback", size, NULL, &feedback->buffer[i]);
@@ -43,7 +43,7 @@ hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* gu
 
 void hair_feedback_free(struct hair_sim* sim)
 {
-    struct hair_gl*       gl       = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_feedback* feedback = &sim->feedback;
     if (!feedback->wanted) return;
     if (feedback->captured[0]) gl->DeleteTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
@@ -61,7 +61,7 @@ void hair_feedback_free(struct hair_sim* sim)
 static void run_phase(struct hair_sim* sim, hair_gl_pass pass, int* at)
 {
     struct hair_gl* gl = sim->gl;
-    int             to = pass == HAIR_GL_FEEDBACK_END ? GUIDES : *at == 0;
+    int to = pass == HAIR_GL_FEEDBACK_END ? GUIDES : *at == 0;
     gl->BindTextureUnit(HAIR_UNIT_STATE, sim->feedback.texture[*at]);
     gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, sim->feedback.captured[to]);
     hair_gl_begin(gl, pass);
@@ -89,9 +89,9 @@ static void run_substep(struct hair_sim* sim, const struct hair_step_params* par
 
 void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* params)
 {
-    struct hair_gl*         gl  = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_step_params own = *params;
-    struct hair_gl_capture  was;
+    struct hair_gl_capture was;
     hair_gl_begin_capture(gl, sim->feedback.framebuffer, &was);
     gl->BindTextureUnit(HAIR_UNIT_REST, sim->feedback.rest_texture);
     gl->BindTextureUnit(HAIR_UNIT_GUIDE, sim->feedback.guide_texture);

@@ -10,16 +10,16 @@ struct hair_sim;
 
 // All 0 unless it is asked for.
 struct hair_feedback {
-    int    wanted;
-    GLuint buffer[2], owner;               // two states; the guide of each vertex
-    GLuint texture[HAIR_FEEDBACK_STATES];  // of each state
+    int wanted;
+    GLuint buffer[2], owner; // two states; the guide of each vertex
+    GLuint texture[HAIR_FEEDBACK_STATES]; // of each state
     GLuint captured[HAIR_FEEDBACK_STATES]; // transform feedback into it
     GLuint rest_texture, guide_texture, owner_texture;
     GLuint framebuffer;
 };
 
 hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides);
-void        hair_feedback_free(struct hair_sim* sim);
+void hair_feedback_free(struct hair_sim* sim);
 
 // All substeps of `params`, as redblack.comp has them, but that strands put back to rest are not counted.
 void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* params);

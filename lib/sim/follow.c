@@ -26,10 +26,10 @@ static hair_vec4 vec4_of(hair_dvec3 v, double w)
 static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec3* first)
 {
     double inertia = 0;
-    *first         = (hair_dvec3){0, 0, 0};
+    *first = (hair_dvec3){0, 0, 0};
     for (uint32_t k = i + 1; k < s->count; ++k) {
         hair_dvec3 arm = hair_dadd(s->place[k], hair_dscale(s->place[i], -1));
-        *first         = hair_dadd(*first, hair_dscale(arm, s->mass[k]));
+        *first = hair_dadd(*first, hair_dscale(arm, s->mass[k]));
         inertia += s->mass[k] * hair_ddot(arm, arm);
     }
     // Masses beyond may lie about the vertex itself, but not the next vertex.
@@ -40,8 +40,8 @@ static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec
 static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
 {
     hair_dquat turn = s->turn[i];
-    hair_dvec3 v    = {turn.x, turn.y, turn.z};
-    double     real = hair_rod_stiffness(s, i) * s->ratio[2] * (2 * turn.w - s->rest_real[i]);
+    hair_dvec3 v = {turn.x, turn.y, turn.z};
+    double real = hair_rod_stiffness(s, i) * s->ratio[2] * (2 * turn.w - s->rest_real[i]);
     hair_dvec3 part = hair_dadd(hair_dcross(v, s->stress[i]), hair_dscale(v, real));
     return hair_drotate(s->frame[i], hair_dadd(hair_dscale(s->stress[i], turn.w), hair_dscale(part, -1)));
 }
@@ -49,15 +49,15 @@ static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
 static void write_segment(const struct hair_rod_shape* s, uint32_t i, struct hair_rod* out)
 {
     hair_dvec3 moment, r = hair_drotate(s->frame[i], (hair_dvec3){0, 1, 0});
-    double     inertia = find_moments(s, i, &moment), stiffness = hair_rod_stiffness(s, i);
-    double     c = hair_ddot(moment, r), arm = hair_dlength(moment);
+    double inertia = find_moments(s, i, &moment), stiffness = hair_rod_stiffness(s, i);
+    double c = hair_ddot(moment, r), arm = hair_dlength(moment);
     hair_dvec3 across = hair_dadd(moment, hair_dscale(r, -c));
-    hair_dvec3 aim    = hair_dscale(r, stiffness);
+    hair_dvec3 aim = hair_dscale(r, stiffness);
     if (stiffness > 0) aim = hair_dadd(aim, hair_dcross(r, moment_of_stress(s, i)));
     // A swing of the segment before it, at its own frequency, becomes sqrt(1 + 1/16) times as large at most.
-    double swing      = sqrt((stiffness + arm * s->gravity) / inertia);
-    out->strain       = vec4_of(hair_dscale(aim, 1 / inertia), c / inertia);
-    out->factor       = vec4_of(hair_dscale(across, 1 / inertia), (double)out->factor.w);
+    double swing = sqrt((stiffness + arm * s->gravity) / inertia);
+    out->strain = vec4_of(hair_dscale(aim, 1 / inertia), c / inertia);
+    out->factor = vec4_of(hair_dscale(across, 1 / inertia), (double)out->factor.w);
     out->factor_euler = vec4_of(r, 4 * s->length[i] * arm / inertia * swing);
 }
 
@@ -65,8 +65,8 @@ void hair_follow_write(const struct hair_rod_shape* s, struct hair_rod* out)
 {
     for (uint32_t i = 0; i < s->count; ++i) {
         int fixed = (i == 0 && s->held) || s->tied[i];
-        out[i]    = (struct hair_rod){
-               .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]), (float)s->pull[i], 0}};
+        out[i] = (struct hair_rod){
+            .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]), (float)s->pull[i], 0}};
         if (i + 1 < s->count) write_segment(s, i, out + i);
     }
 }

@@ -19,8 +19,8 @@
 
 void hair_diagnosis_free(struct hair_sim* sim)
 {
-    struct hair_diagnosis* d         = &sim->diagnosis;
-    GLuint*                buffers[] = {&d->energy, &d->energy_params, &d->found, &d->motion_params};
+    struct hair_diagnosis* d = &sim->diagnosis;
+    GLuint* buffers[] = {&d->energy, &d->energy_params, &d->found, &d->motion_params};
     for (int i = 0; i < 4; ++i) hair_gl_free_buffer(sim->gl, buffers[i]);
 }
 
@@ -51,9 +51,9 @@ static int has_energy(const struct hair_sim* sim)
 
 hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred)
 {
-    struct hair_diagnosis* d  = &sim->diagnosis;
-    struct hair_gl*        gl = sim->gl;
-    d->watches                = d->wanted && has_energy(sim) && !is_driven(sim, stirred);
+    struct hair_diagnosis* d = &sim->diagnosis;
+    struct hair_gl* gl = sim->gl;
+    d->watches = d->wanted && has_energy(sim) && !is_driven(sim, stirred);
     if (!d->watches) d->goes_on = 0;
     if (!d->watches) return HAIR_OK;
     hair_result result = hair_gl_need(gl, energy_pass(sim));
@@ -67,16 +67,16 @@ hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred)
 
 void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
 {
-    struct hair_diagnosis* d  = &sim->diagnosis;
-    struct hair_gl*        gl = sim->gl;
+    struct hair_diagnosis* d = &sim->diagnosis;
+    struct hair_gl* gl = sim->gl;
     if (!d->watches || substeps == 0) return;
-    int begins                       = !d->goes_on || d->substep != sim->substep;
-    d->time                          = (begins ? 0 : d->time) + substeps * sim->substep;
-    int                       ends   = d->time >= WINDOW;
+    int begins = !d->goes_on || d->substep != sim->substep;
+    d->time = (begins ? 0 : d->time) + substeps * sim->substep;
+    int ends = d->time >= WINDOW;
     struct hair_energy_params params = {.begins = (hair_uint)begins,
-                                        .ends   = (hair_uint)ends,
-                                        .time   = (float)(substeps * sim->substep),
-                                        .rate   = (float)(1 / sim->substep)};
+                                        .ends = (hair_uint)ends,
+                                        .time = (float)(substeps * sim->substep),
+                                        .rate = (float)(1 / sim->substep)};
     hair_gl_write_uniform(gl, d->energy_params, sizeof params, &params);
     hair_sim_bind(sim);
     hair_sim_bind_rods(sim);
@@ -102,22 +102,22 @@ static struct hair_motion_params motion_params(const struct hair_sim* sim)
     hair_quat turn =
         hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
-    double    rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
-    double    wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
-    return (struct hair_motion_params){.turn   = {turn.x, turn.y, turn.z, turn.w},
-                                       .moved  = {moved.x, moved.y, moved.z, (float)rate},
+    double rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
+    double wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
+    return (struct hair_motion_params){.turn = {turn.x, turn.y, turn.z, turn.w},
+                                       .moved = {moved.x, moved.y, moved.z, (float)rate},
                                        .guides = sim->guides,
-                                       .calm   = calm_of(sim),
-                                       .wait   = fminf((float)wait, NEVER),
-                                       .creep  = (float)(1 / (EULERS_NUMBER * RESTLESS_SPEED))};
+                                       .calm = calm_of(sim),
+                                       .wait = fminf((float)wait, NEVER),
+                                       .creep = (float)(1 / (EULERS_NUMBER * RESTLESS_SPEED))};
 }
 
 static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_COUNT])
 {
-    struct hair_diagnosis*    d      = &sim->diagnosis;
-    struct hair_gl*           gl     = sim->gl;
+    struct hair_diagnosis* d = &sim->diagnosis;
+    struct hair_gl* gl = sim->gl;
     struct hair_motion_params params = motion_params(sim);
-    hair_result               result = hair_gl_need(gl, HAIR_GL_MOTION_OF_GUIDES);
+    hair_result result = hair_gl_need(gl, HAIR_GL_MOTION_OF_GUIDES);
     if (!result && !d->motion_params)
         result = hair_gl_uniform(gl, "hair motion", sizeof params, &d->motion_params);
     if (!result && !d->found)
@@ -144,27 +144,27 @@ static float float_of(uint32_t bits)
 
 hair_result hair_sim_health(struct hair_sim* sim, hair_health* health)
 {
-    uint32_t                count[HAIR_HEALTH_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
-    struct hair_rods_report held   = hair_sim_held(sim);
-    hair_result             result = find_motion(sim, found);
+    uint32_t count[HAIR_HEALTH_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
+    struct hair_rods_report held = hair_sim_held(sim);
+    hair_result result = find_motion(sim, found);
     if (result) return result;
     sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
-    health->euler         = count[HAIR_HEALTH_EULER];
-    health->follow        = count[HAIR_HEALTH_FOLLOW];
-    health->reset         = count[HAIR_HEALTH_RESET];
-    health->taut          = count[HAIR_HEALTH_TAUT];
-    health->parts         = count[HAIR_HEALTH_PARTS];
-    health->gaining       = count[HAIR_HEALTH_GAINING];
-    health->restless      = found[HAIR_FOUND_RESTLESS];
+    health->euler = count[HAIR_HEALTH_EULER];
+    health->follow = count[HAIR_HEALTH_FOLLOW];
+    health->reset = count[HAIR_HEALTH_RESET];
+    health->taut = count[HAIR_HEALTH_TAUT];
+    health->parts = count[HAIR_HEALTH_PARTS];
+    health->gaining = count[HAIR_HEALTH_GAINING];
+    health->restless = found[HAIR_FOUND_RESTLESS];
     health->overstretched = found[HAIR_FOUND_OVERSTRETCHED];
-    health->fastest       = float_of(found[HAIR_FOUND_FASTEST]);
-    health->stretch       = float_of(found[HAIR_FOUND_STRETCH]);
-    health->substep       = (float)sim->substep;
-    health->stiffened     = held.stiffened;
-    health->stiffest      = held.stiffest;
-    health->sagging       = held.sagging;
-    health->farthest_sag  = held.farthest_sag;
-    health->softened      = held.softened.guides;
-    health->softest       = held.softened.factor;
+    health->fastest = float_of(found[HAIR_FOUND_FASTEST]);
+    health->stretch = float_of(found[HAIR_FOUND_STRETCH]);
+    health->substep = (float)sim->substep;
+    health->stiffened = held.stiffened;
+    health->stiffest = held.stiffest;
+    health->sagging = held.sagging;
+    health->farthest_sag = held.farthest_sag;
+    health->softened = held.softened.guides;
+    health->softest = held.softened.factor;
     return HAIR_OK;
 }

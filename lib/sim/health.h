@@ -7,14 +7,14 @@
 #include "lib/gl/gl.h"
 
 struct hair_diagnosis {
-    int    wanted;        // hair_desc.diagnose
-    int    watches;       // The step under way is watched.
-    int    goes_on;       // The last one was.
-    double time;          // of the window under way, s
-    double substep;       // of the steps that were watched, s
-    GLuint energy;        // buffer: hair_energy per guide. 0 until it is needed.
+    int wanted; // hair_desc.diagnose
+    int watches; // The step under way is watched.
+    int goes_on; // The last one was.
+    double time; // of the window under way, s
+    double substep; // of the steps that were watched, s
+    GLuint energy; // buffer: hair_energy per guide. 0 until it is needed.
     GLuint energy_params; // the same: hair_energy_params
-    GLuint found;         // the same: uint[HAIR_FOUND_COUNT]
+    GLuint found; // the same: uint[HAIR_FOUND_COUNT]
     GLuint motion_params; // the same: hair_motion_params
 };
 

@@ -28,27 +28,27 @@
 
 #include <string.h>
 
-#define MARGIN 1.05   // multiple of gravity under which a pose must be stable
-#define SLOWEST 2.0   // least frequency about a pose, rad/s: critically damped by the default damping of 4/s
+#define MARGIN 1.05 // multiple of gravity under which a pose must be stable
+#define SLOWEST 2.0 // least frequency about a pose, rad/s: critically damped by the default damping of 4/s
 #define FINENESS 1.02 // precision of 1 + c
-#define STEP 0.125    // of t
-#define BISECTIONS 3  // of a step of t
-#define STEPS 1       // Newton's method, for each t below 1
+#define STEP 0.125 // of t
+#define BISECTIONS 3 // of a step of t
+#define STEPS 1 // Newton's method, for each t below 1
 #define LAST_STEPS 60 // Newton's method, where it must converge
-#define SAME 1e-4     // distance between equal poses, as a fraction of the length
+#define SAME 1e-4 // distance between equal poses, as a fraction of the length
 
 struct search {
     struct hair_rod_shape* shape;
-    struct hair_rod_pose   pose;
-    double                 bend[HAIR_MAX_GUIDE_VERTICES];  // stiffness of the material
-    double                 lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
-    hair_rod_rest          own[HAIR_MAX_GUIDE_VERTICES];   // rest shape that is the groom
-    hair_rod_rest          rest[HAIR_MAX_GUIDE_VERTICES];  // rest shape that makes the pose an equilibrium
+    struct hair_rod_pose pose;
+    double bend[HAIR_MAX_GUIDE_VERTICES]; // stiffness of the material
+    double lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
+    hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // rest shape that is the groom
+    hair_rod_rest rest[HAIR_MAX_GUIDE_VERTICES]; // rest shape that makes the pose an equilibrium
 };
 
 static void find_levers(const struct hair_rod_shape* s, double* lever)
 {
-    double beyond       = 0;
+    double beyond = 0;
     lever[s->count - 1] = 0;
     for (uint32_t i = s->count - 1; i-- > 0;) {
         beyond += s->mass[i + 1];
@@ -80,8 +80,8 @@ static int holds(struct search* a, double margin)
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
         hair_dquat t = a->pose.turn[i];
-        a->rest[i]   = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
-                                       2 * t.z - g.z / s->ratio[2], 2 * t.w};
+        a->rest[i] = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
+                                     2 * t.z - g.z / s->ratio[2], 2 * t.w};
         if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return 0;
     }
     hair_rod_load(s, margin, &a->pose);
@@ -115,8 +115,8 @@ static int holds_at(struct search* a, double t)
 static double find_pose(struct search* a)
 {
     hair_dquat failed[HAIR_MAX_GUIDE_VERTICES], found[HAIR_MAX_GUIDE_VERTICES];
-    size_t     size  = a->shape->count * sizeof *failed;
-    double     fails = 0, does = STEP;
+    size_t size = a->shape->count * sizeof *failed;
+    double fails = 0, does = STEP;
     memcpy(failed, a->shape->frame, size);
     for (; !holds_at(a, does); does += STEP) {
         if (does >= 1) return does + STEP;
@@ -148,7 +148,7 @@ static double distance(const struct search* a, const hair_dvec3* place)
 static int is_reached(const struct search* a)
 {
     struct hair_rod_pose released;
-    double               length = 0;
+    double length = 0;
     for (uint32_t i = 0; i + 1 < a->shape->count; ++i) length += a->shape->length[i];
     hair_rod_pose_at(a->shape, a->shape->frame, &released);
     hair_rod_settle(a->shape, a->rest, 1, LAST_STEPS, &released);
@@ -194,8 +194,8 @@ static void finish(struct search* a)
 {
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 u    = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
-        s->stress[i]    = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        hair_dvec3 u = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
+        s->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
         s->rest_real[i] = a->rest[i].w;
     }
 }
@@ -203,7 +203,7 @@ static void finish(struct search* a)
 struct hair_rod_held hair_rod_hold(struct hair_rod_shape* s)
 {
     struct hair_rod_held held = {.stiffest = 1};
-    struct search        a;
+    struct search a;
     if (hair_ddot(s->load, s->load) == 0) return held;
     start(&a, s);
     if (!resists(s)) { // No multiple of the stiffness helps.

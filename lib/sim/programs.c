@@ -1,14 +1,14 @@
 // programs.c - which programs a simulation runs, and how much of it at once.
 #include "lib/sim/sim.h"
 
-#define MOST_FEW 2048      // guides: so many a GPU has under way at once, whatever registers they take
+#define MOST_FEW 2048 // guides: so many a GPU has under way at once, whatever registers they take
 #define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
 #define MOST_IN_THREAD 128 // Vertices of a guide that a thread of a GPU has memory for,
-#define MOST_MIXED 64      // and under the mixed scheme
-#define GROUPS_OF_LIST 16  // of a unit of a GPU, which has as many under way
-#define MOST_ROUNDS 65000  // that a software rasteriser may go in one thread: see rounds.c
+#define MOST_MIXED 64 // and under the mixed scheme
+#define GROUPS_OF_LIST 16 // of a unit of a GPU, which has as many under way
+#define MOST_ROUNDS 65000 // that a software rasteriser may go in one thread: see rounds.c
 #define PART_ROUNDS_OF_THREAD 30000 // of these, for parts of a substep: 21 of 32 vertices
-#define PART_ROUNDS_OF_GROUP 9000   // and 71
+#define PART_ROUNDS_OF_GROUP 9000 // and 71
 
 // Where a thread would have too much to do, it is a work group's.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
@@ -40,8 +40,8 @@ static int has_parts(const struct hair_sim* sim)
 
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
 {
-    int      by_thread = hair_sim_is_by_thread(sim);
-    uint32_t most      = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
+    int by_thread = hair_sim_is_by_thread(sim);
+    uint32_t most = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
     if (!has_parts(sim)) return 0;
     if (!sim->gl->software) return most;
     uint32_t whole = hair_sim_rounds_of_substep(sim, by_thread);
@@ -68,9 +68,9 @@ static int has_few_guides(const struct hair_sim* sim, int by_thread)
 static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bodies, int by_thread)
 {
     static const hair_gl_pass row[] = {
-        [HAIR_SOLVER_DIRECT]   = HAIR_GL_DIRECT,
+        [HAIR_SOLVER_DIRECT] = HAIR_GL_DIRECT,
         [HAIR_SOLVER_ACCURATE] = HAIR_GL_ACCURATE,
-        [HAIR_SOLVER_FOLLOW]   = HAIR_GL_FOLLOW,
+        [HAIR_SOLVER_FOLLOW] = HAIR_GL_FOLLOW,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
     hair_gl_pass features = 0;
@@ -104,7 +104,7 @@ static int has_bodies(const struct hair_sim* sim)
 
 static hair_gl_pass pass_now(const struct hair_sim* sim)
 {
-    int any    = sim->contacts.any;
+    int any = sim->contacts.any;
     int bodies = any ? sim->contacts.cells.bodies > 0 : has_bodies(sim);
     return solver_pass_for(sim, any, bodies, hair_sim_is_by_thread(sim));
 }
@@ -139,28 +139,28 @@ uint32_t hair_sim_next_list(struct hair_sim* sim)
 // Run the second program over its list, in as many dispatches as its loops need.
 static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
-    uint32_t     count     = params->substeps;
-    int          by_thread = hair_sim_is_by_thread(sim);
-    uint32_t     rounds    = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
-    uint32_t     most      = substeps_of(sim, rounds);
-    hair_gl_pass listed    = pass | HAIR_GL_WITH(LISTED);
-    GLuint       program   = hair_gl_find(sim->gl, listed)->program;
-    size_t       at        = (HAIR_HEALTH_COUNT + params->list * HAIR_HEALTH_LIST) * sizeof(uint32_t);
+    uint32_t count = params->substeps;
+    int by_thread = hair_sim_is_by_thread(sim);
+    uint32_t rounds = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
+    uint32_t most = substeps_of(sim, rounds);
+    hair_gl_pass listed = pass | HAIR_GL_WITH(LISTED);
+    GLuint program = hair_gl_find(sim->gl, listed)->program;
+    size_t at = (HAIR_HEALTH_COUNT + params->list * HAIR_HEALTH_LIST) * sizeof(uint32_t);
     for (uint32_t done = 0; done < count; done += most) {
         params->substep_first = done;
-        params->substeps      = count - done < most ? count : done + most;
+        params->substeps = count - done < most ? count : done + most;
         if (count > most) hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
         hair_gl_run_indirect(sim->gl, listed, program, sim->health, at);
     }
     params->substep_first = 0;
-    params->substeps      = count;
+    params->substeps = count;
 }
 
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
 {
-    hair_gl_pass pass      = pass_now(sim);
-    uint32_t     by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
-    uint32_t     groups    = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
+    hair_gl_pass pass = pass_now(sim);
+    uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
+    uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
     if (goes_in_two_by_shake(sim)) {
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), groups);
         run_listed(sim, pass, params);
@@ -192,10 +192,10 @@ hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
 
 hair_result hair_sim_need_programs(struct hair_sim* sim)
 {
-    struct hair_gl* gl  = sim->gl;
-    int             any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
-    hair_gl_pass    smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
-    hair_result     result = need_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
+    struct hair_gl* gl = sim->gl;
+    int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
+    hair_gl_pass smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
+    hair_result result = need_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
     if (!result && any && sim->by_thread && gl->software) // Lists say which, from step to step.
         result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
     if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));

@@ -51,8 +51,8 @@ static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint
     if (i >= count) return i == j;
     double sum = 0;
     for (uint32_t k = i < 2 ? 0 : i - 2; k <= j; ++k) {
-        const hair_vec4* f    = &rod[k].factor;
-        double           l[3] = {1, (double)f->y, (double)f->z};
+        const hair_vec4* f = &rod[k].factor;
+        double l[3] = {1, (double)f->y, (double)f->z};
         sum += l[i - k] * l[j - k] / (double)f->x;
     }
     return sum;
@@ -60,8 +60,8 @@ static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint
 
 static struct block_row row_of(const struct hair_rod* rod, uint32_t count, uint32_t block)
 {
-    uint32_t         i   = 2 * block;
-    double           off = entry(rod, count, i + 1, i);
+    uint32_t i = 2 * block;
+    double off = entry(rod, count, i + 1, i);
     struct block_row row = {.own = {{entry(rod, count, i, i), off, off, entry(rod, count, i + 1, i + 1)}}};
     if (i > 0)
         row.before = (struct block){
@@ -99,22 +99,22 @@ static double share_of(struct block a, struct block own, struct block far)
 static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
                              double least, hair_vec4* out, hair_vec4* last)
 {
-    static const struct block none  = {{0, 0, 0, 0}};
-    uint32_t                  count = (guide->count + 1) / 2, round = 0, heard = 0;
-    struct block_row          row[2][MOST_BLOCKS];
+    static const struct block none = {{0, 0, 0, 0}};
+    uint32_t count = (guide->count + 1) / 2, round = 0, heard = 0;
+    struct block_row row[2][MOST_BLOCKS];
     for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of(rod, guide->count, b);
     for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
         const struct block_row* from = row[round % 2];
-        struct block_row*       to   = row[(round + 1) % 2];
+        struct block_row* to = row[(round + 1) % 2];
         for (uint32_t b = 0; b < count; ++b) {
-            const struct block_row* up   = b >= reach ? &from[b - reach] : NULL;
+            const struct block_row* up = b >= reach ? &from[b - reach] : NULL;
             const struct block_row* down = b + reach < count ? &from[b + reach] : NULL;
-            struct block            a    = up ? minus_times_inverse(from[b].before, up->own) : none;
-            struct block            c    = down ? minus_times_inverse(from[b].after, down->own) : none;
-            to[b].before                 = up ? times(a, up->before) : none;
-            to[b].after                  = down ? times(c, down->after) : none;
-            to[b].own                    = plus(from[b].own,
-                                                plus(up ? times(a, up->after) : none, down ? times(c, down->before) : none));
+            struct block a = up ? minus_times_inverse(from[b].before, up->own) : none;
+            struct block c = down ? minus_times_inverse(from[b].after, down->own) : none;
+            to[b].before = up ? times(a, up->before) : none;
+            to[b].after = down ? times(c, down->after) : none;
+            to[b].own = plus(from[b].own,
+                             plus(up ? times(a, up->after) : none, down ? times(c, down->before) : none));
             write_round(guide, b, a, c, out + (size_t)round * vertices);
             write_round(guide, b, inverse(from[b].own), none, last + (size_t)round * vertices);
             double share = fmax(up ? share_of(a, from[b].own, up->own) : 0,
@@ -148,13 +148,13 @@ uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const
     for (uint32_t i = 0; i < count; ++i) {
         if (!(rod[guides[i].first].factor.x > 0)) continue;
         const struct hair_rod* first = rod + guides[i].first;
-        double                 least = least_heard(substep, first->segment.y > 0);
-        uint32_t               own   = reduce_guide(&guides[i], first, vertices, least, out, last);
-        rounds                       = own > rounds ? own : rounds;
+        double least = least_heard(substep, first->segment.y > 0);
+        uint32_t own = reduce_guide(&guides[i], first, vertices, least, out, last);
+        rounds = own > rounds ? own : rounds;
     }
     for (uint32_t i = 0; i < count; ++i) { // Of a guide with fewer after those that it has.
-        uint32_t own  = hair_rods_rounds(guides[i].count) - 1;
-        size_t   from = (size_t)(own < rounds ? own : rounds) * vertices + guides[i].first;
+        uint32_t own = hair_rods_rounds(guides[i].count) - 1;
+        size_t from = (size_t)(own < rounds ? own : rounds) * vertices + guides[i].first;
         memcpy(out + from, last + from, guides[i].count * sizeof *out);
     }
     return rounds;

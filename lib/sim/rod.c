@@ -10,19 +10,19 @@
 
 #include <string.h>
 
-#define FRAME (1.0 / 60)  // s
+#define FRAME (1.0 / 60) // s
 #define FEWEST_A_FRAME 18 // substeps of the accurate solver: a whip to half a millimetre
 #define FEWEST_A_FRAME_MIXED 24 // BDF2 for the same accuracy
-#define MOST_A_FRAME 100  // that one guide can ask for all
+#define MOST_A_FRAME 100 // that one guide can ask for all
 #define EXPLICIT_MARGIN 1.15
 #define EXPLICIT_MARGIN_BENT 1.5
 #define STRAIGHT 1e-4 // sine of half the angle at a vertex
 #define FEWEST_A_FRAME_DIRECT 4
 #define MOST_A_FRAME_DIRECT 16 // for a heavy tip; what it lacks then, inertia makes up for: taut.c
-#define MOST_STIFF 1e6         // h^2 K_ii / m_i.
-#define MIXED_STIFFER 2e4      // so many times as stiff the mixed scheme can solve,
+#define MOST_STIFF 1e6 // h^2 K_ii / m_i.
+#define MIXED_STIFFER 2e4 // so many times as stiff the mixed scheme can solve,
 #define MIXED_STIFFER_FREE 1e5 // and of what nothing holds
-#define MOST_STIFF_FREE 1e4    // of what nothing holds: by its mass alone it moves as a whole
+#define MOST_STIFF_FREE 1e4 // of what nothing holds: by its mass alone it moves as a whole
 
 struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
     double x, y, z;
@@ -48,8 +48,8 @@ static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 // Greatest stiffness at vertex i for which a substep of length h can still be solved in single precision.
 static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
-    hair_dvec3 row   = row_of(s, i);
-    double     after = row.z * row.z / s->mass[i + 1], most = after;
+    hair_dvec3 row = row_of(s, i);
+    double after = row.z * row.z / s->mass[i + 1], most = after;
     if (i > 0) most = fmax(most, row.y * row.y / s->mass[i]);
     if (i > 1 || (i == 1 && !s->held)) most = fmax(most, row.x * row.x / s->mass[i - 1]);
     return (s->held ? MOST_STIFF : MOST_STIFF_FREE) / (h * h * most * implicit_ratio(s));
@@ -124,8 +124,8 @@ static hair_vec4 eliminate(struct rows* above, double diagonal, struct band besi
 {
     struct band one = above->one, two = above->two, row = {diagonal, b2 * beside.y, b2 * beside.z};
     row.x += b2 * beside.x - one.x * one.y * one.y - two.x * two.z * two.z;
-    row.y  = (row.y - one.x * one.y * one.z) / row.x;
-    row.z  = row.z / row.x;
+    row.y = (row.y - one.x * one.y * one.z) / row.x;
+    row.z = row.z / row.x;
     *above = (struct rows){row, one};
     return (hair_vec4){(float)(1 / row.x), (float)row.y, (float)row.z, 0};
 }
@@ -136,7 +136,7 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
     if ((float)stiffness > 0) {
         hair_dvec3 excess = hair_rod_excess(s, i, stiffness);
-        double     size   = hair_dlength(excess);
+        double size = hair_dlength(excess);
         strain = hair_dadd(strain, hair_dscale(excess, -fmin(1, HAIR_ROD_MOST_STRAIN / fmax(size, 1e-30))));
     }
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
@@ -150,9 +150,9 @@ static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_
         double full = hair_rod_stiffness(s, i), k = full, over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
         if (i + 1 < s->count) k = fmin(k, stiffer * most_stiffness(s, i, h));
         if (k < full) softest = fmin(softest, k / full);
-        out[i] = (struct hair_rod){.strain  = rest_strain(s, i, k),
-                                   .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i],
-                                                (float)s->rest_real[i]}};
+        out[i] = (struct hair_rod){
+            .strain = rest_strain(s, i, k),
+            .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i], (float)s->rest_real[i]}};
     }
     return softest;
 }
@@ -168,27 +168,27 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
                           hair_solver solver, double h, struct hair_rod* out)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
-    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, softest = 1;
+    double stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, softest = 1;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        double full  = hair_rod_stiffness(s, i);
+        double full = hair_rod_stiffness(s, i);
         stiffness[i] = fmin(full, most_stiffness(s, i, h));
         if (stiffness[i] < full) softest = fmin(softest, stiffness[i] / full);
     }
     find_bands(s, stiffness, k);
     int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
     if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
-    int    taut    = accurate && tautness * h > 2 / EXPLICIT_MARGIN;
+    int taut = accurate && tautness * h > 2 / EXPLICIT_MARGIN;
     double damping = (double)physics->damping, b = 2 * h / 3;
 
     struct rows own = {0}, euler = {0};
     for (uint32_t i = 0; i < s->count; ++i) {
-        int    fixed = is_fixed(s, i);
-        double pull  = s->pull[i] * hair_rod_weight_share(s, i);
-        double of_b  = fixed ? 1 : s->mass[i] * (1 + damping * b + pull * b * b);
-        double of_h  = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
-        out[i]       = (struct hair_rod){.strain  = rest_strain(s, i, stiffness[i]),
-                                         .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
-                                                     (float)pull, taut ? 2 : (float)implicit}};
+        int fixed = is_fixed(s, i);
+        double pull = s->pull[i] * hair_rod_weight_share(s, i);
+        double of_b = fixed ? 1 : s->mass[i] * (1 + damping * b + pull * b * b);
+        double of_h = fixed ? 1 : s->mass[i] * (1 + damping * h + pull * h * h);
+        out[i] = (struct hair_rod){.strain = rest_strain(s, i, stiffness[i]),
+                                   .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
+                                               (float)pull, taut ? 2 : (float)implicit}};
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }
@@ -200,20 +200,20 @@ void hair_rods_hold(const struct hair_guide* guides, const struct hair_rest* res
 {
     *report = hair_rods_report_none();
     for (uint32_t k = 0; k < count; ++k) {
-        struct hair_rod_shape  shape;
+        struct hair_rod_shape shape;
         struct hair_rod_borne* own = out + guides[k].first;
-        double                 bend[HAIR_MAX_GUIDE_VERTICES];
+        double bend[HAIR_MAX_GUIDE_VERTICES];
         hair_rod_shape_of(guides + k, rest + guides[k].first, physics, &shape);
         memcpy(bend, shape.bend, sizeof bend);
         struct hair_rod_held held = hair_rod_hold(&shape);
         for (uint32_t i = 0; i < shape.count; ++i) {
             hair_dvec3 g = shape.stress[i];
-            own[i]       = (struct hair_rod_borne){
+            own[i] = (struct hair_rod_borne){
                 {g.x, g.y, g.z}, shape.rest_real[i], bend[i] > 0 ? shape.bend[i] / bend[i] : 1};
         }
         report->stiffened += held.stiffest > 1;
         report->sagging += (uint32_t)held.sags;
-        report->stiffest     = fmaxf(report->stiffest, (float)held.stiffest);
+        report->stiffest = fmaxf(report->stiffest, (float)held.stiffest);
         report->farthest_sag = fmaxf(report->farthest_sag, (float)held.sag);
     }
 }
@@ -256,7 +256,7 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
         softened.guides += own < 1;
         if (own >= (double)softened.factor) continue;
-        softened.worst  = i;
+        softened.worst = i;
         softened.factor = (float)own;
     }
     return softened;
@@ -269,7 +269,7 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
 {
     for (uint32_t i = 0; i < count;) {
         const struct hair_guide* guide = guides + knot[i].guide;
-        struct hair_rod_shape    shape;
+        struct hair_rod_shape shape;
         find_borne(guide, rest, borne, physics, &shape);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.tied[knot[i].vertex] = i + 1;
@@ -281,7 +281,7 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
 static double least_explicit(const struct hair_rod_shape* s)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
-    double      stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
+    double stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) stiffness[i] = hair_rod_stiffness(s, i);
     find_bands(s, stiffness, k);
     return ceil(FRAME / longest_explicit(s, k));
@@ -313,8 +313,8 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
 static int is_curved(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 strain    = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
-        double     stiffness = hair_rod_stiffness(s, i);
+        hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
+        double stiffness = hair_rod_stiffness(s, i);
         if (stiffness > 0) strain = hair_dadd(strain, hair_dscale(hair_rod_excess(s, i, stiffness), -1));
         if (hair_dlength(strain) > STRAIGHT_STRAIN) return 1;
     }

@@ -25,21 +25,21 @@ void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
 struct hair_rod_borne {
     double stress[3]; // derivative of the vertex's energy by its strain in the groom
     double rest_real; // 2 w0: 2 w in the pose that the guide holds
-    double stiffen;   // multiple of the stiffness, 1 to 3
+    double stiffen; // multiple of the stiffness, 1 to 3
 };
 
 // Guides whose stiffness is reduced to what the solver can solve at its substep in single precision.
 struct hair_rods_softened {
     uint32_t guides;
-    uint32_t worst;  // number of the guide that is softened most
-    float    factor; // of its stiffness, at the vertex that is softened most; 1 when none is
+    uint32_t worst; // number of the guide that is softened most
+    float factor; // of its stiffness, at the vertex that is softened most; 1 when none is
 };
 
 struct hair_rods_report {
-    uint32_t stiffened;    // guides that any vertex of is stiffer
-    float    stiffest;     // greatest multiple; 1 when there are none
-    uint32_t sagging;      // guides that cannot hold their groom even so
-    float    farthest_sag; // greatest distance of their vertices from the groom when they rest, m
+    uint32_t stiffened; // guides that any vertex of is stiffer
+    float stiffest; // greatest multiple; 1 when there are none
+    uint32_t sagging; // guides that cannot hold their groom even so
+    float farthest_sag; // greatest distance of their vertices from the groom when they rest, m
     struct hair_rods_softened softened;
 };
 

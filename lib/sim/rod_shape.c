@@ -23,12 +23,12 @@ static hair_dquat load_frame(const hair_vec4* q)
 // A frame from the groom, which is rounded: turned by as little as it takes for y to be just along the segment.
 static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
 {
-    hair_dquat q    = load_frame(rounded);
+    hair_dquat q = load_frame(rounded);
     hair_dvec3 from = along(q);
-    double     size = hair_dlength(segment);
+    double size = hair_dlength(segment);
     if (!(size > 0)) return q;
     hair_dvec3 to = hair_dscale(segment, 1 / size), c = hair_dcross(from, to);
-    double     w = 1 + hair_ddot(from, to);
+    double w = 1 + hair_ddot(from, to);
     if (w < 1e-6) return hair_dmultiply(q, (hair_dquat){1, 0, 0, 0}); // No frame of its segment.
     return unit(hair_dmultiply(unit((hair_dquat){c.x, c.y, c.z, w}), q));
 }
@@ -36,9 +36,9 @@ static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
 void hair_rods_ratios(const hair_physics* physics, double ratio[3])
 {
     double flat = (double)physics->flatness;
-    ratio[0]    = flat;
-    ratio[1]    = 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
-    ratio[2]    = 1 / flat;
+    ratio[0] = flat;
+    ratio[1] = 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
+    ratio[2] = 1 / flat;
 }
 
 static double pull_squared(const hair_physics* physics, double share)
@@ -49,16 +49,16 @@ static double pull_squared(const hair_physics* physics, double share)
 
 static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, const hair_physics* physics)
 {
-    double     total = 0, so_far = 0, radius = (double)physics->fiber_radius;
-    double     bend    = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
+    double total = 0, so_far = 0, radius = (double)physics->fiber_radius;
+    double bend = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
     hair_dvec3 gravity = hair_dload(physics->gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
         s->length[i] = i + 1 < s->count ? fmax((double)rest[i].position.w, SHORTEST) : 0;
-        s->mass[i]   = (s->length[i] + (i > 0 ? s->length[i - 1] : 0)) / 2;
+        s->mass[i] = (s->length[i] + (i > 0 ? s->length[i - 1] : 0)) / 2;
         total += s->length[i];
     }
     s->mass[s->count - 1] += (double)physics->tip_mass * total;
-    s->weight  = 0;
+    s->weight = 0;
     s->gravity = hair_dlength(gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
         double share = so_far / total, root = (double)physics->stiffness_root;
@@ -72,14 +72,14 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
 static void find_turns(struct hair_rod_shape* s, const struct hair_guide* guide, const struct hair_rest* rest)
 {
     hair_dquat before = load_frame(&guide->root_frame);
-    s->place[0]       = (hair_dvec3){0, 0, 0};
+    s->place[0] = (hair_dvec3){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 from = hair_dload(&rest[i].position.x), to = hair_dload(&rest[i + 1].position.x);
-        s->frame[i]     = frame_of(&rest[i].frame, hair_dadd(to, hair_dscale(from, -1)));
-        hair_dquat r    = hair_dmultiply(hair_dconjugate(before), s->frame[i]);
-        s->turn[i]      = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
+        s->frame[i] = frame_of(&rest[i].frame, hair_dadd(to, hair_dscale(from, -1)));
+        hair_dquat r = hair_dmultiply(hair_dconjugate(before), s->frame[i]);
+        s->turn[i] = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
         s->rest_real[i] = 2 * s->turn[i].w;
-        before          = s->frame[i];
+        before = s->frame[i];
         s->place[i + 1] = hair_dadd(s->place[i], hair_dscale(along(s->frame[i]), s->length[i]));
     }
 }
@@ -88,11 +88,11 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
                        const hair_physics* physics, struct hair_rod_shape* out)
 {
     hair_rods_ratios(physics, out->ratio);
-    out->count   = guide->count;
+    out->count = guide->count;
     out->clamped = physics->root == HAIR_ROOT_CLAMPED;
-    out->held    = physics->root != HAIR_ROOT_FREE;
+    out->held = physics->root != HAIR_ROOT_FREE;
     for (uint32_t i = 0; i < out->count; ++i) {
-        out->tied[i]   = 0;
+        out->tied[i] = 0;
         out->stress[i] = (hair_dvec3){0, 0, 0};
     }
     out->rest_real[out->count - 1] = 0;
@@ -136,14 +136,14 @@ double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i)
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness)
 {
     const double* ratio = shape->ratio;
-    hair_dvec3    g     = hair_dscale(shape->stress[i], 1 / stiffness);
+    hair_dvec3 g = hair_dscale(shape->stress[i], 1 / stiffness);
     return (hair_dvec3){g.x / ratio[0], g.y / ratio[1], g.z / ratio[2]};
 }
 
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne)
 {
     for (uint32_t i = 0; i < shape->count; ++i) {
-        shape->stress[i]    = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
+        shape->stress[i] = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
         shape->rest_real[i] = borne[i].rest_real;
         shape->bend[i] *= borne[i].stiffen;
     }

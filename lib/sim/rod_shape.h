@@ -56,22 +56,22 @@ static inline hair_dvec3 hair_drotate(hair_dquat q, hair_dvec3 v)
 }
 
 struct hair_rod_shape {
-    double     ratio[3];
-    uint32_t   count;                           // of vertices
-    int        clamped, held;                   // at the root
-    uint32_t   tied[HAIR_MAX_GUIDE_VERTICES];   // by the tie of this number, from 1; 0: not
-    double     gravity;                         // m/s^2
-    hair_dvec3 load;                            // the gravity that the rest strain is to bear, m/s^2
-    double     weight;                          // of all but the root vertex
-    double     length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
-    double     mass[HAIR_MAX_GUIDE_VERTICES];
-    double     pull[HAIR_MAX_GUIDE_VERTICES];   // squared angular frequency of the pull to the groom, 1/s^2
-    double     bend[HAIR_MAX_GUIDE_VERTICES];   // bending stiffness at vertex i
-    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES];  // of segment i
-    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];   // from the frame of segment i-1 to that of i, w >= 0
-    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES];  // of vertex i in the groom, from the root
+    double ratio[3];
+    uint32_t count; // of vertices
+    int clamped, held; // at the root
+    uint32_t tied[HAIR_MAX_GUIDE_VERTICES]; // by the tie of this number, from 1; 0: not
+    double gravity; // m/s^2
+    hair_dvec3 load; // the gravity that the rest strain is to bear, m/s^2
+    double weight; // of all but the root vertex
+    double length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
+    double mass[HAIR_MAX_GUIDE_VERTICES];
+    double pull[HAIR_MAX_GUIDE_VERTICES]; // squared angular frequency of the pull to the groom, 1/s^2
+    double bend[HAIR_MAX_GUIDE_VERTICES]; // bending stiffness at vertex i
+    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // of segment i
+    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // from the frame of segment i-1 to that of i, w >= 0
+    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES]; // of vertex i in the groom, from the root
     hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of vertex i's energy by its strain in the groom
-    double     rest_real[HAIR_MAX_GUIDE_VERTICES]; // 2 w at rest, w the real part of `turn`: see rod.h
+    double rest_real[HAIR_MAX_GUIDE_VERTICES]; // 2 w at rest, w the real part of `turn`: see rod.h
 };
 
 // `rest` is that of the guide. The stress is 0 and rest_real is the groom's: hair_rod_hold() or
@@ -87,9 +87,9 @@ double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i);
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness);
 
 // taut.c: of strands that hang from a held root and whose tip outweighs them. Others have tautness 0.
-double hair_rod_tautness(const struct hair_rod_shape* shape);        // the highest frequency that gives, 1/s
-double hair_rod_longest_taut(const struct hair_rod_shape* shape);    // b that implicit methods can have, s
-void   hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
+double hair_rod_tautness(const struct hair_rod_shape* shape); // the highest frequency that gives, 1/s
+double hair_rod_longest_taut(const struct hair_rod_shape* shape); // b that implicit methods can have, s
+void hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
 double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
 
 // follow.c: write one hair_rod per vertex as glsl/sim/follow.comp reads it. Its factors have another
@@ -103,8 +103,8 @@ void hair_follow_write(const struct hair_rod_shape* shape, struct hair_rod* out)
 #define HAIR_ROD_MOST_STIFFEN 3.0
 struct hair_rod_held {
     double stiffest; // greatest multiple of the stiffness; 1 when there is none
-    double sag;      // farthest that a vertex comes to rest from the groom, m; 0 when it holds
-    int    sags;
+    double sag; // farthest that a vertex comes to rest from the groom, m; 0 when it holds
+    int sags;
 };
 struct hair_rod_held hair_rod_hold(struct hair_rod_shape* shape);
 

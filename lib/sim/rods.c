@@ -4,17 +4,17 @@
 #include <string.h>
 
 struct hair_rods {
-    struct hair_guide*      guides; // copies: the groom may be gone when physics change
-    struct hair_rest*       rest;
-    struct hair_rod_borne*  borne;
-    hair_physics            made_for, borne_for;
+    struct hair_guide* guides; // copies: the groom may be gone when physics change
+    struct hair_rest* rest;
+    struct hair_rod_borne* borne;
+    hair_physics made_for, borne_for;
     struct hair_rods_report report;
-    int                     held;   // whether `borne` is of borne_for
-    int                     mixed;  // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
-    int                     stiff;  // for SHAKE, some
-    int                     struck; // made for: sim->struck,
-    uint32_t                tied;   // and sim->ties.which;
-    uint32_t                longer; // and substeps so many times as long as the solver wants them
+    int held; // whether `borne` is of borne_for
+    int mixed; // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
+    int stiff; // for SHAKE, some
+    int struck; // made for: sim->struck,
+    uint32_t tied; // and sim->ties.which;
+    uint32_t longer; // and substeps so many times as long as the solver wants them
 };
 
 #define LONGEST                                                                                              \
@@ -40,19 +40,19 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
                                   GLuint* buffer, uint32_t* rounds)
 {
-    const hair_host* host      = &sim->gl->host;
-    int              there     = 0;
-    int              no_system = sim->solver == HAIR_SOLVER_FOLLOW;
+    const hair_host* host = &sim->gl->host;
+    int there = 0;
+    int no_system = sim->solver == HAIR_SOLVER_FOLLOW;
     for (uint32_t i = 0; i < sim->guides && !there && !no_system; ++i)
         there = rod[sim->rods->guides[i].first].factor.x > 0;
     if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
-    uint32_t    most = hair_rods_rounds(sim->most_vertices), vertices = sim->guide_vertices;
-    size_t      count = (size_t)most * vertices;
-    hair_vec4 * out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
+    uint32_t most = hair_rods_rounds(sim->most_vertices), vertices = sim->guide_vertices;
+    size_t count = (size_t)most * vertices;
+    hair_vec4 *out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
     hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
     if (!result) {
         *rounds = hair_rods_reduce(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
-        count   = (size_t)(*rounds + 1) * vertices;
+        count = (size_t)(*rounds + 1) * vertices;
         memset(out + count, 0, sizeof *out);
         result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
     }
@@ -66,7 +66,7 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
-    float    rate   = sim->physics.rate;
+    float rate = sim->physics.rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.unseen_rate);
     while (2 * (float)longer * rate <= 1) longer *= 2;
     if (sim->longer && longer < sim->longer) return sim->longer / 2;
@@ -96,16 +96,16 @@ static void hold(struct hair_sim* sim)
     if (rods->held && !hair_rods_differ(&rods->borne_for, &sim->physics)) return;
     hair_rods_hold(rods->guides, rods->rest, sim->guides, &sim->physics, rods->borne, &rods->report);
     rods->borne_for = sim->physics;
-    rods->held      = 1;
+    rods->held = 1;
 }
 
 // All that depends on physics, in a new buffer: what is under way keeps the old one.
 static hair_result make(struct hair_sim* sim, int struck)
 {
-    const hair_host*  host    = &sim->gl->host;
-    struct hair_rods* rods    = sim->rods;
-    double            substep = sim->asked_substep;
-    struct hair_rod*  rod     = hair_alloc(host, sim->guide_vertices, sizeof *rod);
+    const hair_host* host = &sim->gl->host;
+    struct hair_rods* rods = sim->rods;
+    double substep = sim->asked_substep;
+    struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
     hold(sim);
     int mixed = are_mixed(sim);
@@ -121,8 +121,8 @@ static hair_result make(struct hair_sim* sim, int struck)
                                                          &sim->physics, sim->solver, mixed, substep, rod);
     hair_rods_tie(rods->guides, rods->rest, rods->borne, sim->ties.knot, sim->ties.count, &sim->physics,
                   sim->solver, mixed, substep, rod);
-    GLuint      buffer = 0, reduction = 0, bend = sim->bend;
-    uint32_t    rounds = 0;
+    GLuint buffer = 0, reduction = 0, bend = sim->bend;
+    uint32_t rounds = 0;
     hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
     if (!result)
         result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
@@ -133,21 +133,21 @@ static hair_result make(struct hair_sim* sim, int struck)
         hair_gl_free_buffer(sim->gl, &buffer);
     } else {
         if (!mixed) hair_gl_free_buffer(sim->gl, &bend);
-        sim->bend   = bend;
+        sim->bend = bend;
         rods->mixed = mixed;
         hair_gl_free_buffer(sim->gl, &sim->rod);
         hair_gl_free_buffer(sim->gl, &sim->reduction);
-        sim->rod       = buffer;
+        sim->rod = buffer;
         sim->reduction = reduction;
-        sim->rounds    = rounds;
+        sim->rounds = rounds;
         rods->made_for = sim->physics;
         rods->report.softened = softened;
-        rods->struck   = struck;
-        rods->tied     = sim->ties.which;
-        rods->longer   = longer;
-        sim->longer    = longer;
-        rods->stiff    = is_stiff(sim, rod);
-        sim->substep   = substep;
+        rods->struck = struck;
+        rods->tied = sim->ties.which;
+        rods->longer = longer;
+        sim->longer = longer;
+        rods->stiff = is_stiff(sim, rod);
+        sim->substep = substep;
     }
     hair_free(host, rod);
     return result;
@@ -155,7 +155,7 @@ static hair_result make(struct hair_sim* sim, int struck)
 
 static hair_result make_buffers(struct hair_sim* sim)
 {
-    size_t      vertices = sim->guide_vertices;
+    size_t vertices = sim->guide_vertices;
     hair_result result =
         hair_gl_storage(sim->gl, "hair history", vertices * sizeof(struct hair_history), NULL, &sim->history);
     if (!result)
@@ -167,12 +167,12 @@ static hair_result make_buffers(struct hair_sim* sim)
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom)
 {
     const hair_host* host = &sim->gl->host;
-    sim->rods             = hair_alloc(host, 1, sizeof *sim->rods);
+    sim->rods = hair_alloc(host, 1, sizeof *sim->rods);
     if (!sim->rods) return hair_fail_memory(host, "the guides as rods");
     struct hair_rods* rods = sim->rods;
-    rods->guides           = hair_alloc(host, sim->guides, sizeof *rods->guides);
-    rods->rest             = hair_alloc(host, sim->guide_vertices, sizeof *rods->rest);
-    rods->borne            = hair_alloc(host, sim->guide_vertices, sizeof *rods->borne);
+    rods->guides = hair_alloc(host, sim->guides, sizeof *rods->guides);
+    rods->rest = hair_alloc(host, sim->guide_vertices, sizeof *rods->rest);
+    rods->borne = hair_alloc(host, sim->guide_vertices, sizeof *rods->borne);
     if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
@@ -211,7 +211,7 @@ hair_result hair_sim_renew_rods(struct hair_sim* sim)
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
     int struck = sim->struck || hair_sim_contacts(sim) > 0;
-    int other  = rods->longer != times_longer(sim) || is_struck_anew(sim, struck) ||
+    int other = rods->longer != times_longer(sim) || is_struck_anew(sim, struck) ||
                 sim->ties.which != rods->tied || hair_rods_differ(&rods->made_for, &sim->physics);
     hair_result result = other ? make(sim, struck) : HAIR_OK;
     if (!result) sim->struck = struck;
@@ -244,16 +244,16 @@ void hair_sim_bind_rods(struct hair_sim* sim)
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const hair_physics* physics = &sim->physics;
-    double              h = sim->substep, c = (double)physics->damping;
-    double              ratio[3];
+    double h = sim->substep, c = (double)physics->damping;
+    double ratio[3];
     hair_rods_ratios(physics, ratio);
-    params->ratio       = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
-    params->kick        = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
-    params->damping     = physics->damping;
-    params->friction    = physics->friction;
-    params->rescale     = (float)(h / sim->last_substep);
-    params->vertices    = sim->guide_vertices;
-    params->rounds      = sim->rounds;
+    params->ratio = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
+    params->kick = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
+    params->damping = physics->damping;
+    params->friction = physics->friction;
+    params->rescale = (float)(h / sim->last_substep);
+    params->vertices = sim->guide_vertices;
+    params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
 }
 

@@ -14,23 +14,23 @@
     13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
 #define DRAWN_AGAIN 3u // by follow, after contact: CONTACT_ROUNDS of glsl/sim/follow.comp
 #define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
-#define TIED_ENDS 30   // and what begins and ends these, for each tie
+#define TIED_ENDS 30 // and what begins and ends these, for each tie
 #define CACHED 16 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
-#define MOST_LOOKS 20u  // at solids of a list: for each method tried, and two of what is led. Each goes
-#define TIMES 6u        // through it, ROUNDS of glsl/sim/contact_any.glsl, and
+#define MOST_LOOKS 20u // at solids of a list: for each method tried, and two of what is led. Each goes
+#define TIMES 6u // through it, ROUNDS of glsl/sim/contact_any.glsl, and
 #define TIMES_WALKED 2u // to those that are walked through
-#define LEAST_LOOKS 4u  // of a thread that has no rounds left, each once through
-#define HALVINGS 10     // of a work group's vertices, and what ends them: cyclic reduction
-#define AT_ONCE 8u      // guides, where each is a thread's
-#define IDLE 500        // of loops that go over methods and steps, and of those that nobody enters,
-#define IDLE_GROUP 250  // more of a work group, and what it sums up
+#define LEAST_LOOKS 4u // of a thread that has no rounds left, each once through
+#define HALVINGS 10 // of a work group's vertices, and what ends them: cyclic reduction
+#define AT_ONCE 8u // guides, where each is a thread's
+#define IDLE 500 // of loops that go over methods and steps, and of those that nobody enters,
+#define IDLE_GROUP 250 // more of a work group, and what it sums up
 
 // Of one substep, loops over a strand.
 struct loops {
-    uint32_t over;  // each vertex by itself: a work group goes over all of them at once
-    uint32_t rows;  // tridiagonal systems: there and back, or a work group's reduction
+    uint32_t over; // each vertex by itself: a work group goes over all of them at once
+    uint32_t rows; // tridiagonal systems: there and back, or a work group's reduction
     uint32_t along; // from vertex to vertex, which is one thread's in any case
-    uint32_t ends;  // rounds, whatever the strand has
+    uint32_t ends; // rounds, whatever the strand has
 };
 
 static uint32_t lesser(uint32_t a, uint32_t b)
@@ -55,10 +55,10 @@ static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
 // mixed_chain.glsl, mixed_parts.glsl and accept.glsl.
 static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t     most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
+    uint32_t most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
     struct loops loops = {0};
-    loops.over         = most * (14 + 23 + 3 * tied);
-    loops.along        = most * 7;
+    loops.over = most * (14 + 23 + 3 * tied);
+    loops.along = most * 7;
     return loops;
 }
 
@@ -74,11 +74,11 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
 {
     if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
     if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
-    uint32_t     tried = first ? 1 : TRIED, predicted = first ? 1 : tried + 1, tied = sim->ties.count > 0;
-    uint32_t     met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
+    uint32_t tried = first ? 1 : TRIED, predicted = first ? 1 : tried + 1, tied = sim->ties.count > 0;
+    uint32_t met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
-    loops.over         = predicted * (10 + tied + 3 * met);
-    loops.along        = predicted * 2;
+    loops.over = predicted * (10 + tied + 3 * met);
+    loops.along = predicted * 2;
     loops.over += tried * (LOOKS * (3 + tied + met) + STEPS * 4 + stiff * 3);
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
@@ -88,8 +88,8 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
 // What leader.glsl adds. A strand that solids have a hand in is led twice.
 static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* loops)
 {
-    uint32_t met     = hair_sim_contacts(sim) > 0;
-    uint32_t led     = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
+    uint32_t met = hair_sim_contacts(sim) > 0;
+    uint32_t led = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
     uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Their spans are where they like.
     loops->over += led * 3;
     if (sim->ties.count) {
@@ -104,7 +104,7 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
 static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
-    uint32_t                 made  = 2 * (TRIED + 1) * cells->longest;
+    uint32_t made = 2 * (TRIED + 1) * cells->longest;
     if (by_thread) return made + LEAST_LOOKS * (cells->longest + cells->rounds + 4);
     return made + MOST_LOOKS * (TIMES * (cells->longest + 2 + CACHED) + TIMES_WALKED * cells->rounds);
 }
@@ -121,11 +121,11 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int first)
 {
-    uint32_t around    = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
-    uint32_t each      = rounds_of_contact(sim, by_thread);
-    uint32_t at_root   = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
-    uint32_t look      = (TRIED + 1) * at_root; // Of few solids also by guide.
-    uint32_t spare     = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
+    uint32_t around = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
+    uint32_t each = rounds_of_contact(sim, by_thread);
+    uint32_t at_root = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
+    uint32_t look = (TRIED + 1) * at_root; // Of few solids also by guide.
+    uint32_t spare = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
     loops.over += 4; // It is loaded, taken for true or put back, and stored.

@@ -20,8 +20,8 @@
 #define TRAILER 8
 #define MAGIC "hairsave"
 
-#define MOST_PLACE 1e9     // m: of the head, as in hair_set_transform
-#define MOST_PAST 1e12     // m: of a pose before it, which teleports between two steps take further
+#define MOST_PLACE 1e9 // m: of the head, as in hair_set_transform
+#define MOST_PAST 1e12 // m: of a pose before it, which teleports between two steps take further
 #define LEAST_SUBSTEP 1e-6 // s
 #define MOST_SUBSTEP 0.11
 
@@ -29,11 +29,11 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
-#define MOST_BEAT 2000  // substeps of a block of the crowd or the fluid: more than there are of the shortest
+#define MOST_BEAT 2000 // substeps of a block of the crowd or the fluid: more than there are of the shortest
 #define MOST_CELLS 1e16 // from the world's origin to the fluid's box
-#define MOST_CALM 1e9   // s
-#define MOST_LONGER 16  // by the least hair_physics.rate
-#define SOLID_WORDS 14  // of a solid, before the mark of its form and its key
+#define MOST_CALM 1e9 // s
+#define MOST_LONGER 16 // by the least hair_physics.rate
+#define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 #define KNOT_BYTES 36
 
@@ -41,10 +41,10 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
 struct loaded {
     struct loaded_solids {
         hair_solid* solid;
-        uint32_t    count;
+        uint32_t count;
     } now, before;
     struct hair_knot* knot; // of ties
-    uint32_t          ties;
+    uint32_t ties;
 };
 
 // The form of that mark among the solids there are. NULL: none.
@@ -75,7 +75,7 @@ static void walk_solid(struct hair_walk* c, const struct hair_solids* there, hai
     }
     for (int k = 0; k < 4; ++k) hair_walk_uint(c, "solid", &marks[k], UINT32_MAX);
     if (!c->read) return;
-    solid->key  = marks[2] | (uint64_t)marks[3] << 32;
+    solid->key = marks[2] | (uint64_t)marks[3] << 32;
     solid->form = NULL;
     if (solid->shape == HAIR_SHAPE_FORM) solid->form = find_form(there, marks[0] | (uint64_t)marks[1] << 32);
 }
@@ -85,7 +85,7 @@ static void walk_solids(struct hair_walk* c, const char* name, struct hair_solid
                         struct hair_solid_list* list, struct loaded_solids* loaded)
 {
     hair_solid* solid = list->solid;
-    uint32_t    count = list->count;
+    uint32_t count = list->count;
     hair_walk_uint(c, name, &count, HAIR_MOST_SOLIDS);
     if (c->read && !c->result) {
         if (count > (c->end - c->at) / SOLID_BYTES) {
@@ -95,7 +95,7 @@ static void walk_solids(struct hair_walk* c, const char* name, struct hair_solid
             return;
         }
         solid = loaded->solid = hair_alloc(c->host, count, sizeof *solid);
-        loaded->count         = count;
+        loaded->count = count;
         if (!solid) c->result = hair_fail_memory(c->host, "the solids to load");
     }
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_solid(c, there, &solid[i]);
@@ -112,8 +112,8 @@ static void walk_knot(struct hair_walk* c, struct hair_knot* knot)
 // Read into `loaded`, as solids are.
 static void walk_ties(struct hair_walk* c, struct hair_ties* ties, struct loaded* loaded)
 {
-    struct hair_knot* knot  = ties->knot;
-    uint32_t          count = ties->count;
+    struct hair_knot* knot = ties->knot;
+    uint32_t count = ties->count;
     hair_walk_uint(c, "number of ties", &count, HAIR_MOST_TIES);
     if (c->read && !c->result) {
         if (count > (c->end - c->at) / KNOT_BYTES) {
@@ -145,8 +145,8 @@ static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t v
 // hair_sim_load clears its buffer.
 static void walk_bend(struct hair_walk* c, struct hair_sim* sim)
 {
-    size_t size  = 3 * sim->guide_vertices * sizeof(hair_vec4);
-    int    there = sim->bend != 0;
+    size_t size = 3 * sim->guide_vertices * sizeof(hair_vec4);
+    int there = sim->bend != 0;
     hair_walk_flag(c, "whether there are forces of segments", &there);
     c->lacks_bend = c->read && !there;
     if (!there || c->result) return;
@@ -174,9 +174,9 @@ static void walk_skin(struct hair_walk* c, struct hair_sim* sim, int skinned)
 // Whether hair sleeps, and what has been seen of its coming to rest.
 static void walk_sleep(struct hair_walk* c, struct hair_sim* sim)
 {
-    struct hair_sleep* sleep    = &sim->sleep;
-    float*             number[] = {&sleep->now.far, &sleep->now.speed, &sleep->before, &sleep->answer.far,
-                                   &sleep->answer.speed};
+    struct hair_sleep* sleep = &sim->sleep;
+    float* number[] = {&sleep->now.far, &sleep->now.speed, &sleep->before, &sleep->answer.far,
+                       &sleep->answer.speed};
     hair_walk_flag(c, "whether hair sleeps", &sleep->asleep);
     hair_walk_flag(c, "whether hair has been stirred", &sleep->stirred);
     hair_walk_double(c, "time since hair was stirred", &sleep->calm, -MOST_CALM, MOST_CALM);
@@ -199,9 +199,9 @@ static void walk_sleep(struct hair_walk* c, struct hair_sim* sim)
 static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
 {
     struct hair_fluid* fluid = &blow->fluid;
-    int                there = fluid->gl && !fluid->fresh;
-    uint32_t           cells = fluid->desc.cells;
-    float              side = fluid->desc.side, *wind[] = {&fluid->wind.x, &fluid->wind.y, &fluid->wind.z};
+    int there = fluid->gl && !fluid->fresh;
+    uint32_t cells = fluid->desc.cells;
+    float side = fluid->desc.side, *wind[] = {&fluid->wind.x, &fluid->wind.y, &fluid->wind.z};
     hair_walk_flag(c, "whether air is a fluid", &there);
     fluid->fresh |= c->read && !there;
     if (!there || c->result) return;
@@ -211,7 +211,7 @@ static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
     for (int k = 0; k < 3; ++k)
         hair_walk_double(c, "place of the fluid", &fluid->origin[k], -MOST_CELLS, MOST_CELLS);
     for (int k = 0; k < 3; ++k) hair_walk_float(c, "wind", wind[k], HAIR_MOST_STATE);
-    int    own  = fluid->gl && cells == fluid->desc.cells && side == fluid->desc.side;
+    int own = fluid->gl && cells == fluid->desc.cells && side == fluid->desc.side;
     size_t size = 12 * (size_t)(cells + 1) * (cells + 1) * (cells + 1);
     if (own && !c->result) hair_walk_buffer(c, "air", fluid->velocity[fluid->now].buffer, size);
     if (!own) hair_walk_over(c, "air", size);
@@ -256,8 +256,8 @@ static void walk(struct hair_walk* c, struct hair_sim* sim, struct loaded* loade
 
 size_t hair_sim_save_size(struct hair_sim* sim)
 {
-    struct hair_walk c    = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
-    struct loaded    none = {0}; // Nothing is read.
+    struct hair_walk c = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
+    struct loaded none = {0}; // Nothing is read.
     hair_sleep_settle(sim);
     walk(&c, sim, &none);
     return c.at + TRAILER;
@@ -265,8 +265,8 @@ size_t hair_sim_save_size(struct hair_sim* sim)
 
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
-    struct hair_walk c    = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
-    struct loaded    none = {0}; // Nothing is read.
+    struct hair_walk c = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
+    struct loaded none = {0}; // Nothing is read.
     hair_sleep_settle(sim);
     walk(&c, sim, &none);
     memcpy(bytes, MAGIC, 8);
@@ -282,7 +282,7 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
                          "the %zu bytes are no saved state: it is longer, with \"" MAGIC "\" at byte 0",
                          size);
     uint32_t version = hair_read_u32(bytes + 8);
-    uint64_t whole   = hair_read_u64(bytes + 12);
+    uint64_t whole = hair_read_u64(bytes + 12);
     if (version != VERSION)
         return hair_fail(host, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is %u, not %d",
                          version, VERSION);
@@ -316,7 +316,7 @@ static hair_result read(struct hair_walk* c, struct hair_sim* sim, struct loaded
 // just written.
 static hair_result upload(const struct hair_walk* c)
 {
-    GLuint      source = 0;
+    GLuint source = 0;
     hair_result result = hair_gl_buffer(c->gl, "hair loaded", c->end, c->own, &source);
     if (result) return result;
     for (uint32_t i = 0; i < c->buffers; ++i)
@@ -328,10 +328,10 @@ static hair_result upload(const struct hair_walk* c)
 
 hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
 {
-    const hair_host* host   = &sim->gl->host;
-    hair_result      result = check_frame(host, bytes, size);
+    const hair_host* host = &sim->gl->host;
+    hair_result result = check_frame(host, bytes, size);
     if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded,
-    if (!result) result = hair_blow_need(sim);      // and its air.
+    if (!result) result = hair_blow_need(sim); // and its air.
     int skinned = !result && size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
     if (skinned && !sim->skin.seats)
         result = hair_fail(
@@ -339,15 +339,15 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
             "the saved state is another's: its scalp is skinned, and the instance's groom has none");
     if (!result && skinned) result = hair_skin_make(sim);
     if (result) return result;
-    struct hair_sim  own    = *sim; // becomes what is loaded
-    struct loaded    loaded = {0};
+    struct hair_sim own = *sim; // becomes what is loaded
+    struct loaded loaded = {0};
     struct hair_walk c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
-    own.sleep.fence    = NULL;
-    c.own              = hair_alloc(host, 1, c.end);
+    own.sleep.fence = NULL;
+    c.own = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
     struct hair_solids solids = {0};
-    GLuint             still  = 0;
-    result                    = read(&c, &own, &loaded, &solids);
+    GLuint still = 0;
+    result = read(&c, &own, &loaded, &solids);
     if (!result && !skinned && hair_skin_is_on(sim)) result = hair_skin_make_still(sim, &still);
     if (!result) result = upload(&c);
     if (!result && sim->bend && c.lacks_bend)
@@ -365,7 +365,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     }
     hair_solids_free(host, &sim->solids);
     hair_sleep_load(&own, &sim->sleep);
-    *sim        = own;
+    *sim = own;
     sim->solids = solids;
     hair_ties_take(sim, loaded.knot, loaded.ties);
     sim->next_substep = 0;

@@ -5,35 +5,35 @@
 
 #define TWO_PI 6.28318530718f
 #define REDBLACK_SUBSTEP (1.0 / 120)
-#define EARLY 1e-6         // of a substep
+#define EARLY 1e-6 // of a substep
 #define MOST_OF_THREAD 128 // vertices: what keeps more for itself NVIDIA's driver does not link
-#define FARTHEST 1e4f      // m in a substep: beyond it redblack.comp puts strands back in their rest pose
+#define FARTHEST 1e4f // m in a substep: beyond it redblack.comp puts strands back in their rest pose
 
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 {
     for (uint32_t i = 0; i < sim->guides; ++i) {
         const struct hair_guide* guide = &groom->guides[i];
-        hair_vec4                root  = groom->rest[guide->first].position;
-        float                    reach = hair_length(hair_v3(root.x, root.y, root.z)) + guide->arc_length;
-        sim->reach                     = fmaxf(sim->reach, reach);
+        hair_vec4 root = groom->rest[guide->first].position;
+        float reach = hair_length(hair_v3(root.x, root.y, root.z)) + guide->arc_length;
+        sim->reach = fmaxf(sim->reach, reach);
     }
 }
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
 {
-    sim->gl              = gl;
-    sim->guides          = groom->info.guide_count;
-    sim->guide_vertices  = groom->info.guide_vertex_count;
-    sim->most_vertices   = groom->most_vertices;
+    sim->gl = gl;
+    sim->guides = groom->info.guide_count;
+    sim->guide_vertices = groom->info.guide_vertex_count;
+    sim->most_vertices = groom->most_vertices;
     sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
     if (sim->most_vertices > MOST_OF_THREAD && !gl->software) sim->by_thread = 0;
     sim->in_two = hair_sim_may_go_in_two(sim);
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
-    sim->air.ball      = groom->skull;
-    sim->skin.seats    = hair_seats_hold(groom->seats);
-    size_t      state  = sim->guide_vertices * sizeof(struct hair_state);
-    size_t      health = sim->in_two ? HAIR_HEALTH_LISTS + (size_t)sim->guides : HAIR_HEALTH_COUNT;
+    sim->air.ball = groom->skull;
+    sim->skin.seats = hair_seats_hold(groom->seats);
+    size_t state = sim->guide_vertices * sizeof(struct hair_state);
+    size_t health = sim->in_two ? HAIR_HEALTH_LISTS + (size_t)sim->guides : HAIR_HEALTH_COUNT;
     hair_result result = HAIR_OK;
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
@@ -103,14 +103,14 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     const hair_physics* physics = &sim->physics;
     params->gravity =
         (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
-    params->keep            = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
-    params->pull_root       = TWO_PI * physics->pull_root;
-    params->pull_tip        = TWO_PI * physics->pull_tip;
-    params->angular         = squared_frequency(physics->angular);
-    params->bend            = physics->bend;
-    params->margin          = physics->margin;
-    params->iterations      = physics->iterations;
-    params->guides          = sim->guides;
+    params->keep = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
+    params->pull_root = TWO_PI * physics->pull_root;
+    params->pull_tip = TWO_PI * physics->pull_tip;
+    params->angular = squared_frequency(physics->angular);
+    params->bend = physics->bend;
+    params->margin = physics->margin;
+    params->iterations = physics->iterations;
+    params->guides = sim->guides;
     params->smooth_vertices = sim->smooth_vertices;
     if (sim->rods) hair_sim_write_rods(sim, params);
 }
@@ -118,13 +118,13 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
 // What smooth.comp needs to place the strands between the ends of the last substep, under the head's pose now.
 static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
 {
-    hair_vec3 moved           = hair_pose_offset(&sim->last_after, &sim->last_before);
-    int       far             = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
-    double    span            = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
-    params->alpha             = far ? 1 : (float)fmin(sim->left / span, 1);
-    params->rotation_before   = vec4_of_quat(sim->last_before.rotation);
-    params->rotation_after    = vec4_of_quat(sim->last_after.rotation);
-    params->rotation_now      = vec4_of_quat(sim->head.rotation);
+    hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
+    double span = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
+    params->alpha = far ? 1 : (float)fmin(sim->left / span, 1);
+    params->rotation_before = vec4_of_quat(sim->last_before.rotation);
+    params->rotation_after = vec4_of_quat(sim->last_after.rotation);
+    params->rotation_now = vec4_of_quat(sim->head.rotation);
     params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
 }
 
@@ -153,9 +153,9 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
                            double dt)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        double share                = share_at_end(sim, i, from, dt);
-        sim->last_before            = sim->last_after;
-        sim->last_after             = hair_pose_between(&sim->at_step, &sim->head, share);
+        double share = share_at_end(sim, i, from, dt);
+        sim->last_before = sim->last_after;
+        sim->last_after = hair_pose_between(&sim->at_step, &sim->head, share);
         params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
         params->substep[i].displacement =
             vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
@@ -190,7 +190,7 @@ static float share_of(double from, double dt)
 
 static hair_result need(struct hair_sim* sim, double from, double dt)
 {
-    sim->contacts.any  = hair_contacts_are_any(sim);
+    sim->contacts.any = hair_contacts_are_any(sim);
     hair_result result = hair_ties_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
     if (!result && sim->rods) result = hair_air_need(&sim->air, sim->gl, &sim->wind);
@@ -203,13 +203,13 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
 // `count` substeps of the parameters.
 static void write_air(struct hair_sim* sim, const struct hair_step_params* params, uint32_t count)
 {
-    const struct hair_air_now now = {.wind     = &sim->wind,
-                                     .physics  = &sim->physics,
-                                     .solids   = &sim->solids,
-                                     .step     = params,
-                                     .head     = sim->last_after,
+    const struct hair_air_now now = {.wind = &sim->wind,
+                                     .physics = &sim->physics,
+                                     .solids = &sim->solids,
+                                     .step = params,
+                                     .head = sim->last_after,
                                      .substeps = count,
-                                     .substep  = sim->substep};
+                                     .substep = sim->substep};
     hair_air_blow(&sim->air, sim->gl, &now);
 }
 
@@ -217,7 +217,7 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
-    int                     crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
+    int crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
     sim->next_substep = sim->substep;
     write_physics(sim, &params);
     write_solids(sim, &params);
@@ -231,14 +231,14 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
     if (sim->rods) hair_sim_bind_rods(sim);
     params.share_start = share_of(from, dt);
     for (uint32_t done = 0; done < total;) {
-        uint32_t most  = hair_sim_substeps_at_once(sim);
+        uint32_t most = hair_sim_substeps_at_once(sim);
         uint32_t block = crowd ? hair_crowd_left(sim) : most;
         uint32_t count = total - done < most ? total - done : most;
         if (block < count) count = block;
         if (blown) block = hair_blow_left(sim, dt);
         if (block < count) count = block;
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
-        sim->last_substep     = sim->substep;
+        sim->last_substep = sim->substep;
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
         write_now(sim, &params);
         params.list = hair_sim_next_list(sim);
@@ -256,7 +256,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (blown) hair_blow_count(sim, count);
         done += count;
         params.share_start = params.substep[count - 1].displacement.w;
-        params.rescale     = 1;
+        params.rescale = 1;
     }
     if (total == 0) {
         write_now(sim, &params);
@@ -281,10 +281,10 @@ static void tidy_up(struct hair_sim* sim)
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
-    int    waits   = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
-    int    again   = 0;
-    double from    = -sim->left;
-    int    stirred = hair_sleep_is_stirred(sim);
+    int waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
+    int again = 0;
+    double from = -sim->left;
+    int stirred = hair_sleep_is_stirred(sim);
     hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
     if (!result) result = need(sim, from, dt);
     if (!result) result = hair_sleep_need(sim, stirred, dt);
@@ -292,16 +292,16 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     if (result) return result;
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
-        sim->left  = fmax(dt - end, 0);
+        sim->left = fmax(dt - end, 0);
         advance(sim, 0, 1, from, dt);
-        from   = end;
-        again  = 1;
+        from = end;
+        again = 1;
         result = hair_sim_renew_rods(sim);
         if (!result) result = need(sim, from, dt);
         if (result) return result;
     }
     uint32_t total = count_substeps(sim, dt - from);
-    sim->left      = fmax(dt - from - total * sim->substep, 0);
+    sim->left = fmax(dt - from - total * sim->substep, 0);
     advance(sim, again, total, from, dt);
     hair_diagnosis_watch(sim, total);
     sim->at_step = sim->head;
@@ -314,7 +314,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
 void hair_sim_pass_time(struct hair_sim* sim, double dt)
 {
     uint32_t total = count_substeps(sim, dt + sim->left);
-    sim->left      = fmax(dt + sim->left - total * sim->substep, 0);
+    sim->left = fmax(dt + sim->left - total * sim->substep, 0);
     if (hair_crowd_is_on(sim)) hair_crowd_count(sim, total);
     hair_solids_settle(&sim->solids);
 }
@@ -323,9 +323,9 @@ void hair_sim_pass_time(struct hair_sim* sim, double dt)
 static void settle(struct hair_sim* sim)
 {
     sim->last_before = sim->last_after = sim->at_step = sim->head;
-    sim->left                                         = 0;
+    sim->left = 0;
     sim->last_substep = sim->next_substep = sim->substep;
-    sim->crowd.beat                       = 0;
+    sim->crowd.beat = 0;
     hair_blow_forget(sim);
     hair_solids_settle(&sim->solids);
 }
@@ -356,24 +356,24 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
     hair_result result = hair_gl_need(sim->gl, hair_sim_turn_pass(sim));
     if (result) return result;
-    struct hair_step_params params  = {0};
-    struct hair_pose        from    = sim->head;
-    struct hair_pose*       moved[] = {&sim->last_before, &sim->last_after, &sim->at_step, &sim->head};
-    hair_quat               turn    = hair_quat_multiply(to->rotation, hair_quat_conjugate(from.rotation));
+    struct hair_step_params params = {0};
+    struct hair_pose from = sim->head;
+    struct hair_pose* moved[] = {&sim->last_before, &sim->last_after, &sim->at_step, &sim->head};
+    hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from.rotation));
     for (int i = 0; i < 4; ++i) {
-        hair_vec3 arm         = hair_rotate(turn, hair_pose_offset(moved[i], &from));
-        moved[i]->rotation    = hair_quat_normalize(hair_quat_multiply(turn, moved[i]->rotation));
+        hair_vec3 arm = hair_rotate(turn, hair_pose_offset(moved[i], &from));
+        moved[i]->rotation = hair_quat_normalize(hair_quat_multiply(turn, moved[i]->rotation));
         moved[i]->position[0] = to->position[0] + (double)arm.x;
         moved[i]->position[1] = to->position[1] + (double)arm.y;
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
     hair_ties_teleport(sim, &from, to);
     hair_sleep_stir(sim);
-    sim->crowd.beat = 0;              // What other hair does was found for how the head was turned.
+    sim->crowd.beat = 0; // What other hair does was found for how the head was turned.
     hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
-    params.rotation_now    = vec4_of_quat(to->rotation);
+    params.rotation_now = vec4_of_quat(to->rotation);
     run_over_vertices(sim, hair_sim_turn_pass(sim), &params);
     hair_sim_show(sim);
     return HAIR_OK;

@@ -43,10 +43,10 @@ static struct hair_ride* make_rides(const struct hair_sim* sim)
 
 static hair_result make_buffers(struct hair_sim* sim, GLuint* ride)
 {
-    struct hair_gl*   gl    = sim->gl;
-    struct hair_skin* skin  = &sim->skin;
+    struct hair_gl* gl = sim->gl;
+    struct hair_skin* skin = &sim->skin;
     struct hair_ride* rides = make_rides(sim);
-    size_t            size  = scalp_size(skin);
+    size_t size = scalp_size(skin);
     if (!rides) return hair_fail_memory(&gl->host, "the skinned scalp");
     hair_result result = hair_gl_storage(gl, "hair rides", sim->guides * sizeof *rides, rides, ride);
     hair_free(&gl->host, rides);
@@ -65,17 +65,17 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* ride)
 static void rest_scalp(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
-    skin->rotation         = (hair_vec4){0, 0, 0, 1};
-    skin->offset           = (hair_vec4){0, 0, 0, 0};
-    skin->fresh            = 0;
+    skin->rotation = (hair_vec4){0, 0, 0, 1};
+    skin->offset = (hair_vec4){0, 0, 0, 0};
+    skin->fresh = 0;
     hair_gl_write_uniform(sim->gl, skin->scalp[0], scalp_size(skin), skin->seats->positions);
 }
 
 hair_result hair_skin_make(struct hair_sim* sim)
 {
-    struct hair_gl* gl     = sim->gl;
-    hair_result     result = HAIR_OK;
-    GLuint          ride   = 0;
+    struct hair_gl* gl = sim->gl;
+    hair_result result = HAIR_OK;
+    GLuint ride = 0;
     if (hair_skin_is_on(sim)) return HAIR_OK;
     result = hair_gl_need_rows(gl, HAIR_GL_SCALP, HAIR_GL_SEAT, 0);
     if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 1));
@@ -119,14 +119,14 @@ void hair_skin_give(struct hair_sim* sim, const float* positions, const struct h
 
 static void bind(struct hair_sim* sim, GLuint scalp, struct hair_scalp_params params)
 {
-    struct hair_gl*   gl        = sim->gl;
-    struct hair_skin* skin      = &sim->skin;
-    GLuint            storage[] = {skin->ride, scalp, skin->rest, skin->seat};
-    params.rotation             = skin->rotation;
-    params.offset               = skin->offset;
-    params.vertices             = skin->seats->vertex_count;
-    params.guides               = sim->guides;
-    params.smooth_vertices      = sim->smooth_vertices;
+    struct hair_gl* gl = sim->gl;
+    struct hair_skin* skin = &sim->skin;
+    GLuint storage[] = {skin->ride, scalp, skin->rest, skin->seat};
+    params.rotation = skin->rotation;
+    params.offset = skin->offset;
+    params.vertices = skin->seats->vertex_count;
+    params.guides = sim->guides;
+    params.smooth_vertices = sim->smooth_vertices;
     hair_gl_write_uniform(gl, skin->params, sizeof params, &params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIDE, 4, storage);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &skin->params);
@@ -135,10 +135,10 @@ static void bind(struct hair_sim* sim, GLuint scalp, struct hair_scalp_params pa
 void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size, uint32_t first,
                            uint32_t stride, const struct hair_pose* space)
 {
-    struct hair_gl*   gl    = sim->gl;
-    struct hair_skin* skin  = &sim->skin;
-    GLintptr          at    = (GLintptr)offset;
-    GLsizeiptr        whole = (GLsizeiptr)size;
+    struct hair_gl* gl = sim->gl;
+    struct hair_skin* skin = &sim->skin;
+    GLintptr at = (GLintptr)offset;
+    GLsizeiptr whole = (GLsizeiptr)size;
     hair_gl_write_uniform(gl, skin->scalp[1], scalp_size(skin), NULL);
     bind(sim, skin->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
@@ -154,14 +154,14 @@ void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, s
 static void take_fresh(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
-    hair_quat         s    = skin->space.rotation;
-    hair_quat         q = hair_quat_normalize(hair_quat_multiply(hair_quat_conjugate(sim->head.rotation), s));
-    hair_vec3         away  = hair_rotate(hair_quat_conjugate(s), hair_pose_offset(&skin->space, &sim->head));
-    GLuint            given = skin->scalp[1];
-    skin->scalp[1]          = skin->scalp[0];
-    skin->scalp[0]          = given;
-    skin->rotation          = (hair_vec4){q.x, q.y, q.z, q.w};
-    skin->offset            = (hair_vec4){away.x, away.y, away.z, 0};
+    hair_quat s = skin->space.rotation;
+    hair_quat q = hair_quat_normalize(hair_quat_multiply(hair_quat_conjugate(sim->head.rotation), s));
+    hair_vec3 away = hair_rotate(hair_quat_conjugate(s), hair_pose_offset(&skin->space, &sim->head));
+    GLuint given = skin->scalp[1];
+    skin->scalp[1] = skin->scalp[0];
+    skin->scalp[0] = given;
+    skin->rotation = (hair_vec4){q.x, q.y, q.z, q.w};
+    skin->offset = (hair_vec4){away.x, away.y, away.z, 0};
 }
 
 static void run(struct hair_sim* sim, struct hair_scalp_params params)
@@ -179,10 +179,10 @@ static void run(struct hair_sim* sim, struct hair_scalp_params params)
 
 void hair_skin_ride(struct hair_sim* sim, int again, uint32_t substeps, float before, float after)
 {
-    run(sim, (struct hair_scalp_params){.what         = again ? HAIR_SCALP_AGAIN : 0,
-                                        .substeps     = substeps,
+    run(sim, (struct hair_scalp_params){.what = again ? HAIR_SCALP_AGAIN : 0,
+                                        .substeps = substeps,
                                         .share_before = before,
-                                        .share_after  = after});
+                                        .share_after = after});
 }
 
 void hair_skin_reset(struct hair_sim* sim)

@@ -8,19 +8,19 @@
 #include "lib/gl/gl.h"
 #include "lib/groom/seats.h"
 
-struct hair_skin {                             // But for `seats` all 0 until a scalp is first given.
-    struct hair_seats* seats;                  // held; NULL: the groom has no scalp
+struct hair_skin { // But for `seats` all 0 until a scalp is first given.
+    struct hair_seats* seats; // held; NULL: the groom has no scalp
     GLuint ride, seat, rest, scalp[2], params; // buffers, as in shared.h; the scalp of the last step, and
-                                               // that to come
-    GLuint           texture;                  // of the rides
-    struct hair_pose space;                    // in which that to come is given, in the world
-    int              fresh;                    // it has been given since the last step
-    hair_vec4        rotation, offset;         // from that of the last step to the head, as in shared.h
+        // that to come
+    GLuint texture; // of the rides
+    struct hair_pose space; // in which that to come is given, in the world
+    int fresh; // it has been given since the last step
+    hair_vec4 rotation, offset; // from that of the last step to the head, as in shared.h
 };
 
 struct hair_sim;
 
-int  hair_skin_is_on(const struct hair_sim* sim);
+int hair_skin_is_on(const struct hair_sim* sim);
 void hair_skin_free(struct hair_sim* sim);
 
 // Make what it takes, once: as if the scalp had been at rest so far. There are seats.
@@ -39,7 +39,7 @@ void hair_skin_reset(struct hair_sim* sim);
 
 // The scalp is at rest, and always was: rides that say so, which the caller frees, and what becomes of those there are.
 hair_result hair_skin_make_still(struct hair_sim* sim, GLuint* out);
-void        hair_skin_forget(struct hair_sim* sim, GLuint still);
+void hair_skin_forget(struct hair_sim* sim, GLuint still);
 
 // What passes that know of rides read; and, for those that write followers, all the buffers.
 void hair_skin_bind(struct hair_sim* sim);

@@ -8,9 +8,9 @@
 
 #include <string.h>
 
-#define ROUND 3         // looks
-#define LEAST_STEPS 4   // from a look until its answer is used: a GPU is three frames behind at most,
-#define LEAST_TIME 0.1  // s: of which each may have several steps
+#define ROUND 3 // looks
+#define LEAST_STEPS 4 // from a look until its answer is used: a GPU is three frames behind at most,
+#define LEAST_TIME 0.1 // s: of which each may have several steps
 #define NEARLY_ALL 0.95 // q: 19 times d is left
 #define LIKE                                                                                                 \
     0.75 // of a round is the least that one after it takes if they can be compared: answers may be late
@@ -59,8 +59,8 @@ void hair_sleep_stir(struct hair_sim* sim)
 static float distance_between(const struct hair_pose* a, const struct hair_pose* b, float reach)
 {
     hair_quat p = a->rotation, q = b->rotation;
-    float     sign = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
-    float     x = p.x - sign * q.x, y = p.y - sign * q.y, z = p.z - sign * q.z, w = p.w - sign * q.w;
+    float sign = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
+    float x = p.x - sign * q.x, y = p.y - sign * q.y, z = p.z - sign * q.z, w = p.w - sign * q.w;
     return hair_length(hair_pose_offset(a, b)) + 2.01f * sqrtf(x * x + y * y + z * z + w * w) * reach;
 }
 
@@ -68,8 +68,8 @@ static float distance_between(const struct hair_pose* a, const struct hair_pose*
 static int comes_near(const struct hair_sim* sim, const hair_solid* a, const hair_solid* b)
 {
     const hair_solid* ends[] = {a, b};
-    struct hair_pose  at[2];
-    float             radius = 0;
+    struct hair_pose at[2];
+    float radius = 0;
     if (a->shape == HAIR_SHAPE_FORM && !(a->form && b->form)) return 1;
     for (int i = 0; i < 2; ++i) {
         hair_vec3 middle, half;
@@ -78,9 +78,9 @@ static int comes_near(const struct hair_sim* sim, const hair_solid* a, const hai
         for (int k = 0; k < 3; ++k) at[i].position[k] = (double)ends[i]->position[k];
     }
     hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
-    float     most  = LOOSE * sim->reach + AROUND + sim->physics.margin + radius + 0.5f * hair_length(way);
-    hair_vec3 mid   = hair_add(away, hair_scale(way, 0.5f));
-    int       bound = sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
+    float most = LOOSE * sim->reach + AROUND + sim->physics.margin + radius + 0.5f * hair_length(way);
+    hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
+    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
     return !bound || !(hair_length(mid) > most);
 }
 
@@ -91,12 +91,12 @@ static int are_alike(const hair_solid* a, const hair_solid* b)
 
 static int has_solid_near(const struct hair_sim* sim)
 {
-    const struct hair_solids*     solids = &sim->solids;
+    const struct hair_solids* solids = &sim->solids;
     const struct hair_solid_list *now = &solids->now, *before = &solids->before;
     if (!solids->changed) return 0;
     for (uint32_t i = 0; i < now->count; ++i) {
         const hair_solid* was = hair_solids_before(solids, i);
-        int               is  = was != &now->solid[i] && are_alike(was, &now->solid[i]);
+        int is = was != &now->solid[i] && are_alike(was, &now->solid[i]);
         if (!is && comes_near(sim, was, &now->solid[i])) return 1;
     }
     for (uint32_t i = 0; i < before->count; ++i) {
@@ -125,25 +125,25 @@ static void calm_down(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
     drop_answer(sim);
-    sleep->asleep  = 0;
+    sleep->asleep = 0;
     sleep->stirred = 0;
-    sleep->calm    = 0;
-    sleep->due     = FIRST;
-    sleep->looks   = 0;
-    sleep->head    = sim->head;
+    sleep->calm = 0;
+    sleep->due = FIRST;
+    sleep->looks = 0;
+    sleep->head = sim->head;
     sleep->physics = sim->physics;
-    sleep->wind    = sim->wind;
-    sleep->made    = sim->gl->made;
+    sleep->wind = sim->wind;
+    sleep->made = sim->gl->made;
 }
 
 // Looking ---------------------------------------------------------------------------------------------------
 
 hair_result hair_sleep_make(struct hair_sim* sim)
 {
-    struct hair_gl*    gl     = sim->gl;
-    struct hair_sleep* sleep  = &sim->sleep;
-    size_t             size   = sim->guide_vertices * sizeof(hair_vec4);
-    hair_result        result = hair_gl_need(gl, HAIR_GL_STIR);
+    struct hair_gl* gl = sim->gl;
+    struct hair_sleep* sleep = &sim->sleep;
+    size_t size = sim->guide_vertices * sizeof(hair_vec4);
+    hair_result result = hair_gl_need(gl, HAIR_GL_STIR);
     if (!result && !sleep->anchor) result = hair_gl_storage(gl, "hair anchors", size, NULL, &sleep->anchor);
     if (!result && !sleep->stir)
         result = hair_gl_storage(gl, "hair stirring", 4 * sizeof(uint32_t), NULL, &sleep->stir);
@@ -158,36 +158,36 @@ hair_result hair_sleep_make(struct hair_sim* sim)
 
 static void look(struct hair_sim* sim)
 {
-    struct hair_gl*         gl        = sim->gl;
-    struct hair_sleep*      sleep     = &sim->sleep;
-    uint32_t                groups    = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
-    struct hair_stir_params params    = {.vertices = sim->guide_vertices,
-                                         .turn     = sleep->turn,
-                                         .anchors  = sleep->looks % ROUND == 0,
-                                         .rate     = (float)(1 / sim->last_substep)};
-    GLuint                  storage[] = {sim->state, sleep->anchor, sleep->stir};
-    GLintptr                at        = (GLintptr)(2 * sizeof(uint32_t) * sleep->turn);
+    struct hair_gl* gl = sim->gl;
+    struct hair_sleep* sleep = &sim->sleep;
+    uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    struct hair_stir_params params = {.vertices = sim->guide_vertices,
+                                      .turn = sleep->turn,
+                                      .anchors = sleep->looks % ROUND == 0,
+                                      .rate = (float)(1 / sim->last_substep)};
+    GLuint storage[] = {sim->state, sleep->anchor, sleep->stir};
+    GLintptr at = (GLintptr)(2 * sizeof(uint32_t) * sleep->turn);
     hair_gl_write_uniform(gl, sleep->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STIR_PARAMS, 1, &sleep->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
     hair_gl_run(gl, HAIR_GL_STIR, groups < MOST_GROUPS ? groups : MOST_GROUPS);
     gl->CopyNamedBufferSubData(sleep->stir, sleep->seen, at, at, 2 * sizeof(uint32_t));
     sleep->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    sleep->due   = sleep->calm + gaps[sleep->looks % ROUND];
+    sleep->due = sleep->calm + gaps[sleep->looks % ROUND];
     sleep->waits = sleep->looks > 0; // The first has nothing to compare with.
     sleep->steps = 0;
-    sleep->time  = 0;
+    sleep->time = 0;
     ++sleep->looks;
     if (!sleep->waits) {
-        sleep->now    = (struct hair_stirring){0, 0};
+        sleep->now = (struct hair_stirring){0, 0};
         sleep->before = -1;
-        sleep->since  = sleep->calm;
+        sleep->since = sleep->calm;
         drop_answer(sim);
     }
     if (params.anchors) {
         sleep->span_before = sleep->span;
-        sleep->span        = sleep->calm - sleep->since;
-        sleep->since       = sleep->calm;
+        sleep->span = sleep->calm - sleep->since;
+        sleep->since = sleep->calm;
     }
 }
 
@@ -201,8 +201,8 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
         status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
     if (status == GL_TIMEOUT_EXPIRED && wait == 0) return;
     const float* seen = sleep->mapped + 2 * sleep->turn;
-    int          came = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
-    sleep->answer     = came ? (struct hair_stirring){seen[0], seen[1]} : (struct hair_stirring){1e9f, 1e9f};
+    int came = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
+    sleep->answer = came ? (struct hair_stirring){seen[0], seen[1]} : (struct hair_stirring){1e9f, 1e9f};
     drop_answer(sim);
     sleep->waits = sleep->known = 1;
 }
@@ -210,7 +210,7 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 static int has_come_to_rest(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    float                    may   = SHARE * sim->physics.sleep;
+    float may = SHARE * sim->physics.sleep;
     if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return 0;
     double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
     return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
@@ -220,12 +220,12 @@ static void use_answer(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
     sleep->waits = sleep->known = 0;
-    sleep->now.far              = fmaxf(sleep->now.far, sleep->answer.far);
-    sleep->now.speed            = fmaxf(sleep->now.speed, sleep->answer.speed);
+    sleep->now.far = fmaxf(sleep->now.far, sleep->answer.far);
+    sleep->now.speed = fmaxf(sleep->now.speed, sleep->answer.speed);
     if ((sleep->looks - 1) % ROUND) return;
     sleep->asleep = has_come_to_rest(sim);
     sleep->before = sleep->now.far;
-    sleep->now    = (struct hair_stirring){0, 0};
+    sleep->now = (struct hair_stirring){0, 0};
 }
 
 static int looks_after(const struct hair_sim* sim, double dt)
@@ -241,7 +241,7 @@ hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt)
 void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
 {
     struct hair_sleep* sleep = &sim->sleep;
-    int                looks = looks_after(sim, dt);
+    int looks = looks_after(sim, dt);
     if (stirred) {
         calm_down(sim);
         return;
@@ -280,9 +280,9 @@ void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was)
 {
     struct hair_sleep* sleep = &sim->sleep;
     if (was->fence) sim->gl->DeleteSync(was->fence);
-    sleep->fence   = NULL;
-    sleep->known   = sleep->waits;
+    sleep->fence = NULL;
+    sleep->known = sleep->waits;
     sleep->physics = sim->physics;
-    sleep->wind    = sim->wind;
-    sleep->made    = sim->gl->made;
+    sleep->wind = sim->wind;
+    sleep->made = sim->gl->made;
 }

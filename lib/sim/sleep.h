@@ -13,34 +13,34 @@
 
 // What the guides do.
 struct hair_stirring {
-    float far;   // from where they were, m: the most that one has been seen to be
+    float far; // from where they were, m: the most that one has been seen to be
     float speed; // m/s, likewise
 };
 
 struct hair_sleep {
-    int                  asleep;
-    double               calm;              // s: simulated since something last stirred hair
-    double               due;               // at which `calm` guides are looked at next
-    uint32_t             looks;             // since then
-    struct hair_stirring now;               // of this round of looks,
-    float                before;            // how far in the one before, m; or below 0
-    double               since;             // `calm` when the round under way began,
-    double               span, span_before; // s: how long the last took, and the one before it
+    int asleep;
+    double calm; // s: simulated since something last stirred hair
+    double due; // at which `calm` guides are looked at next
+    uint32_t looks; // since then
+    struct hair_stirring now; // of this round of looks,
+    float before; // how far in the one before, m; or below 0
+    double since; // `calm` when the round under way began,
+    double span, span_before; // s: how long the last took, and the one before it
     // A look that is under way.
-    int                  waits, known; // and that it has been answered:
+    int waits, known; // and that it has been answered:
     struct hair_stirring answer;
-    uint32_t             steps; // since it was asked for
-    double               time;  // s, likewise
+    uint32_t steps; // since it was asked for
+    double time; // s, likewise
     // What guides have come to rest under.
     struct hair_pose head;
-    hair_physics     physics;
-    hair_wind        wind;
-    uint32_t         made;                       // gl->made
-    int              stirred;                    // by what is none of these
-    uint32_t         turn;                       // as in hair_stir_params
-    GLuint           anchor, stir, seen, params; // buffers; 0 until they are needed
-    const float*     mapped;                     // what is in `seen`
-    GLsync           fence;
+    hair_physics physics;
+    hair_wind wind;
+    uint32_t made; // gl->made
+    int stirred; // by what is none of these
+    uint32_t turn; // as in hair_stir_params
+    GLuint anchor, stir, seen, params; // buffers; 0 until they are needed
+    const float* mapped; // what is in `seen`
+    GLsync fence;
 };
 
 struct hair_sim;
@@ -52,14 +52,14 @@ void hair_sleep_stir(struct hair_sim* sim); // something has
 int hair_sleep_through(struct hair_sim* sim, double dt);
 
 // Whether something has stirred hair since the last step; what a step of `dt` then takes; and after it, whether it was.
-int         hair_sleep_is_stirred(const struct hair_sim* sim);
+int hair_sleep_is_stirred(const struct hair_sim* sim);
 hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt);
-void        hair_sleep_watch(struct hair_sim* sim, int stirred, double dt);
+void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt);
 
 // For what is saved: the answer is known, nothing has stirred hair since the last step or there is nothing to tell. Waits.
 void hair_sleep_settle(struct hair_sim* sim);
 // What is loaded is to be compared with how things are here. `was`: what there was before.
-void        hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was);
+void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was);
 hair_result hair_sleep_make(struct hair_sim* sim);
 
 #endif

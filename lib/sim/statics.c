@@ -24,12 +24,12 @@
 #include <string.h>
 
 #define LEAST_COSINE 1e-6 // of half the angle between segments; at 0 there is no stress for some moments
-#define LONGEST_TURN 0.5  // of a segment in one step, radians
-#define HALVINGS 30       // of a step, at most
-#define ROUNDING 1e-14    // error of the energy, as a fraction
-#define AT_REST 1e-10     // torque that ends the search, as a fraction of the greatest possible
-#define KICK 1e-3         // torque that is tried in an unstable pose without any, as a fraction
-#define FIRST_SHIFT 1e-3  // added multiple of the unit matrix, over the greatest stiffness
+#define LONGEST_TURN 0.5 // of a segment in one step, radians
+#define HALVINGS 30 // of a step, at most
+#define ROUNDING 1e-14 // error of the energy, as a fraction
+#define AT_REST 1e-10 // torque that ends the search, as a fraction of the greatest possible
+#define KICK 1e-3 // torque that is tried in an unstable pose without any, as a fraction
+#define FIRST_SHIFT 1e-3 // added multiple of the unit matrix, over the greatest stiffness
 #define SHIFT_GROWTH 4.0
 #define LAST_SHIFT 1e6
 
@@ -41,14 +41,14 @@ static hair_dvec3 axis_of(hair_dquat q)
 void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
 {
     hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0])); // of the scalp
-    out->place[0]     = (hair_dvec3){0, 0, 0};
+    out->place[0] = (hair_dvec3){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat q = frames[i], r = hair_dmultiply(hair_dconjugate(before), q);
-        hair_dvec3 along  = hair_drotate(q, (hair_dvec3){0, s->length[i], 0});
-        out->turn[i]      = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
-        out->frame[i]     = q;
+        hair_dvec3 along = hair_drotate(q, (hair_dvec3){0, s->length[i], 0});
+        out->turn[i] = r.w < 0 ? (hair_dquat){-r.x, -r.y, -r.z, -r.w} : r;
+        out->frame[i] = q;
         out->place[i + 1] = hair_dadd(out->place[i], along);
-        before            = q;
+        before = q;
     }
 }
 
@@ -57,16 +57,16 @@ void hair_rod_load(const struct hair_rod_shape* s, double gravity, struct hair_r
     hair_dvec3 load = {0, 0, 0};
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
-        hair_dvec3 own  = hair_dadd(hair_dscale(s->load, gravity), hair_dscale(back, s->pull[i + 1]));
-        load            = hair_dadd(load, hair_dscale(own, s->mass[i + 1]));
-        pose->force[i]  = hair_drotate(hair_dconjugate(pose->frame[i]), load);
+        hair_dvec3 own = hair_dadd(hair_dscale(s->load, gravity), hair_dscale(back, s->pull[i + 1]));
+        load = hair_dadd(load, hair_dscale(own, s->mass[i + 1]));
+        pose->force[i] = hair_drotate(hair_dconjugate(pose->frame[i]), load);
     }
 }
 
 static hair_dvec3 stress_for(hair_dquat turn, hair_dvec3 moment)
 {
     hair_dvec3 v = axis_of(turn), across = hair_dcross(v, moment);
-    double     w = fmax(turn.w, LEAST_COSINE), twist = hair_ddot(v, moment) / w;
+    double w = fmax(turn.w, LEAST_COSINE), twist = hair_ddot(v, moment) / w;
     return hair_dadd(hair_dadd(hair_dscale(moment, w), hair_dscale(v, twist)), hair_dscale(across, -1));
 }
 
@@ -77,7 +77,7 @@ void hair_rod_balance(const struct hair_rod_shape* s, struct hair_rod_pose* pose
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 lever = {s->length[i] * pose->force[i].z, 0, -s->length[i] * pose->force[i].x};
         moment = hair_drotate(pose->turn[i], hair_dadd(moment, lever)); // As the segment before sees it.
-        pose->stress[i]      = stress_for(pose->turn[i], moment);
+        pose->stress[i] = stress_for(pose->turn[i], moment);
         pose->real_stress[i] = 0;
     }
 }
@@ -91,10 +91,10 @@ static hair_dquat excess_of(hair_rod_rest rest, hair_dquat turn)
 void hair_rod_strain(const struct hair_rod_shape* s, const hair_rod_rest* rest, struct hair_rod_pose* pose)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dquat    u      = excess_of(rest[i], pose->turn[i]);
-        double        k      = hair_rod_stiffness(s, i);
-        const double* r      = s->ratio;
-        pose->stress[i]      = (hair_dvec3){k * r[0] * u.x, k * r[1] * u.y, k * r[2] * u.z};
+        hair_dquat u = excess_of(rest[i], pose->turn[i]);
+        double k = hair_rod_stiffness(s, i);
+        const double* r = s->ratio;
+        pose->stress[i] = (hair_dvec3){k * r[0] * u.x, k * r[1] * u.y, k * r[2] * u.z};
         pose->real_stress[i] = k * r[2] * u.w;
     }
 }
@@ -104,9 +104,9 @@ static double energy_of(const struct hair_rod_shape* s, const hair_rod_rest* res
 {
     double energy = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dquat u    = excess_of(rest[i], pose->turn[i]);
+        hair_dquat u = excess_of(rest[i], pose->turn[i]);
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
-        double     bent =
+        double bent =
             s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * (u.z * u.z + u.w * u.w);
         energy += hair_rod_stiffness(s, i) / 2 * bent;
         energy -= s->mass[i + 1] * gravity * hair_ddot(s->load, pose->place[i + 1]);
@@ -133,7 +133,7 @@ static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_p
         slope = hair_dadd(slope, slope_at(pose, i, 1));
         if (i + 2 < s->count) slope = hair_dadd(slope, slope_at(pose, i + 1, -1));
         out[i] = slope;
-        most   = fmax(most, hair_dlength(slope));
+        most = fmax(most, hair_dlength(slope));
     }
     return most;
 }
@@ -159,7 +159,7 @@ static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, do
                    const hair_dvec3* turns, struct hair_rod_pose* pose)
 {
     hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
-    double     before = energy_of(s, rest, gravity, pose), most = 0;
+    double before = energy_of(s, rest, gravity, pose), most = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) most = fmax(most, hair_dlength(turns[i]));
     double share = fmin(1, LONGEST_TURN / most);
     memcpy(from, pose->frame, s->count * sizeof *from);
@@ -175,7 +175,7 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest
                        uint32_t steps, struct hair_rod_pose* pose)
 {
     hair_dvec3 slope[HAIR_MAX_GUIDE_VERTICES], turns[HAIR_MAX_GUIDE_VERTICES];
-    double     length = 0, stiffness = 0, left = 0;
+    double length = 0, stiffness = 0, left = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         length += s->length[i];
         stiffness = fmax(stiffness, hair_rod_stiffness(s, i));
@@ -184,7 +184,7 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest
     for (uint32_t k = 0;; ++k) {
         hair_rod_load(s, gravity, pose);
         hair_rod_strain(s, rest, pose);
-        left         = find_slope(s, pose, slope) / torque;
+        left = find_slope(s, pose, slope) / torque;
         double shift = 0;
         if (k == steps || (left < AT_REST && hair_rod_is_stable(s, pose, 0))) return left;
         for (uint32_t i = 0; left < AT_REST && i + 1 < s->count; ++i)

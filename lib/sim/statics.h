@@ -6,12 +6,12 @@
 #include "lib/sim/rod_shape.h"
 
 struct hair_rod_pose {
-    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES];       // of segment i
-    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES];        // from the frame of segment i-1 to that of i, w >= 0
-    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES];       // of vertex i, from the root
-    hair_dvec3 force[HAIR_MAX_GUIDE_VERTICES];       // on all beyond segment i, as its frame sees it
-    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES];      // derivative of vertex i's energy by its strain
-    double     real_stress[HAIR_MAX_GUIDE_VERTICES]; // derivative by 2 w, w the real part of `turn`
+    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // of segment i
+    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // from the frame of segment i-1 to that of i, w >= 0
+    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES]; // of vertex i, from the root
+    hair_dvec3 force[HAIR_MAX_GUIDE_VERTICES]; // on all beyond segment i, as its frame sees it
+    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of vertex i's energy by its strain
+    double real_stress[HAIR_MAX_GUIDE_VERTICES]; // derivative by 2 w, w the real part of `turn`
 };
 
 // Rest shape of a vertex. x, y, z: rest strain; w: 2 w at rest.

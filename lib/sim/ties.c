@@ -46,7 +46,7 @@ static hair_result check_all(const struct hair_sim* sim, const hair_tie* from, u
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < count && !result; ++i) {
         hair_tie tie = tie_at(from, i, stride);
-        result       = check(sim, &tie, i);
+        result = check(sim, &tie, i);
     }
     return result;
 }
@@ -80,7 +80,7 @@ static int are_alike(const struct hair_ties* ties, const struct hair_knot* knot,
     int alike = ties->count == count;
     for (uint32_t i = 0; i < count && alike; ++i) {
         const struct hair_knot* other = &ties->knot[i];
-        alike                         = compare(other, &knot[i]) == 0 && other->world == knot[i].world &&
+        alike = compare(other, &knot[i]) == 0 && other->world == knot[i].world &&
                 memcmp(other->place, knot[i].place, sizeof other->place) == 0;
     }
     return alike;
@@ -89,24 +89,24 @@ static int are_alike(const struct hair_ties* ties, const struct hair_knot* knot,
 void hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count)
 {
     hair_free(&sim->gl->host, sim->ties.knot);
-    sim->ties.knot  = knot;
+    sim->ties.knot = knot;
     sim->ties.count = count;
-    sim->ties.most  = most_of_a_guide(knot, count);
+    sim->ties.most = most_of_a_guide(knot, count);
     sim->ties.which = hash_of(knot, count);
 }
 
 hair_result hair_ties_set(struct hair_sim* sim, const hair_tie* from, uint32_t count, size_t stride)
 {
-    const hair_host* host   = &sim->gl->host;
-    hair_result      result = check_all(sim, from, count, stride);
+    const hair_host* host = &sim->gl->host;
+    hair_result result = check_all(sim, from, count, stride);
     if (result) return result;
     const struct hair_guide* guides = hair_sim_guides(sim, NULL);
-    struct hair_knot*        knot   = hair_alloc(host, count, sizeof *knot);
+    struct hair_knot* knot = hair_alloc(host, count, sizeof *knot);
     if (!knot) return hair_fail_memory(host, "ties");
     for (uint32_t i = 0; i < count; ++i) {
-        hair_tie tie  = tie_at(from, i, stride);
-        uint32_t tip  = guides[tie.guide].count - 1;
-        knot[i]       = (struct hair_knot){.guide = tie.guide, .vertex = tie.vertex < tip ? tie.vertex : tip};
+        hair_tie tie = tie_at(from, i, stride);
+        uint32_t tip = guides[tie.guide].count - 1;
+        knot[i] = (struct hair_knot){.guide = tie.guide, .vertex = tie.vertex < tip ? tie.vertex : tip};
         knot[i].world = tie.to == HAIR_TIE_WORLD;
         knot[i].given = i;
         for (int k = 0; k < 3; ++k) knot[i].place[k] = (double)tie.position[k];
@@ -151,33 +151,33 @@ void hair_ties_free(struct hair_sim* sim)
 
 static struct hair_held held_by(const struct hair_sim* sim, uint32_t i)
 {
-    const struct hair_rest*  rest;
+    const struct hair_rest* rest;
     const struct hair_guide* guides = hair_sim_guides(sim, &rest);
-    const struct hair_ties*  ties   = &sim->ties;
-    const struct hair_knot*  knot   = &ties->knot[i];
-    uint32_t                 first  = guides[knot->guide].first;
-    int                      second = i > 0 && knot[-1].guide == knot->guide;
-    int                      more   = i + 1 < ties->count && knot[1].guide == knot->guide;
-    uint32_t                 from   = second ? knot[-1].vertex : 0;
-    double                   at[3], length = 0;
+    const struct hair_ties* ties = &sim->ties;
+    const struct hair_knot* knot = &ties->knot[i];
+    uint32_t first = guides[knot->guide].first;
+    int second = i > 0 && knot[-1].guide == knot->guide;
+    int more = i + 1 < ties->count && knot[1].guide == knot->guide;
+    uint32_t from = second ? knot[-1].vertex : 0;
+    double at[3], length = 0;
     if (second || sim->physics.root != HAIR_ROOT_FREE)
         for (uint32_t k = from; k < knot->vertex; ++k) length += (double)rest[first + k].position.w;
     for (int k = 0; k < 3; ++k) at[k] = knot->place[k] - (knot->world ? sim->head.position[k] : 0);
     return (struct hair_held){
         .place = {(float)at[0], (float)at[1], (float)at[2], knot->world ? -1.0f : 0.0f},
-        .span  = {(float)from, (float)knot->vertex, (float)length, (float)more},
+        .span = {(float)from, (float)knot->vertex, (float)length, (float)more},
     };
 }
 
 hair_result hair_ties_write(struct hair_sim* sim)
 {
-    struct hair_gl*   gl   = sim->gl;
+    struct hair_gl* gl = sim->gl;
     struct hair_ties* ties = &sim->ties;
     if (!ties->count) return HAIR_OK;
     struct hair_held* held = hair_alloc(&gl->host, ties->count, sizeof *held);
     if (!held) return hair_fail_memory(&gl->host, "ties");
     for (uint32_t i = 0; i < ties->count; ++i) held[i] = held_by(sim, i);
-    size_t      size   = ties->count * sizeof *held;
+    size_t size = ties->count * sizeof *held;
     hair_result result = HAIR_OK;
     if (!ties->buffer) result = hair_gl_uniform(gl, "hair ties", size, &ties->buffer);
     if (!result) result = hair_gl_resize(gl, "hair ties", size, held, ties->buffer);
@@ -197,8 +197,8 @@ void hair_ties_teleport(struct hair_sim* sim, const struct hair_pose* from, cons
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
     for (uint32_t i = 0; i < sim->ties.count; ++i) {
         struct hair_knot* knot = &sim->ties.knot[i];
-        struct hair_pose  at   = {.position = {knot->place[0], knot->place[1], knot->place[2]}};
-        hair_vec3         arm  = hair_rotate(turn, hair_pose_offset(&at, from));
+        struct hair_pose at = {.position = {knot->place[0], knot->place[1], knot->place[2]}};
+        hair_vec3 arm = hair_rotate(turn, hair_pose_offset(&at, from));
         if (!knot->world) continue;
         knot->place[0] = to->position[0] + (double)arm.x;
         knot->place[1] = to->position[1] + (double)arm.y;

@@ -10,17 +10,17 @@
 // A tie, its vertex found.
 struct hair_knot {
     uint32_t guide, vertex;
-    int      world;    // or in the head's frame
-    double   place[3]; // there
-    uint32_t given;    // which of the ties given it was
+    int world; // or in the head's frame
+    double place[3]; // there
+    uint32_t given; // which of the ties given it was
 };
 
 struct hair_ties {
     struct hair_knot* knot; // in the order of guides and their vertices
-    uint32_t          count;
-    uint32_t          most;            // of one guide
-    uint32_t          which;           // hash of the vertices that are tied; 0: none
-    GLuint            buffer, texture; // hair_held[], once there have been any
+    uint32_t count;
+    uint32_t most; // of one guide
+    uint32_t which; // hash of the vertices that are tied; 0: none
+    GLuint buffer, texture; // hair_held[], once there have been any
 };
 
 struct hair_sim;
@@ -30,12 +30,12 @@ hair_result hair_ties_set(struct hair_sim* sim, const hair_tie* from, uint32_t c
 
 // The same with knots that were saved: fails where they are none of this hair's, then takes the block itself.
 hair_result hair_ties_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count);
-void        hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count);
-void        hair_ties_free(struct hair_sim* sim);
+void hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count);
+void hair_ties_free(struct hair_sim* sim);
 
 // What the solver reads, for a step to where the head is to be.
 hair_result hair_ties_write(struct hair_sim* sim);
-void        hair_ties_bind(struct hair_sim* sim);
+void hair_ties_bind(struct hair_sim* sim);
 
 // Those in the world go along with the head.
 void hair_ties_teleport(struct hair_sim* sim, const struct hair_pose* from, const struct hair_pose* to);

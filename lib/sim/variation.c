@@ -95,26 +95,26 @@ struct hinge {
 
 static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
-    const hair_dquat t    = pose->turn[i];
-    const hair_dvec3 q    = pose->stress[i];
-    const double     v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
-    const double     by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
-    const double     turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
-    const double     strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
-    double           by_a[3][3], with_b[3][3]; // du by a, negative, and by b; times the stiffness
-    struct hinge     h;
+    const hair_dquat t = pose->turn[i];
+    const hair_dvec3 q = pose->stress[i];
+    const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
+    const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
+    const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
+    const double strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
+    double by_a[3][3], with_b[3][3]; // du by a, negative, and by b; times the stiffness
+    struct hinge h;
     for (int n = 0; n < 3; ++n)
         for (int c = 0; c < 3; ++c) {
-            by_a[n][c]   = stiffness * s->ratio[n] * by_b[c][n];
+            by_a[n][c] = stiffness * s->ratio[n] * by_b[c][n];
             with_b[n][c] = stiffness * s->ratio[n] * by_b[n][c];
         }
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) {
-            const double* row  = by_b[r];
-            double        same = r == c ? strained / 2 : 0, self = r == c ? (strained + e * w) / 2 : 0;
-            double        real = stiffness * s->ratio[2] * v[r] * v[c];
-            double        aa   = row[0] * by_a[0][c] + row[1] * by_a[1][c] + row[2] * by_a[2][c];
-            double        ab   = row[0] * with_b[0][c] + row[1] * with_b[1][c] + row[2] * with_b[2][c];
+            const double* row = by_b[r];
+            double same = r == c ? strained / 2 : 0, self = r == c ? (strained + e * w) / 2 : 0;
+            double real = stiffness * s->ratio[2] * v[r] * v[c];
+            double aa = row[0] * by_a[0][c] + row[1] * by_a[1][c] + row[2] * by_a[2][c];
+            double ab = row[0] * with_b[0][c] + row[1] * with_b[1][c] + row[2] * with_b[2][c];
             double bb = by_b[0][r] * with_b[0][c] + by_b[1][r] * with_b[1][c] + by_b[2][r] * with_b[2][c];
             h.before.m[r][c] = aa + real - self;
             h.between.m[c][r] =
@@ -136,12 +136,12 @@ static struct block swing_of(const struct hair_rod_shape* s, const struct hair_r
 // along_a . a.
 struct beyond {
     struct block xx, xa, aa;
-    double       along_x[3], along_a[3];
+    double along_x[3], along_a[3];
 };
 
 struct stage {
     struct block pivot, by_x, by_a; // L of b's matrix; L^-1 of what x and a add to b's slope
-    double       slope[3];          // L^-1 of b's
+    double slope[3]; // L^-1 of b's
 };
 
 static struct block pivot_of(const struct hair_rod_pose* pose, uint32_t i, double length,
@@ -162,7 +162,7 @@ static struct block pivot_of(const struct hair_rod_pose* pose, uint32_t i, doubl
 }
 
 struct matrix {
-    double shift;             // added to the diagonal
+    double shift; // added to the diagonal
     double squared_frequency; // what swings slower counts as unstable
 };
 
@@ -170,12 +170,12 @@ struct matrix {
 static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
                      struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
 {
-    struct hinge h     = hinge_of(s, pose, i);
+    struct hinge h = hinge_of(s, pose, i);
     struct block swing = swing_of(s, pose, i);
-    double       pull  = s->mass[i + 1] * (s->pull[i + 1] - matrix.squared_frequency);
+    double pull = s->mass[i + 1] * (s->pull[i + 1] - matrix.squared_frequency);
     for (int r = 0; r < 3; ++r) v->xx.m[r][r] += pull;
     out->pivot = pivot_of(pose, i, s->length[i], &swing, v, out);
-    out->by_a  = h.between;
+    out->by_a = h.between;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) out->pivot.m[r][c] += h.after.m[r][c];
         out->pivot.m[r][r] += matrix.shift;
@@ -211,7 +211,7 @@ int hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_pos
                        double squared_frequency)
 {
     struct beyond v = {0};
-    struct stage  stage;
+    struct stage stage;
     for (uint32_t i = s->count - 1; i-- > 0;)
         if (!eliminate(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage)) return 0;
     return 1;
@@ -220,15 +220,15 @@ int hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_pos
 int hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, double shift,
                        const hair_dvec3* slope, hair_dvec3* out)
 {
-    struct stage  stage[HAIR_MAX_GUIDE_VERTICES];
-    struct beyond v    = {0};
-    double        x[3] = {0}, a[3] = {0};
+    struct stage stage[HAIR_MAX_GUIDE_VERTICES];
+    struct beyond v = {0};
+    double x[3] = {0}, a[3] = {0};
     for (uint32_t i = s->count - 1; i-- > 0;)
         if (!eliminate(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        const struct stage* at    = stage + i;
-        struct block        swing = swing_of(s, pose, i);
-        double              b[3];
+        const struct stage* at = stage + i;
+        struct block swing = swing_of(s, pose, i);
+        double b[3];
         for (int r = 0; r < 3; ++r) {
             b[r] = -at->slope[r];
             for (int n = 0; n < 3; ++n) b[r] -= at->by_x.m[r][n] * x[n] + at->by_a.m[r][n] * a[n];

@@ -79,7 +79,7 @@ void hair_walk_same(struct hair_walk* c, const char* name, double value)
 void hair_walk_pose(struct hair_walk* c, const char* name, struct hair_pose* pose, double most)
 {
     float* rotation[] = {&pose->rotation.x, &pose->rotation.y, &pose->rotation.z, &pose->rotation.w};
-    float  norm       = 0;
+    float norm = 0;
     for (int i = 0; i < 3; ++i) hair_walk_double(c, name, &pose->position[i], -most, most);
     for (int i = 0; i < 4; ++i) {
         hair_walk_float(c, name, rotation[i], 2);
@@ -121,12 +121,12 @@ void hair_walk_buffer(struct hair_walk* c, const char* name, GLuint buffer, size
     }
     if (c->read) {
         c->buffer[c->buffers].buffer = buffer;
-        c->buffer[c->buffers].at     = c->at;
-        c->buffer[c->buffers].size   = size;
+        c->buffer[c->buffers].at = c->at;
+        c->buffer[c->buffers].size = size;
         ++c->buffers;
         while (c->at < end && !c->result) {
-            float  number = 0;
-            size_t at     = c->at;
+            float number = 0;
+            size_t at = c->at;
             hair_walk_float(c, name, &number, HAIR_MOST_STATE);
             if (!c->result) memcpy(c->own + at, &number, sizeof number);
         }

@@ -5,19 +5,19 @@
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 
-#define HAIR_MOST_STATE 1e9  // any number in a buffer: a solver itself resets what is too far for hair
+#define HAIR_MOST_STATE 1e9 // any number in a buffer: a solver itself resets what is too far for hair
 #define HAIR_WALK_BUFFERS 10 // that are walked, at most
 
 struct hair_walk {
-    const hair_host*     host;
-    struct hair_gl*      gl;
-    const unsigned char* read;  // all the bytes, or
-    unsigned char*       write; // all the bytes, or neither: count only
-    unsigned char*       own;   // as many; what is read of buffers, in the machine's order
-    size_t               at, end;
-    hair_result          result; // the first failure's; nothing is read after it
-    int                  lacks_bend; // The state that is read has no forces of segments.
-    uint32_t             buffers;
+    const hair_host* host;
+    struct hair_gl* gl;
+    const unsigned char* read; // all the bytes, or
+    unsigned char* write; // all the bytes, or neither: count only
+    unsigned char* own; // as many; what is read of buffers, in the machine's order
+    size_t at, end;
+    hair_result result; // the first failure's; nothing is read after it
+    int lacks_bend; // The state that is read has no forces of segments.
+    uint32_t buffers;
     struct {
         GLuint buffer;
         size_t at, size;

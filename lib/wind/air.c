@@ -33,7 +33,7 @@ int hair_wind_is_unsteady(const hair_wind* wind)
 static hair_result need_gusts(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
 {
     static const uint32_t size[3] = {HAIR_GUST_NODES, HAIR_GUST_NODES, HAIR_GUST_NODES};
-    int                   wanted  = wind->gusts > 0 && blows(wind);
+    int wanted = wind->gusts > 0 && blows(wind);
     if (air->gusts && (!wanted || air->gust_seed != wind->seed)) hair_gl_free_texture(gl, &air->gusts);
     if (!wanted || air->gusts) return HAIR_OK;
     float* texels = hair_gusts_make(&gl->host, wind->seed);
@@ -86,14 +86,14 @@ static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius
 // Of about as much face to the wind: the two larger of its half sides.
 static void add_solid(struct hair_wind_params* params, const hair_solid* solid, const struct hair_pose* head)
 {
-    hair_vec3        middle, half;
-    const float*     q    = solid->rotation;
-    hair_quat        turn = {q[0], q[1], q[2], q[3]};
-    struct hair_pose at   = {
-          {(double)solid->position[0], (double)solid->position[1], (double)solid->position[2]}, turn};
+    hair_vec3 middle, half;
+    const float* q = solid->rotation;
+    hair_quat turn = {q[0], q[1], q[2], q[3]};
+    struct hair_pose at = {
+        {(double)solid->position[0], (double)solid->position[1], (double)solid->position[2]}, turn};
     if (solid->shape == HAIR_SHAPE_PLANE || (solid->shape == HAIR_SHAPE_FORM && !solid->form)) return;
     hair_solid_extent(solid, &middle, &half);
-    float least  = fminf(half.x, fminf(half.y, half.z));
+    float least = fminf(half.x, fminf(half.y, half.z));
     float radius = sqrtf(half.x * half.y * half.z / fmaxf(least, 1e-6f)) + solid->rounding;
     if (!(radius > 0.01f && radius <= LARGEST)) return;
     hair_vec3 from = hair_add(hair_pose_offset(&at, head), hair_rotate(turn, middle));
@@ -116,10 +116,10 @@ static void write_balls(const struct hair_air* air, const struct hair_air_now* n
 static void write_sources(const struct hair_air_now* now, struct hair_wind_params* params)
 {
     for (uint32_t i = 0; i < now->wind->source_count; ++i) {
-        const hair_wind_source* from   = &now->wind->sources[i];
-        hair_vec3               way    = hair_load3(from->direction);
-        float                   length = hair_length(way);
-        way                            = length > 0 ? hair_scale(way, 1 / length) : hair_v3(0, 0, 0);
+        const hair_wind_source* from = &now->wind->sources[i];
+        hair_vec3 way = hair_load3(from->direction);
+        float length = hair_length(way);
+        way = length > 0 ? hair_scale(way, 1 / length) : hair_v3(0, 0, 0);
         params->source[i] =
             (hair_vec4){(float)((double)from->position[0] - now->head.position[0]),
                         (float)((double)from->position[1] - now->head.position[1]),
@@ -141,7 +141,7 @@ struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair
     r[6] = 2 * (x * z - w * y) / n, r[7] = 2 * (y * z + w * x) / n, r[8] = 1 - 2 * (x * x + y * y) / n;
     for (int k = 0; k < 3; ++k) {
         double u = (double)wind->velocity[k];
-        at[k]    = head->position[k] - air->moved[k];
+        at[k] = head->position[k] - air->moved[k];
         speed += u * u;
     }
     for (int k = 0; k < 3; ++k) {
@@ -151,9 +151,9 @@ struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair
     hair_quat q = hair_quat_normalize(lie);
     return (struct hair_air_gusts){
         .texture = air->gusts,
-        .turn    = {q.x, q.y, q.z, q.w},
-        .from    = {(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)},
-        .speed   = air->gusts ? (float)(sqrt(speed) * (double)wind->gusts) : 0,
+        .turn = {q.x, q.y, q.z, q.w},
+        .from = {(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)},
+        .speed = air->gusts ? (float)(sqrt(speed) * (double)wind->gusts) : 0,
     };
 }
 
@@ -162,9 +162,9 @@ static void write_gusts(struct hair_air* air, const struct hair_air_now* now, st
     for (int k = 0; k < 3; ++k)
         air->moved[k] += (double)now->wind->velocity[k] * now->substep * now->substeps;
     struct hair_air_gusts gusts = hair_air_gusts_from(air, now->wind, &now->head);
-    params->gust_turn           = gusts.turn;
-    params->gust_from           = gusts.from;
-    params->velocity.w          = gusts.speed;
+    params->gust_turn = gusts.turn;
+    params->gust_from = gusts.from;
+    params->velocity.w = gusts.speed;
 }
 
 static int has_volume(const struct hair_gl* gl, const hair_wind* wind)
@@ -196,7 +196,7 @@ static void write_starts(const struct hair_air_now* now, struct hair_wind_params
     hair_vec3 origin = {0, 0, 0};
     for (uint32_t i = now->substeps; i-- > 0;) {
         hair_vec4 moved = now->step->substep[i].displacement;
-        origin          = hair_sub(origin, hair_v3(moved.x, moved.y, moved.z));
+        origin = hair_sub(origin, hair_v3(moved.x, moved.y, moved.z));
         params->at[i] =
             (hair_vec4){origin.x, origin.y, origin.z, (float)(-now->substep * (now->substeps - i))};
     }
@@ -217,17 +217,17 @@ static void bind(const struct hair_air* air, struct hair_gl* gl, GLuint volume)
 
 void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_air_now* now)
 {
-    const hair_wind*    wind    = now->wind;
+    const hair_wind* wind = now->wind;
     const hair_physics* physics = now->physics;
-    double              radius  = (double)physics->fiber_radius;
-    double              mass    = (double)physics->fiber_density * PI * radius * radius;
+    double radius = (double)physics->fiber_radius;
+    double mass = (double)physics->fiber_density * PI * radius * radius;
 
     struct hair_wind_params params = {
-        .velocity  = {wind->velocity[0], wind->velocity[1], wind->velocity[2], 0},
-        .box       = air->box,
+        .velocity = {wind->velocity[0], wind->velocity[1], wind->velocity[2], 0},
+        .box = air->box,
         .per_speed = (float)(2 * radius * (double)wind->density / (double)wind->viscosity),
-        .viscous   = (float)((double)physics->drag * (double)wind->viscosity / mass),
-        .shelter   = wind->shelter,
+        .viscous = (float)((double)physics->drag * (double)wind->viscosity / mass),
+        .shelter = wind->shelter,
     };
     write_gusts(air, now, &params);
     if (blows(wind) && air->box.w == 0) write_balls(air, now, &params);

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define ALIGNMENT 256      // of ranges of uniform buffers: the most that a driver may ask for
+#define ALIGNMENT 256 // of ranges of uniform buffers: the most that a driver may ask for
 #define MOST_MOVING 65536u // solids whose velocity is known; those of higher numbers are taken to be at rest
-#define FASTEST 1000.0f    // m/s: of a solid
+#define FASTEST 1000.0f // m/s: of a solid
 
 // Making ----------------------------------------------------------------------------------------------------
 
@@ -49,14 +49,14 @@ static hair_result make_levels(struct hair_fluid* fluid)
 {
     unsigned char bytes[2 * HAIR_FLUID_LEVELS * ALIGNMENT] = {0};
     for (uint32_t i = 0; i < 2 * fluid->levels; ++i) {
-        const struct hair_fluid_level_at* at    = &fluid->level[i / 2];
-        struct hair_fluid_level           level = {.cells       = at->cells,
-                                                   .slot        = at->slot,
-                                                   .cell        = at->cell,
-                                                   .coarse_slot = at[1].slot,
-                                                   .coarse_cell = at[1].cell,
-                                                   .color       = i % 2,
-                                                   .relax       = suitable(&fluid->desc)};
+        const struct hair_fluid_level_at* at = &fluid->level[i / 2];
+        struct hair_fluid_level level = {.cells = at->cells,
+                                         .slot = at->slot,
+                                         .cell = at->cell,
+                                         .coarse_slot = at[1].slot,
+                                         .coarse_cell = at[1].cell,
+                                         .color = i % 2,
+                                         .relax = suitable(&fluid->desc)};
         memcpy(bytes + (size_t)i * ALIGNMENT, &level, sizeof level);
     }
     hair_result result = hair_gl_uniform(fluid->gl, "hair fluid levels", sizeof bytes, &fluid->level_params);
@@ -66,14 +66,14 @@ static hair_result make_levels(struct hair_fluid* fluid)
 
 static hair_result make_all(struct hair_fluid* fluid)
 {
-    struct hair_gl*   gl      = fluid->gl;
-    hair_fluid_method method  = fluid->desc.method;
-    uint32_t          n       = fluid->desc.cells, slots, cells;
-    const uint32_t    size[3] = {n, n, n};
-    hair_result       result  = hair_fluid_need_programs(gl, method, 0);
-    slots                     = find_levels(fluid);
-    cells                     = fluid->level[fluid->levels].cell;
-    size_t faces              = 3 * hair_fluid_slots(fluid);
+    struct hair_gl* gl = fluid->gl;
+    hair_fluid_method method = fluid->desc.method;
+    uint32_t n = fluid->desc.cells, slots, cells;
+    const uint32_t size[3] = {n, n, n};
+    hair_result result = hair_fluid_need_programs(gl, method, 0);
+    slots = find_levels(fluid);
+    cells = fluid->level[fluid->levels].cell;
+    size_t faces = 3 * hair_fluid_slots(fluid);
     for (int i = 0; i < 3 && !result; ++i)
         result = hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
     if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);
@@ -92,7 +92,7 @@ static hair_result make_all(struct hair_fluid* fluid)
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc)
 {
-    *fluid             = (struct hair_fluid){.gl = gl, .desc = *desc};
+    *fluid = (struct hair_fluid){.gl = gl, .desc = *desc};
     hair_result result = make_all(fluid);
     if (result)
         hair_fluid_destroy(fluid);
@@ -132,15 +132,15 @@ static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
     struct hair_gl* gl = fluid->gl;
     // What is carried along comes into the next, and corrected into the one after.
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
-    carried                             = &fluid->velocity[(fluid->now + 1) % 3];
-    next                                = &fluid->velocity[(fluid->now + 2) % 3];
+    carried = &fluid->velocity[(fluid->now + 1) % 3];
+    next = &fluid->velocity[(fluid->now + 2) % 3];
     // Solids leave faces as open as they do; all that comes later goes by what hair makes of that.
-    int                             hairy   = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
-    const struct hair_fluid_buffer* wall    = hairy ? &fluid->hair.wall : &fluid->wall;
-    const struct hair_fluid_buffer* open    = hairy ? &fluid->hair.open : &fluid->open;
-    int                             early   = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
-    int                             jacobi  = pass == HAIR_GL_FLUID_JACOBI;
-    GLuint                          write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
+    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
+    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
+    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
+    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
+    int jacobi = pass == HAIR_GL_FLUID_JACOBI;
+    GLuint write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
                       wall->buffer,
                       open->buffer,
                       fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
@@ -163,8 +163,8 @@ static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
 void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
                     uint32_t threads)
 {
-    const GLintptr   first = (GLintptr)(2 * level + color) * ALIGNMENT;
-    const GLsizeiptr size  = sizeof(struct hair_fluid_level);
+    const GLintptr first = (GLintptr)(2 * level + color) * ALIGNMENT;
+    const GLsizeiptr size = sizeof(struct hair_fluid_level);
     bind(fluid, pass);
     fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
@@ -184,23 +184,23 @@ static hair_vec3 limited(hair_vec3 v)
 static hair_vec3 turn_between(const float before[4], const float now[4])
 {
     hair_quat a = {before[0], before[1], before[2], before[3]}, b = {now[0], now[1], now[2], now[3]};
-    hair_quat q    = hair_quat_multiply(b, hair_quat_conjugate(a));
+    hair_quat q = hair_quat_multiply(b, hair_quat_conjugate(a));
     hair_vec3 axis = hair_scale(hair_v3(q.x, q.y, q.z), q.w < 0 ? -1.0f : 1.0f);
-    float     sine = hair_length(axis);
+    float sine = hair_length(axis);
     return sine > 1e-7f ? hair_scale(axis, 2 * atan2f(sine, fabsf(q.w)) / sine) : hair_v3(0, 0, 0);
 }
 
 static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint32_t i)
 {
     const hair_solid *to = &now->solids->now.solid[i], *from = hair_solids_before(now->solids, i);
-    float             rate  = (float)(1 / now->solids_dt);
-    hair_vec3         moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
-    hair_vec3         speed = limited(hair_scale(moved, rate));
-    hair_vec3         spin  = limited(hair_scale(turn_between(from->rotation, to->rotation), rate));
-    hair_vec3         arm   = hair_v3((float)((double)to->position[0] - now->head.position[0]),
-                                      (float)((double)to->position[1] - now->head.position[1]),
-                                      (float)((double)to->position[2] - now->head.position[2]));
-    hair_vec3         at    = hair_sub(speed, hair_cross(spin, arm));
+    float rate = (float)(1 / now->solids_dt);
+    hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
+    hair_vec3 speed = limited(hair_scale(moved, rate));
+    hair_vec3 spin = limited(hair_scale(turn_between(from->rotation, to->rotation), rate));
+    hair_vec3 arm = hair_v3((float)((double)to->position[0] - now->head.position[0]),
+                            (float)((double)to->position[1] - now->head.position[1]),
+                            (float)((double)to->position[2] - now->head.position[2]));
+    hair_vec3 at = hair_sub(speed, hair_cross(spin, arm));
     return (struct hair_fluid_motion){{at.x, at.y, at.z, 0}, {spin.x, spin.y, spin.z, 0}};
 }
 
@@ -219,8 +219,8 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
     }
     hair_free(host, fluid->motion_of);
     fluid->motion_of = motion;
-    fluid->room      = solids;
-    fluid->moving    = 0;
+    fluid->room = solids;
+    fluid->moving = 0;
     return HAIR_OK;
 }
 
@@ -228,9 +228,9 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
 static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     static const struct hair_fluid_motion still;
-    uint32_t                              count = now->solids_dt > 0 ? now->solids->now.count : 0;
-    int                                   moved = fluid->moving;
-    fluid->moving                               = 0;
+    uint32_t count = now->solids_dt > 0 ? now->solids->now.count : 0;
+    int moved = fluid->moving;
+    fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
     for (uint32_t i = 0; i < fluid->room; ++i) {
         fluid->motion_of[i] = i < count ? motion_of(now, i) : still;
@@ -243,17 +243,17 @@ static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* 
 // The box's middle goes with the head, by whole cells.
 static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now, float shift[3])
 {
-    double    cell = (double)hair_fluid_cell(fluid);
-    hair_vec3 off  = hair_rotate(now->head.rotation, now->middle);
-    float *   from = &off.x, *lower = &fluid->lower.x;
+    double cell = (double)hair_fluid_cell(fluid);
+    hair_vec3 off = hair_rotate(now->head.rotation, now->middle);
+    float *from = &off.x, *lower = &fluid->lower.x;
     for (int k = 0; k < 3; ++k) {
         double middle = now->head.position[k] + (double)from[k];
         double origin = floor(middle / cell + 0.5) - fluid->desc.cells / 2;
-        double most   = 8.0 * fluid->desc.cells; // Farther off nothing of it is left.
-        shift[k]      = (float)fmin(fmax(origin - fluid->origin[k], -most), most);
+        double most = 8.0 * fluid->desc.cells; // Farther off nothing of it is left.
+        shift[k] = (float)fmin(fmax(origin - fluid->origin[k], -most), most);
         if (fluid->fresh) shift[k] = (float)most;
         fluid->origin[k] = origin;
-        lower[k]         = (float)(origin * cell - now->head.position[k]);
+        lower[k] = (float)(origin * cell - now->head.position[k]);
     }
 }
 
@@ -277,37 +277,37 @@ static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_n
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     float shift[3], cell = hair_fluid_cell(fluid);
-    int   moved = fluid->moving; // Then its walls do until they are written again.
+    int moved = fluid->moving; // Then its walls do until they are written again.
     write_motion(fluid, now);
     place_box(fluid, now, shift);
-    hair_vec3                wind   = limited(now->wind);
-    hair_vec3                gain   = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
-    hair_quat                q      = now->head.rotation;
+    hair_vec3 wind = limited(now->wind);
+    hair_vec3 gain = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
+    hair_quat q = now->head.rotation;
     struct hair_fluid_params params = {
-        .lower     = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
-        .shift     = {shift[0], shift[1], shift[2], (float)(now->dt / (double)cell)},
-        .wind      = {wind.x, wind.y, wind.z, now->gusts.speed},
-        .gain      = {gain.x, gain.y, gain.z, 0},
-        .rotation  = {q.x, q.y, q.z, q.w},
+        .lower = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
+        .shift = {shift[0], shift[1], shift[2], (float)(now->dt / (double)cell)},
+        .wind = {wind.x, wind.y, wind.z, now->gusts.speed},
+        .gain = {gain.x, gain.y, gain.z, 0},
+        .rotation = {q.x, q.y, q.z, q.w},
         .gust_turn = now->gusts.turn,
         .gust_from = now->gusts.from,
-        .cells     = fluid->desc.cells,
-        .solids    = now->field && hair_field_is_near(now->field),
-        .open      = !fluid->desc.closed,
-        .nodes     = hair_fluid_nodes(fluid),
-        .thick     = thickness(fluid, now),
+        .cells = fluid->desc.cells,
+        .solids = now->field && hair_field_is_near(now->field),
+        .open = !fluid->desc.closed,
+        .nodes = hair_fluid_nodes(fluid),
+        .thick = thickness(fluid, now),
         .per_speed = now->strands.per_speed,
-        .viscous   = (float)((double)now->strands.viscous * now->dt),
+        .viscous = (float)((double)now->strands.viscous * now->dt),
     };
     hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
-    fluid->wind  = wind;
+    fluid->wind = wind;
     fluid->gusts = now->gusts.texture;
     fluid->fresh = 0;
     if (moved || !is_as_made(fluid, &params, now->field)) fluid->made_for.cells = 0;
     if (!fluid->made_for.cells) {
         hair_fluid_open(fluid, now);
         fluid->made_for = params;
-        fluid->writes   = params.solids ? now->field->writes : 0;
+        fluid->writes = params.solids ? now->field->writes : 0;
     }
 }
 
@@ -342,7 +342,7 @@ void hair_fluid_carry(struct hair_fluid* fluid)
 static void show_next(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
-    uint32_t        n  = fluid->desc.cells;
+    uint32_t n = fluid->desc.cells;
     gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
     // What is written again, or cleared, must not be overtaken.

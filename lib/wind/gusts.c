@@ -20,14 +20,14 @@ static int wave_number(int i)
 // Of one wave: across its direction, by an angle and a phase.
 static void make_wave(struct wave* const* field, int at, const int n[3], uint32_t* random)
 {
-    double    size      = sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
-    double    kl        = 2 * PI * size / (HAIR_GUST_LENGTHS * SCALE);
-    double    amplitude = kl / pow(1 + kl * kl, 17.0 / 12); // sqrt(E) / k
-    hair_vec3 along     = hair_scale(hair_v3((float)n[0], (float)n[1], (float)n[2]), (float)(1 / size));
+    double size = sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+    double kl = 2 * PI * size / (HAIR_GUST_LENGTHS * SCALE);
+    double amplitude = kl / pow(1 + kl * kl, 17.0 / 12); // sqrt(E) / k
+    hair_vec3 along = hair_scale(hair_v3((float)n[0], (float)n[1], (float)n[2]), (float)(1 / size));
     hair_vec3 a = hair_perpendicular(along), b = hair_cross(along, a);
-    float     angle = 2 * (float)PI * hair_random(random), phase = 2 * (float)PI * hair_random(random);
-    hair_vec3 way   = hair_add(hair_scale(a, cosf(angle)), hair_scale(b, sinf(angle)));
-    float     of[3] = {way.x, way.y, way.z};
+    float angle = 2 * (float)PI * hair_random(random), phase = 2 * (float)PI * hair_random(random);
+    hair_vec3 way = hair_add(hair_scale(a, cosf(angle)), hair_scale(b, sinf(angle)));
+    float of[3] = {way.x, way.y, way.z};
     for (int c = 0; c < 3; ++c) {
         field[c][at].re = (float)amplitude * of[c] * cosf(phase);
         field[c][at].im = (float)amplitude * of[c] * sinf(phase);
@@ -38,8 +38,8 @@ static void make_waves(struct wave* const* field, uint32_t seed)
 {
     uint32_t random = hair_hash(seed);
     for (int i = 0; i < COUNT; ++i) {
-        const int n[3]       = {wave_number(i % N), wave_number(i / N % N), wave_number(i / N / N)};
-        int       is_highest = n[0] == -N / 2 || n[1] == -N / 2 || n[2] == -N / 2; // It has no direction.
+        const int n[3] = {wave_number(i % N), wave_number(i / N % N), wave_number(i / N / N)};
+        int is_highest = n[0] == -N / 2 || n[1] == -N / 2 || n[2] == -N / 2; // It has no direction.
         if (i > 0 && !is_highest) make_wave(field, i, n, &random);
     }
 }
@@ -63,7 +63,7 @@ static void transform_line(struct wave* line, int stride, const struct wave* tur
 static void transform(struct wave* field)
 {
     static const int strides[3] = {1, N, N * N};
-    struct wave      turn[N];
+    struct wave turn[N];
     for (int k = 0; k < N; ++k)
         turn[k] = (struct wave){cosf(2 * (float)PI * (float)k / N), sinf(2 * (float)PI * (float)k / N)};
     for (int axis = 0; axis < 3; ++axis)
@@ -75,9 +75,9 @@ static void transform(struct wave* field)
 static double mean_square(const struct wave* field)
 {
     static const double share[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
-    double              sum      = 0;
+    double sum = 0;
     for (int i = 0; i < COUNT; ++i) {
-        int    x = i % N, y = i / N % N, z = i / N / N;
+        int x = i % N, y = i / N % N, z = i / N / N;
         double near = 0;
         for (int k = 0; k < 27; ++k) {
             int a = (x + k % 3 + N - 1) % N, b = (y + k / 3 % 3 + N - 1) % N, c = (z + k / 9 + N - 1) % N;
@@ -91,14 +91,14 @@ static double mean_square(const struct wave* field)
 float* hair_gusts_make(const hair_host* host, uint32_t seed)
 {
     struct wave* waves = hair_alloc(host, 3 * (size_t)COUNT, sizeof *waves);
-    float*       out   = hair_alloc(host, 4 * (size_t)COUNT, sizeof *out);
+    float* out = hair_alloc(host, 4 * (size_t)COUNT, sizeof *out);
     if (!waves || !out) {
         hair_free(host, waves);
         hair_free(host, out);
         return NULL;
     }
     struct wave* const field[3] = {waves, waves + COUNT, waves + 2 * COUNT};
-    double             square   = 0;
+    double square = 0;
     make_waves(field, seed);
     for (int c = 0; c < 3; ++c) {
         transform(field[c]);

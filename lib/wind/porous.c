@@ -3,8 +3,8 @@
 
 hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
 {
-    struct hair_fluid_hair* hair  = &fluid->hair;
-    size_t                  nodes = hair_fluid_nodes(fluid);
+    struct hair_fluid_hair* hair = &fluid->hair;
+    size_t nodes = hair_fluid_nodes(fluid);
     if (!wanted == !hair->grid.buffer) return HAIR_OK;
     fluid->made_for.cells = 0; // Coarser faces go by hair, or no longer.
     hair_fluid_free_hair(fluid);

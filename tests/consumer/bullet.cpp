@@ -7,18 +7,18 @@
 int main()
 {
     btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher           dispatcher(&configuration);
-    btDbvtBroadphase                broadphase;
-    btCollisionWorld                world(&dispatcher, &broadphase, &configuration);
-    btBoxShape                      box(btVector3(1, 1, 1));
-    btCollisionObject               object;
+    btCollisionDispatcher dispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btCollisionWorld world(&dispatcher, &broadphase, &configuration);
+    btBoxShape box(btVector3(1, 1, 1));
+    btCollisionObject object;
     object.setCollisionShape(&box);
     world.addCollisionObject(&object);
 
     hair_bullet* bullet;
     if (hair_bullet_create(nullptr, sizeof(btScalar), &bullet)) return 1;
     const float lower[] = {0, 0, 0}, upper[] = {2, 2, 2};
-    uint32_t    count = 0;
+    uint32_t count = 0;
     hair_bullet_begin(bullet);
     hair_bullet_take_world(bullet, &world, lower, upper, -1);
     const hair_solid* solids = hair_bullet_solids(bullet, &count);

@@ -5,24 +5,24 @@
 
 int main(void)
 {
-    static const float    strand[] = {0, 1.7f, 0, 0.1f, 1.73f, 0, 0.2f, 1.72f, 0}; // xyz, root first, metres
-    static const uint32_t sizes[]  = {3};
-    float                 vertices[3 * 64];
-    uint32_t              count;
-    hair_egl*             egl;
-    hair_context*         context;
-    hair_groom*           groom;
-    hair_instance*        hair;
+    static const float strand[] = {0, 1.7f, 0, 0.1f, 1.73f, 0, 0.2f, 1.72f, 0}; // xyz, root first, metres
+    static const uint32_t sizes[] = {3};
+    float vertices[3 * 64];
+    uint32_t count;
+    hair_egl* egl;
+    hair_context* context;
+    hair_groom* groom;
+    hair_instance* hair;
 
     if (hair_egl_create(NULL, -1, &egl)) return 1; // A game has its own context.
     hair_context_desc context_desc = hair_context_desc_default();
-    context_desc.get_proc          = hair_egl_get_proc;
+    context_desc.get_proc = hair_egl_get_proc;
     if (hair_context_create(&context_desc, &context)) return 1;
 
     hair_groom_desc groom_desc = hair_groom_desc_default();
-    groom_desc.positions       = strand;
+    groom_desc.positions = strand;
     groom_desc.strand_vertices = sizes;
-    groom_desc.strand_count    = 1;
+    groom_desc.strand_count = 1;
     if (hair_groom_create(&groom_desc, &groom)) return 1;
 
     hair_desc desc = hair_desc_default();

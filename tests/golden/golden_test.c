@@ -28,7 +28,7 @@
 struct golden {
     const char* name;
     const char* arguments;
-    double      least_lit, most_lit; // share of pixels that hair changes against the same picture without it
+    double least_lit, most_lit; // share of pixels that hair changes against the same picture without it
 };
 
 // Fewer and wider strands than the scenes have: a picture of all takes a CPU half a minute, and breaks by the same shaders.
@@ -97,7 +97,7 @@ static const char* renderer_folder(void)
     hair_egl* egl = NULL;
     assert_int_equal(hair_egl_create(NULL, -1, &egl), HAIR_OK);
     const unsigned char* (*get_string)(unsigned) = NULL;
-    void* address                                = hair_egl_get_proc("glGetString", NULL);
+    void* address = hair_egl_get_proc("glGetString", NULL);
     memcpy(&get_string, &address, sizeof address);
     const char* folder =
         strncmp((const char*)get_string(0x1F01), "llvmpipe", 8) == 0 ? "tests/golden/llvmpipe" : NULL;
@@ -110,7 +110,7 @@ static void compare(const struct golden* golden, const uint8_t* now, const char*
     static uint8_t before[3 * WIDTH * HEIGHT];
     if (!read_png(path, before)) fail_msg("%s is not there: make it with HAIR_BLESS=1 and look at it", path);
     double square = 0;
-    size_t bad    = 0;
+    size_t bad = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
         double d = distance(now + 3 * i, before + 3 * i);
         square += d * d;
@@ -123,9 +123,9 @@ static void compare(const struct golden* golden, const uint8_t* now, const char*
 
 static void the_picture_is_the_same_as_last_time_and_shows_hair(void** state)
 {
-    static uint8_t       with[3 * WIDTH * HEIGHT], without[3 * WIDTH * HEIGHT];
+    static uint8_t with[3 * WIDTH * HEIGHT], without[3 * WIDTH * HEIGHT];
     const struct golden* golden = *state;
-    char                 path[256], actual[256], bald[256];
+    char path[256], actual[256], bald[256];
     snprintf(actual, sizeof actual, HAIR_BUILD_DIR "/golden_%s.png", golden->name);
     snprintf(bald, sizeof bald, HAIR_BUILD_DIR "/golden_%s_bald.png", golden->name);
     capture(golden, "", actual);
@@ -157,8 +157,8 @@ int main(void)
     enum { COUNT = sizeof goldens / sizeof *goldens };
     struct CMUnitTest tests[COUNT];
     for (int i = 0; i < COUNT; ++i)
-        tests[i] = (struct CMUnitTest){.name          = goldens[i].name,
-                                       .test_func     = the_picture_is_the_same_as_last_time_and_shows_hair,
+        tests[i] = (struct CMUnitTest){.name = goldens[i].name,
+                                       .test_func = the_picture_is_the_same_as_last_time_and_shows_hair,
                                        .initial_state = (void*)&goldens[i]};
     return cmocka_run_group_tests_name("pictures", tests, NULL, NULL);
 }

@@ -13,14 +13,14 @@
 #define MOST 1024
 
 struct strands {
-    float    guides[3 * MOST], smooth[3 * 2 * MOST];
+    float guides[3 * MOST], smooth[3 * 2 * MOST];
     uint32_t guide_vertices, smooth_vertices;
 };
 
 static hair_instance* make(struct hair_test* test, hair_groom* groom, int way)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_test_way(way);
+    hair_desc desc = hair_test_way(way);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     return hair;
 }
@@ -37,8 +37,8 @@ static void read(struct hair_test* test, hair_instance* hair, struct strands* ou
 static void run(struct hair_test* test, hair_groom* groom, int way, float (*portion)(uint32_t i), double time,
                 struct strands* out)
 {
-    hair_instance* hair    = make(test, groom, way);
-    double         substep = hair->sim.substep, left = time;
+    hair_instance* hair = make(test, groom, way);
+    double substep = hair->sim.substep, left = time;
     for (uint32_t i = 0; left > 1e-7; ++i) {
         float dt = (float)(fmin((double)portion(i), left) * substep);
         hair_test_ok(test, hair_step(hair, dt));
@@ -101,8 +101,8 @@ static void portions_are_substeps(struct hair_test* test, hair_groom* groom, int
     static const uint32_t each[] = {2, 3, 4, 5, 6, 8};
     for (int k = 0; k < 6; ++k) {
         hair_instance* at_once = make(test, groom, way);
-        hair_instance* by_one  = make(test, groom, way);
-        double         substep = at_once->sim.substep;
+        hair_instance* by_one = make(test, groom, way);
+        double substep = at_once->sim.substep;
         for (uint32_t i = 0; i < 20; ++i) hair_test_ok(test, hair_step(at_once, (float)(each[k] * substep)));
         for (uint32_t i = 0; i < 20 * each[k]; ++i) hair_test_ok(test, hair_step(by_one, (float)substep));
         read(test, at_once, &coarse);
@@ -130,11 +130,11 @@ static void steps_give_the_same_bits(struct hair_test* test, hair_groom* groom, 
 static void a_moving_head_is_followed(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands fine, coarse;
-    hair_instance*        hair[2] = {make(test, groom, way), make(test, groom, way)};
+    hair_instance* hair[2] = {make(test, groom, way), make(test, groom, way)};
     for (int rate = 0; rate < 2; ++rate) {
         int each = rate ? 4 : 1; // substeps in a step
         for (int i = 1; i <= 40 / each; ++i) {
-            float time          = (float)(i * each * hair[rate]->sim.substep); // at 1.2 m/s
+            float time = (float)(i * each * hair[rate]->sim.substep); // at 1.2 m/s
             float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.2f * time, 0, 0, 1};
             hair_test_ok(test, hair_set_transform(hair[rate], transform));
             hair_test_ok(test, hair_step(hair[rate], (float)(each * hair[rate]->sim.substep)));
@@ -153,8 +153,8 @@ static void a_moving_head_is_followed(struct hair_test* test, hair_groom* groom,
 static void nothing_changes(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands before, after;
-    static const float    nothing[] = {0, -0.0f, NAN, -1, -INFINITY};
-    hair_instance*        hair      = make(test, groom, way);
+    static const float nothing[] = {0, -0.0f, NAN, -1, -INFINITY};
+    hair_instance* hair = make(test, groom, way);
     hair_test_ok(test, hair_step(hair, 0.0123f));
     read(test, hair, &before);
     for (int i = 0; i < 5; ++i) {
@@ -170,10 +170,10 @@ static void nothing_changes(struct hair_test* test, hair_groom* groom, int way)
 static void time_slows(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands slowed, whole;
-    hair_instance*        hair        = make(test, groom, way);
-    hair_instance*        other       = make(test, groom, way);
-    uint32_t              warnings    = test->host.warnings;
-    static const float    long_ones[] = {0.2f, 1e30f, INFINITY};
+    hair_instance* hair = make(test, groom, way);
+    hair_instance* other = make(test, groom, way);
+    uint32_t warnings = test->host.warnings;
+    static const float long_ones[] = {0.2f, 1e30f, INFINITY};
     for (int i = 0; i < 3; ++i) {
         hair_test_ok(test, hair_step(hair, long_ones[i]));
         hair_test_ok(test, hair_step(other, 0.1f));
@@ -190,10 +190,10 @@ static void time_slows(struct hair_test* test, hair_groom* groom, int way)
 static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands one, many;
-    hair_desc             desc    = hair_test_way(way);
-    hair_instance*        hair[2] = {NULL, NULL};
-    desc.substep                  = 0.001f;
-    desc.max_dt                   = 1;
+    hair_desc desc = hair_test_way(way);
+    hair_instance* hair[2] = {NULL, NULL};
+    desc.substep = 0.001f;
+    desc.max_dt = 1;
     for (int i = 0; i < 2; ++i) hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[i]));
     hair_test_ok(test, hair_step(hair[0], 0.2005f)); // 200 substeps, 64 to a dispatch
     for (int i = 0; i < 200; ++i) hair_test_ok(test, hair_step(hair[1], i ? 0.001f : 0.0015f));
@@ -206,8 +206,8 @@ static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom,
 
 static void in_every_way(void** state, void (*check)(struct hair_test* test, hair_groom* groom, int way))
 {
-    struct hair_test* test  = *state;
-    hair_groom*       groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    struct hair_test* test = *state;
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         print_message("    %s\n", hair_test_way_name(way));
         check(test, groom, way);

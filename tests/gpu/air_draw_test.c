@@ -15,10 +15,10 @@ struct picture {
 
 static struct hair_test_living start(void** state)
 {
-    struct hair_test_living  living;
-    hair_physics             physics = hair_physics_default();
+    struct hair_test_living living;
+    hair_physics physics = hair_physics_default();
     struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0.1f, 0), hair_v3(0, 1, 0), 0.2f);
-    hair_desc                desc    = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
     hair_test_live(*state, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     return living;
@@ -28,10 +28,10 @@ static struct hair_test_living start(void** state)
 static void look(struct hair_test_living* living, hair_slice slice, struct picture* out)
 {
     const struct hair_field_box* box = &living->hair->field.box;
-    struct hair_test_frame       frame;
-    hair_view                    view  = hair_view_default();
-    double                       brick = HAIR_BRICK * (double)box->voxel;
-    const double lower[3]              = {(double)box->lower.x, (double)box->lower.y, (double)box->lower.z};
+    struct hair_test_frame frame;
+    hair_view view = hair_view_default();
+    double brick = HAIR_BRICK * (double)box->voxel;
+    const double lower[3] = {(double)box->lower.x, (double)box->lower.y, (double)box->lower.z};
     int axes[2] = {slice == HAIR_SLICE_X ? 1 : 0, slice == HAIR_SLICE_Y || slice == HAIR_SLICE_X ? 2 : 1};
     view.pass = HAIR_PASS_WIND, view.slice = slice;
     for (int i = 0; i < 16; ++i) view.projection[i] = i == 15;
@@ -39,7 +39,7 @@ static void look(struct hair_test_living* living, hair_slice slice, struct pictu
     for (int row = 0; row < 2; ++row) {
         double length = brick * box->bricks[axes[row]], middle = lower[axes[row]] + 0.5 * length;
         view.projection[4 * axes[row] + row] = (float)(2 / (1.5 * length));
-        view.projection[12 + row]            = (float)(-2 * middle / (1.5 * length));
+        view.projection[12 + row] = (float)(-2 * middle / (1.5 * length));
     }
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     hair_test_ok(living->test, hair_draw(living->hair, &view));
@@ -57,7 +57,7 @@ static struct seen count(const struct picture* picture, double left, double righ
     struct seen seen = {0, 0, 0};
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const float* c = &picture->color[4 * i];
-        double       x = (i % SIDE + 0.5) / SIDE, y = (i / SIDE + 0.5) / SIDE;
+        double x = (i % SIDE + 0.5) / SIDE, y = (i / SIDE + 0.5) / SIDE;
         if (x < left || x > right || y < below || y > above || c[0] + c[1] + c[2] <= 0) continue;
         for (int k = 0; k < 3; ++k) assert_true(isfinite(c[k]) && c[k] >= 0 && c[k] <= 1);
         ++seen.covered;
@@ -73,14 +73,14 @@ static struct picture picture;
 static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
 {
     struct hair_test_living living = start(state);
-    hair_wind               wind   = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = SPEED, wind.shelter = 0;
     hair_test_blow(&living, &wind);
     hair_test_wait(&living, 1);
     for (hair_slice slice = HAIR_SLICE_NONE; slice <= HAIR_SLICE_Z; ++slice) {
         look(&living, slice, &picture);
-        struct seen seen  = count(&picture, 0, 1, 0, 1);
-        double      share = (double)seen.covered / (SIDE * SIDE);
+        struct seen seen = count(&picture, 0, 1, 0, 1);
+        double share = (double)seen.covered / (SIDE * SIDE);
         print_message("    slice %d: %.3f covered\n", (int)slice, share);
         assert_true(seen.slow == 0 && seen.fast == 0);
         if (slice == HAIR_SLICE_X) continue; // The wind goes through it.
@@ -94,9 +94,9 @@ static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
 {
     for (int model = 0; model < 2; ++model) {
         struct hair_test_living living = start(state);
-        hair_wind               wind   = hair_wind_default();
-        hair_solid              ball   = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0.175f, 0);
-        ball.size[0]                   = 0.03f;
+        hair_wind wind = hair_wind_default();
+        hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0.175f, 0);
+        ball.size[0] = 0.03f;
         wind.model = (hair_wind_model)model, wind.velocity[0] = SPEED;
         hair_test_set_solids(&living, &ball, 1);
         hair_test_blow(&living, &wind);
@@ -117,8 +117,8 @@ static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
 static void nothing_is_seen_where_no_step_had_wind(void** state)
 {
     struct hair_test_living living = start(state);
-    hair_wind               wind   = hair_wind_default();
-    wind.velocity[0]               = SPEED;
+    hair_wind wind = hair_wind_default();
+    wind.velocity[0] = SPEED;
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);
     hair_test_blow(&living, &wind); // Not before a step has had it.

@@ -15,12 +15,12 @@
 // Free strands of two vertices, 2 mm long, which damping ties to the air.
 static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* at, uint32_t count)
 {
-    struct hair_test_living  living;
+    struct hair_test_living living;
     struct hair_test_strands strands = hair_test_strands_make(count, 2);
-    hair_physics             physics = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     for (uint32_t i = 0; i < count; ++i) hair_test_add_straight(&strands, 2, at[i], hair_v3(0, 1, 0), 2e-3f);
     physics.gravity[1] = 0, physics.damping = 1000, physics.drag = 0;
-    physics.root   = HAIR_ROOT_FREE;
+    physics.root = HAIR_ROOT_FREE;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, 1.0 / 1080, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
@@ -55,8 +55,8 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
 {
     enum { COUNT = 400 };
     hair_vec3 at[COUNT];
-    uint32_t  random = 1;
-    hair_wind wind   = hair_wind_default();
+    uint32_t random = 1;
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = 4, wind.velocity[2] = 3;
     wind.gusts = 0.3f, wind.gust_length = 0.5f;
     for (int i = 0; i < COUNT; ++i) // By pairs, which are a tenth of the length apart.
@@ -84,13 +84,13 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
 static void place_in_gusts(const struct hair_test_living* living, const double world[3], double out[3])
 {
     struct hair_wind_params params;
-    const struct hair_sim*  sim = &living->hair->sim;
+    const struct hair_sim* sim = &living->hair->sim;
     glGetNamedBufferSubData(sim->air.params, 0, sizeof params, &params);
     hair_quat turn = {params.gust_turn.x, params.gust_turn.y, params.gust_turn.z, params.gust_turn.w};
     hair_vec3 from = hair_v3((float)(world[0] - sim->last_after.position[0]),
                              (float)(world[1] - sim->last_after.position[1]),
                              (float)(world[2] - sim->last_after.position[2]));
-    hair_vec3 way  = hair_scale(hair_rotate(turn, from), params.gust_from.w);
+    hair_vec3 way = hair_scale(hair_rotate(turn, from), params.gust_from.w);
     out[0] = (double)(params.gust_from.x + way.x), out[1] = (double)(params.gust_from.y + way.y);
     out[2] = (double)(params.gust_from.z + way.z);
 }
@@ -98,11 +98,11 @@ static void place_in_gusts(const struct hair_test_living* living, const double w
 // Whatever the frames, the head and the wind's direction do in between.
 static void gusts_go_with_the_wind(void** state)
 {
-    const hair_vec3         origin = {0, 0, 0};
+    const hair_vec3 origin = {0, 0, 0};
     struct hair_test_living living = tracers(*state, &origin, 1);
-    hair_wind               wind   = hair_wind_default();
-    double                  start[3], end[3], world[3] = {0.3, 0.1, -0.2};
-    wind.gusts       = 0.2f;
+    hair_wind wind = hair_wind_default();
+    double start[3], end[3], world[3] = {0.3, 0.1, -0.2};
+    wind.gusts = 0.2f;
     wind.velocity[0] = 2, wind.velocity[1] = -1;
     hair_test_blow(&living, &wind);
     hair_test_advance(&living, NULL, STEP);
@@ -122,20 +122,20 @@ static void gusts_go_with_the_wind(void** state)
 
 static void a_ball_shelters_what_is_behind_it(void** state)
 {
-    const hair_vec3         at[]   = {{0, 0, -0.101f}, {0, 0, -0.5f}, {0.1f, 0, 0}, {0, 0.3f, 0},
-                                      {0, 0, 0.11f},   {0, 0, 0.2f},  {0, 0, 0.5f}, {0.4f, 0, 0.3f}};
+    const hair_vec3 at[] = {{0, 0, -0.101f}, {0, 0, -0.5f}, {0.1f, 0, 0}, {0, 0.3f, 0},
+                            {0, 0, 0.11f},   {0, 0, 0.2f},  {0, 0, 0.5f}, {0.4f, 0, 0.3f}};
     struct hair_test_living living = tracers(*state, at, 8);
-    hair_wind               wind   = hair_wind_default();
-    hair_solid              ball   = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
-    double                  share[8];
-    ball.size[0]     = 0.1f;
+    hair_wind wind = hair_wind_default();
+    hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
+    double share[8];
+    ball.size[0] = 0.1f;
     wind.velocity[2] = 1;
     hair_test_set_solids(&living, &ball, 1);
     hair_test_blow(&living, &wind);
     measure(&living);
     for (uint32_t i = 0; i < 8; ++i) {
         hair_vec3 middle = hair_add(hair_test_at(&living, i, 0), hair_load3(living.before + 6 * (size_t)i));
-        const double one[3]   = {0, 0, 1},
+        const double one[3] = {0, 0, 1},
                      place[3] = {5 * (double)middle.x, 5 * (double)middle.y, 5 * (double)middle.z};
         double twin[3];
         share[i] = (double)speed_of(&living, i).z;
@@ -147,7 +147,7 @@ static void a_ball_shelters_what_is_behind_it(void** state)
                       (double)at[i].z, share[i]);
     }
     assert_true(fabs(share[0]) < 0.05 && share[1] > 0.97); // Where it ends, and before.
-    assert_true(share[2] > 1.1 && share[3] > 1);           // Beside.
+    assert_true(share[2] > 1.1 && share[3] > 1); // Beside.
     assert_true(share[4] < 0.1 && share[5] < 0.4 && share[6] < 0.9 && share[6] > share[5]);
     assert_true(share[7] > 0.9);
     wind.shelter = 0;
@@ -159,15 +159,15 @@ static void a_ball_shelters_what_is_behind_it(void** state)
 
 static void sources_blow_as_they_say(void** state)
 {
-    const hair_vec3         at[]       = {{0, 0, 0.5f}, {0, 0, -1}, {1.1f, 0, 1}, {1.3f, 0, 0}};
-    struct hair_test_living living     = tracers(*state, at, 4);
-    hair_wind               wind       = hair_wind_default();
-    hair_wind_source        sources[2] = {hair_wind_source_default(), hair_wind_source_default()};
+    const hair_vec3 at[] = {{0, 0, 0.5f}, {0, 0, -1}, {1.1f, 0, 1}, {1.3f, 0, 0}};
+    struct hair_test_living living = tracers(*state, at, 4);
+    hair_wind wind = hair_wind_default();
+    hair_wind_source sources[2] = {hair_wind_source_default(), hair_wind_source_default()};
     sources[0].radius = 0.1f, sources[0].speed = 4;
-    sources[1].position[0]  = 1.1f;
+    sources[1].position[0] = 1.1f;
     sources[1].direction[2] = 7;
-    wind.sources            = sources;
-    wind.source_count       = 2;
+    wind.sources = sources;
+    wind.source_count = 2;
     hair_test_blow(&living, &wind);
     sources[0].speed = 1000; // They have been copied.
     measure(&living);
@@ -182,7 +182,7 @@ static void sources_blow_as_they_say(void** state)
 static GLuint make_texture(const float velocity[3])
 {
     GLuint texture = 0;
-    float  texels[8 * 3];
+    float texels[8 * 3];
     for (int i = 0; i < 24; ++i) texels[i] = velocity[i % 3];
     glCreateTextures(GL_TEXTURE_3D, 1, &texture);
     glTextureStorage3D(texture, 1, GL_RGB32F, 2, 2, 2);
@@ -193,19 +193,19 @@ static GLuint make_texture(const float velocity[3])
 
 static void the_applications_own_wind_blows_where_it_is_finite(void** state)
 {
-    struct hair_test*       test    = *state;
-    const hair_vec3         at[]    = {{1, 1, 1}, {5, 1, 1}};
-    const float             flow[3] = {1, -2, 3}, none[3] = {NAN, INFINITY, 0};
+    struct hair_test* test = *state;
+    const hair_vec3 at[] = {{1, 1, 1}, {5, 1, 1}};
+    const float flow[3] = {1, -2, 3}, none[3] = {NAN, INFINITY, 0};
     struct hair_test_living living = tracers(test, at, 2);
-    GLuint                  sound = make_texture(flow), broken = make_texture(none);
-    hair_wind               wind = hair_wind_default();
+    GLuint sound = make_texture(flow), broken = make_texture(none);
+    hair_wind wind = hair_wind_default();
     for (int k = 0; k < 3; ++k) wind.texture_transform[5 * k] = 0.5f; // Of a box from 0 to 2 m.
     wind.texture = sound;
     hair_test_blow(&living, &wind);
     measure(&living);
     expect(speed_of(&living, 0), 1, -2, 3, 0.01);
     expect(speed_of(&living, 1), 0, 0, 0, 0.01);
-    wind.texture     = broken;
+    wind.texture = broken;
     wind.velocity[0] = 1;
     hair_test_blow(&living, &wind);
     measure(&living);
@@ -222,24 +222,24 @@ static void the_applications_own_wind_blows_where_it_is_finite(void** state)
 
 static void what_cannot_be_is_refused(void** state)
 {
-    struct hair_test*       test   = *state;
-    const hair_vec3         origin = {0, 0, 0};
+    struct hair_test* test = *state;
+    const hair_vec3 origin = {0, 0, 0};
     struct hair_test_living living = tracers(test, &origin, 1);
-    hair_wind               wind   = hair_wind_default();
-    hair_wind_source        source = hair_wind_source_default();
-    wind.source_count              = 1;
+    hair_wind wind = hair_wind_default();
+    hair_wind_source source = hair_wind_source_default();
+    wind.source_count = 1;
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "sources is NULL");
     wind.sources = &source;
     source.speed = NAN;
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT,
                       "sources[0].speed is nan");
-    source.speed  = 1;
+    source.speed = 1;
     source.radius = 0;
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "sources[0].radius is 0");
-    wind              = hair_wind_default();
+    wind = hair_wind_default();
     wind.source_count = 5;
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "source_count is 5");
-    wind             = hair_wind_default();
+    wind = hair_wind_default();
     wind.velocity[1] = NAN;
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "velocity[1] is nan");
     hair_test_ok(test, hair_set_wind(living.hair, NULL));
@@ -248,9 +248,9 @@ static void what_cannot_be_is_refused(void** state)
 
 static void gusts_go_on_from_a_saved_state(void** state)
 {
-    const hair_vec3         at[]  = {{0, 0, 0}, {1, 0.5f, 0}};
+    const hair_vec3 at[] = {{0, 0, 0}, {1, 0.5f, 0}};
     struct hair_test_living first = tracers(*state, at, 2), second = tracers(*state, at, 2);
-    hair_wind               wind = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = 3, wind.gusts = 0.5f;
     hair_test_blow(&first, &wind);
     hair_test_wait(&first, 7);

@@ -15,9 +15,9 @@
 
 static hair_wind blowing(float x, hair_wind_model model)
 {
-    hair_wind wind   = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = x;
-    wind.model       = model;
+    wind.model = model;
     return wind;
 }
 
@@ -26,8 +26,8 @@ static void begin(struct hair_test* test, hair_solver solver, struct hair_test_l
 {
     static const hair_vec3 roots[] = {
         {0.18f, 0.05f, 0}, {0, 0.05f, 0.22f}, {-0.22f, 0.05f, 0}, {0, 0.05f, -0.22f}, {0, 0.22f, 0}};
-    hair_physics physics             = hair_test_loose(0);
-    physics.drag                     = 0.3f;
+    hair_physics physics = hair_test_loose(0);
+    physics.drag = 0.3f;
     struct hair_test_strands strands = hair_test_strands_make(5, VERTICES);
     for (int i = 0; i < 5; ++i)
         hair_test_add_straight(&strands, VERTICES, roots[i], hair_v3(0, i < 4 ? -1 : 1, 0), 0.1f);
@@ -35,14 +35,14 @@ static void begin(struct hair_test* test, hair_solver solver, struct hair_test_l
     hair_test_live(test, &strands, &desc, living);
     hair_test_strands_free(&strands);
     hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
-    ball.size[0]    = 0.1f;
+    ball.size[0] = 0.1f;
     hair_test_set_solids(living, &ball, 1);
 }
 
 static uint32_t runs(const struct hair_test_living* living)
 {
-    const struct hair_gl* gl  = &living->test->context->gl;
-    uint32_t              sum = 0;
+    const struct hair_gl* gl = &living->test->context->gl;
+    uint32_t sum = 0;
     for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH; ++pass)
         sum += hair_test_runs(gl, pass);
     return sum;
@@ -54,7 +54,7 @@ static void blow(struct hair_test* test, hair_wind_model model, double way[2])
     struct hair_test_living living;
     begin(test, HAIR_SOLVER_DIRECT, &living);
     hair_wind wind = blowing(4, model);
-    wind.shelter   = 0; // What is not the fluid's is as if nothing were in the way.
+    wind.shelter = 0; // What is not the fluid's is as if nothing were in the way.
     hair_test_blow(&living, &wind);
     hair_test_wait(&living, 30);
     way[0] = way[1] = 0;
@@ -84,11 +84,11 @@ static void hair_behind_a_ball_is_sheltered_and_hair_beside_it_is_not(void** sta
 static void motion_does_not_depend_on_the_frame_rate(void** state)
 {
     static const int rates[] = {30, 60, 120};
-    float            seen[3][3 * 5 * VERTICES];
+    float seen[3][3 * 5 * VERTICES];
     for (int k = 0; k < 3; ++k) {
         struct hair_test_living living;
         begin(*state, HAIR_SOLVER_DIRECT, &living);
-        hair_wind wind  = blowing(4, HAIR_WIND_FLUID);
+        hair_wind wind = blowing(4, HAIR_WIND_FLUID);
         wind.resolution = 16;
         hair_test_blow(&living, &wind);
         for (int i = 0; i < rates[k] / 5; ++i) hair_test_advance(&living, NULL, 1.0 / rates[k]);
@@ -107,7 +107,7 @@ static void where_it_is_off_nothing_is_run_or_kept(void** state)
     hair_wind wind = blowing(3, HAIR_WIND_FLUID), none = blowing(0, HAIR_WIND_FLUID);
     none.resolution = wind.resolution = 16;
     hair_test_wait(&living, 1);
-    size_t   bytes  = living.test->host.live;
+    size_t bytes = living.test->host.live;
     uint32_t before = runs(&living);
     hair_test_blow(&living, &none);
     hair_test_wait(&living, 2);
@@ -138,11 +138,11 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
     struct hair_test_living living;
     begin(*state, HAIR_SOLVER_DIRECT, &living);
     for (int i = 0; i < 24; ++i) {
-        hair_wind wind   = blowing(i % 4 == 1 ? 1000 : -5, i % 3 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT);
+        hair_wind wind = blowing(i % 4 == 1 ? 1000 : -5, i % 3 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT);
         wind.velocity[1] = i % 5 == 2 ? -1000 : 0;
-        wind.resolution  = i % 7 ? 16 : 32;
-        wind.projection  = i % 6 ? HAIR_PROJECTION_MULTIGRID : HAIR_PROJECTION_JACOBI;
-        wind.cycles      = i % 6 ? 0 : 1;
+        wind.resolution = i % 7 ? 16 : 32;
+        wind.projection = i % 6 ? HAIR_PROJECTION_MULTIGRID : HAIR_PROJECTION_JACOBI;
+        wind.cycles = i % 6 ? 0 : 1;
         hair_test_blow(&living, i % 2 ? &wind : NULL);
         hair_test_advance(&living, NULL, i % 3 == 0 ? 0.1 : i % 3 == 1 ? 1e-4 : 1.0 / 60);
         hair_test_read_guides(&living);
@@ -150,7 +150,7 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
     }
     hair_wind wind = blowing(NAN, HAIR_WIND_FLUID);
     hair_test_refused(living.test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "velocity[0]");
-    wind            = blowing(2, HAIR_WIND_FLUID);
+    wind = blowing(2, HAIR_WIND_FLUID);
     wind.resolution = 16;
     hair_test_blow(&living, &wind);
     hair_test_wait(&living, 60);
@@ -165,10 +165,10 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
 static void what_is_saved_goes_on_with_the_same_bits(void** state)
 {
     struct hair_test_living living, other;
-    float                   straight[3 * 5 * VERTICES];
+    float straight[3 * 5 * VERTICES];
     begin(*state, HAIR_SOLVER_DIRECT, &living);
     begin(*state, HAIR_SOLVER_DIRECT, &other);
-    hair_wind wind  = blowing(4, HAIR_WIND_FLUID);
+    hair_wind wind = blowing(4, HAIR_WIND_FLUID);
     wind.resolution = 16;
     hair_test_blow(&living, &wind);
     hair_test_blow(&other, &wind);

@@ -12,20 +12,20 @@
 
 #define SIZE 256
 #define TEXELS 64
-#define HALF 0.3f  // of what is seen, m
+#define HALF 0.3f // of what is seen, m
 #define PLATE 0.1f // z of a plate that lies across the light, m
 #define BIAS 0.004f
 
 struct fixture {
-    struct hair_test*      test;
-    hair_groom*            groom;
-    hair_instance*         hair;
-    hair_shader*           shader;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_shader* shader;
     struct hair_test_frame frame;
-    hair_view              view;
-    hair_light             light[4];
-    GLuint                 map[4], open;
-    float                  pixels[4 * SIZE * SIZE];
+    hair_view view;
+    hair_light light[4];
+    GLuint map[4], open;
+    float pixels[4 * SIZE * SIZE];
 };
 
 static const char through_glsl[] =
@@ -52,30 +52,30 @@ static void look_down(float matrix[16])
 {
     memset(matrix, 0, 16 * sizeof *matrix);
     matrix[0] = matrix[5] = 1 / HALF;
-    matrix[10]            = -1;
-    matrix[15]            = 1;
+    matrix[10] = -1;
+    matrix[15] = 1;
 }
 
 static struct fixture* start(void** state)
 {
-    struct fixture*           f      = calloc(1, sizeof *f);
+    struct fixture* f = calloc(1, sizeof *f);
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
-    f->test                          = *state;
-    f->view                          = hair_view_default();
-    wanted.followers                 = 160;
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    f->test = *state;
+    f->view = hair_view_default();
+    wanted.followers = 160;
     look.segments = 8, look.radius = 0.002f;
     desc.look = &look;
-    f->groom  = hair_test_groom(&f->test->host.host, wanted);
+    f->groom = hair_test_groom(&f->test->host.host, wanted);
     hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
     hair_test_frame_make(&f->frame, SIZE, SIZE, GL_RGBA32F, 0);
     look_down(f->view.projection);
     f->open = make_map(1);
     for (int i = 0; i < 4; ++i) {
-        f->map[i]              = make_map(1);
+        f->map[i] = make_map(1);
         f->view.ambient[i % 3] = 0;
-        f->light[i]            = hair_light_default();
+        f->light[i] = hair_light_default();
         f->light[i].to[0] = f->light[i].to[1] = 0, f->light[i].to[2] = 1;
         f->light[i].body_bias = BIAS;
         look_down(f->light[i].shadow_matrix);
@@ -98,8 +98,8 @@ static void finish(struct fixture* f)
 static void shade_by(struct fixture* f, const char* glsl)
 {
     hair_shader_desc desc = hair_shader_desc_default();
-    desc.glsl             = glsl;
-    desc.at               = HAIR_SHADE_PIXELS;
+    desc.glsl = glsl;
+    desc.at = HAIR_SHADE_PIXELS;
     hair_test_ok(f->test, hair_shader_create(f->test->context, &desc, &f->shader));
     f->view.shader = f->shader;
 }
@@ -113,7 +113,7 @@ static void set_look(struct fixture* f, hair_shadow shadow, hair_shading shading
 
 static void draw(struct fixture* f, uint32_t lights)
 {
-    f->view.lights      = f->light;
+    f->view.lights = f->light;
     f->view.light_count = lights;
     hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
@@ -137,8 +137,8 @@ static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
 {
     static float open[4 * SIZE * SIZE];
     for (int i = 0; i < 4; ++i) {
-        struct fixture* f    = start(state);
-        uint32_t        dark = 0, lit = 0;
+        struct fixture* f = start(state);
+        uint32_t dark = 0, lit = 0;
         set_look(f, i % 2 ? HAIR_SHADOW_STRANDS : HAIR_SHADOW_DEPTH,
                  i / 2 ? HAIR_SHADING_LINES : HAIR_SHADING_FIBRES);
         draw(f, 1);
@@ -165,19 +165,19 @@ static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
 static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
-        struct fixture* f      = start(state);
-        double          sum[2] = {0}, most = 0, least = 1;
-        uint32_t        count[2] = {0};
+        struct fixture* f = start(state);
+        double sum[2] = {0}, most = 0, least = 1;
+        uint32_t count[2] = {0};
         shade_by(f, through_glsl);
         set_look(f, (hair_shadow)shadow, HAIR_SHADING_FIBRES);
         put_plate(f->map[0], 0, TEXELS, (1 - PLATE) / 2);
         for (int body = 0; body < 2; ++body) {
             f->light[0].shadow_texture = body ? f->open : f->map[0];
-            f->light[0].body_texture   = body ? f->map[0] : 0;
+            f->light[0].body_texture = body ? f->map[0] : 0;
             draw(f, 1);
             for (int p = 0; p < SIZE * SIZE; ++p) {
-                const float* pixel  = f->pixels + 4 * p;
-                double       behind = (double)PLATE - ((double)pixel[3] - 1), through = (double)pixel[0];
+                const float* pixel = f->pixels + 4 * p;
+                double behind = (double)PLATE - ((double)pixel[3] - 1), through = (double)pixel[0];
                 if (pixel[3] <= 0) continue;
                 if (behind > 0.004 + 1e-4 && behind < 0.006) sum[body] += through, ++count[body];
                 if (body && behind > (double)BIAS + 1e-4) most = fmax(most, through);
@@ -196,8 +196,8 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
 
 static void every_light_has_bodies_of_its_own(void** state)
 {
-    struct fixture* f       = start(state);
-    uint32_t        held[4] = {0};
+    struct fixture* f = start(state);
+    uint32_t held[4] = {0};
     shade_by(f, lights_glsl);
     f->light[0].shadow_texture = 0; // A light may have either map, both or none.
     f->light[2].shadow_texture = f->open;
@@ -208,7 +208,7 @@ static void every_light_has_bodies_of_its_own(void** state)
     draw(f, 4);
     for (int p = 0; p < SIZE * SIZE; ++p) {
         double at = (across(p) / (double)HALF + 1) * TEXELS / 2, edge = fabs(remainder(at, 16));
-        int    column = (int)(at / 16);
+        int column = (int)(at / 16);
         if (f->pixels[4 * p + 1] <= 0 || edge < 1.6) continue; // B-splines reach one and a half.
         ++held[column];
         for (int i = 0; i < 4; ++i)
@@ -224,35 +224,35 @@ static void every_light_has_bodies_of_its_own(void** state)
 static void look_from_lamp(hair_light* light)
 {
     float *m = light->shadow_matrix, near = 0.2f, far = 3;
-    light->kind        = HAIR_LIGHT_SPOT;
+    light->kind = HAIR_LIGHT_SPOT;
     light->position[2] = 1;
     memset(m, 0, sizeof light->shadow_matrix);
     m[0] = m[5] = 1 / 0.4f;
-    m[10]       = -(far + near) / (far - near);
-    m[11]       = -1;
-    m[14]       = m[10] * -1 - 2 * far * near / (far - near);
-    m[15]       = 1;
+    m[10] = -(far + near) / (far - near);
+    m[11] = -1;
+    m[14] = m[10] * -1 - 2 * far * near / (far - near);
+    m[15] = 1;
 }
 
 // A plate of bodies on one side; and one in the map of hair, whose depths tell metres along each ray.
 static void maps_may_be_in_perspective(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
-        struct fixture* f    = start(state);
-        uint32_t        dark = 0, lit = 0;
+        struct fixture* f = start(state);
+        uint32_t dark = 0, lit = 0;
         shade_by(f, through_glsl);
         set_look(f, (hair_shadow)shadow, HAIR_SHADING_FIBRES);
         look_from_lamp(&f->light[0]);
-        const float* m    = f->light[0].shadow_matrix;
-        float        clip = m[10] * PLATE + m[14], depth = 0.5f + 0.5f * clip / (1 - PLATE);
+        const float* m = f->light[0].shadow_matrix;
+        float clip = m[10] * PLATE + m[14], depth = 0.5f + 0.5f * clip / (1 - PLATE);
         put_plate(f->map[0], 0, 30, depth);
         f->light[0].body_texture = f->map[0];
         draw(f, 1);
         for (int p = 0; p < SIZE * SIZE; ++p) {
             const float* pixel = f->pixels + 4 * p;
-            double       x = (double)pixel[1] - 1, z = (double)pixel[3] - 1, reach = 1 - z;
-            double       texel  = (x / reach / 0.4 + 1) * TEXELS / 2;
-            double       behind = ((double)PLATE - z) * hypot(hypot(x, (double)pixel[2] - 1), reach) / reach;
+            double x = (double)pixel[1] - 1, z = (double)pixel[3] - 1, reach = 1 - z;
+            double texel = (x / reach / 0.4 + 1) * TEXELS / 2;
+            double behind = ((double)PLATE - z) * hypot(hypot(x, (double)pixel[2] - 1), reach) / reach;
             if (pixel[3] <= 0 || fabs(texel - 30) < 1.6 || fabs(behind - (double)BIAS) < 2e-4) continue;
             if (texel < 30 && behind > (double)BIAS) {
                 hair_test_near("behind", (size_t)p, (double)pixel[0], 0, 0);
@@ -269,8 +269,8 @@ static void maps_may_be_in_perspective(void** state)
         draw(f, 1);
         for (int p = 0; p < SIZE * SIZE && shadow == HAIR_SHADOW_DEPTH; ++p) {
             const float* pixel = f->pixels + 4 * p;
-            double       x = (double)pixel[1] - 1, z = (double)pixel[3] - 1, reach = 1 - z;
-            double       behind = ((double)PLATE - z) * hypot(hypot(x, (double)pixel[2] - 1), reach) / reach;
+            double x = (double)pixel[1] - 1, z = (double)pixel[3] - 1, reach = 1 - z;
+            double behind = ((double)PLATE - z) * hypot(hypot(x, (double)pixel[2] - 1), reach) / reach;
             if (pixel[3] <= 0 || behind < 0) continue;
             hair_test_near("metres", (size_t)p, (double)pixel[0], exp(-200 * behind), 0.002);
         }
@@ -281,17 +281,17 @@ static void maps_may_be_in_perspective(void** state)
 static uint32_t count_passes(const struct fixture* f, const char* words)
 {
     hair_timing timing[128];
-    uint32_t    count = hair_timings(f->test->context, timing, 128), found = 0;
+    uint32_t count = hair_timings(f->test->context, timing, 128), found = 0;
     for (uint32_t i = 0; i < count && i < 128; ++i) found += strstr(timing[i].pass, words) != NULL;
     return found;
 }
 
 static void without_bodies_no_program_knows_of_them(void** state)
 {
-    struct fixture* f      = start(state);
-    hair_memory     before = hair_memory_default(), after = hair_memory_default();
-    uint32_t        known = count_passes(f, "blocked");
-    f->view.path          = HAIR_PATH_EXPANDED;
+    struct fixture* f = start(state);
+    hair_memory before = hair_memory_default(), after = hair_memory_default();
+    uint32_t known = count_passes(f, "blocked");
+    f->view.path = HAIR_PATH_EXPANDED;
     draw(f, 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
     assert_int_equal(count_passes(f, "blocked"), known);
@@ -309,18 +309,18 @@ static void without_bodies_no_program_knows_of_them(void** state)
 static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
 {
     struct fixture* f = start(state);
-    GLuint          odd[3];
-    const float     nan_[4] = {NAN, NAN, NAN, NAN};
+    GLuint odd[3];
+    const float nan_[4] = {NAN, NAN, NAN, NAN};
     glCreateTextures(GL_TEXTURE_2D, 3, odd);
     glTextureStorage2D(odd[0], 1, GL_R32F, 1, 1);
     glClearTexImage(odd[0], 0, GL_RED, GL_FLOAT, nan_);
     glTextureStorage2D(odd[1], 3, GL_RGBA8, 5, 3); // The third has no storage at all.
     for (int i = 0; i < 3 * 6; ++i) {
         hair_light* light = &f->light[0];
-        light->kind       = HAIR_LIGHT_DIRECTIONAL;
+        light->kind = HAIR_LIGHT_DIRECTIONAL;
         look_down(light->shadow_matrix);
         light->body_texture = odd[i % 3];
-        light->body_bias    = i % 2 ? 1.0f : 0.0f;
+        light->body_bias = i % 2 ? 1.0f : 0.0f;
         switch (i / 3) {
         case 1: light->shadow_matrix[0] = light->shadow_matrix[13] = 3e38f; break;
         case 2: memset(light->shadow_matrix, 0, 15 * sizeof(float)); break;
@@ -343,21 +343,21 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
 
 static void what_is_no_map_of_a_light_is_refused(void** state)
 {
-    struct fixture* f        = start(state);
-    float*          m        = f->light[0].shadow_matrix;
-    f->view.lights           = f->light;
+    struct fixture* f = start(state);
+    float* m = f->light[0].shadow_matrix;
+    f->view.lights = f->light;
     f->light[0].body_texture = 4711;
     hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
                       "hair_view.lights[0].body_texture is 4711, not a 2D texture");
     f->light[0].body_texture = f->map[0];
-    f->light[0].body_bias    = 2;
+    f->light[0].body_bias = 2;
     hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
                       "hair_light.body_bias is 2, not in [0, 1]");
     f->light[0].body_bias = 0;
     look_from_lamp(&f->light[0]);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     for (int i = 0; i < 3; ++i) {
-        float was        = m[i == 0 ? 10 : i == 1 ? 2 : 14];
+        float was = m[i == 0 ? 10 : i == 1 ? 2 : 14];
         m[i == 0   ? 10
           : i == 1 ? 2
                    : 14] = i == 0   ? 0.5f

@@ -11,8 +11,8 @@ struct wound {
     const char* name;
     GLuint (*buffer)(const struct hair_sim* sim);
     uint32_t stride, at; // bytes
-    uint32_t vertex;     // of the guide
-    int      rests;      // what is wrong with a place nothing but rest can mend
+    uint32_t vertex; // of the guide
+    int rests; // what is wrong with a place nothing but rest can mend
 };
 
 static GLuint state_of(const struct hair_sim* sim)
@@ -21,8 +21,9 @@ static GLuint state_of(const struct hair_sim* sim)
 }
 static GLuint history_of(const struct hair_sim* sim)
 {
-    return sim->solver == HAIR_SOLVER_ACCURATE || sim->solver == HAIR_SOLVER_FOLLOW ? 0
-                                                                                   : sim->history; // which have none
+    return sim->solver == HAIR_SOLVER_ACCURATE || sim->solver == HAIR_SOLVER_FOLLOW
+               ? 0
+               : sim->history; // which have none
 }
 static GLuint material_of(const struct hair_sim* sim)
 {
@@ -46,7 +47,7 @@ static const struct wound wounds[] = {
 static hair_instance* make(struct hair_test* test, const hair_groom* groom, int way, uint32_t solids)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_test_way(way);
+    hair_desc desc = hair_test_way(way);
     hair_solid solid = {HAIR_SHAPE_SPHERE, {0.02f, 0, 0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_set_solids(hair, &solid, solids, sizeof solid));
@@ -77,7 +78,7 @@ static hair_health health_of(struct hair_test* test, hair_instance* hair)
 static void check_finite(GLuint buffer, const struct wound* wound)
 {
     static float number[8 * MOST];
-    GLint64      size = 0;
+    GLint64 size = 0;
     if (!buffer) return;
     glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     assert_in_range(size, 0, sizeof number);
@@ -93,7 +94,7 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
 {
     static struct hair_state sound[MOST], hurt[MOST];
     const struct hair_guide* guide = &groom->guides[HURT];
-    hair_instance*           hair[2];
+    hair_instance* hair[2];
     for (int i = 0; i < 2; ++i) {
         hair[i] = make(test, groom, way, solids);
         for (int k = 0; k < 2; ++k) step(test, hair[i], k);
@@ -119,7 +120,7 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
         }
     }
     hair_health before = health_of(test, hair[0]), after = health_of(test, hair[1]);
-    uint32_t    resets = after.reset - before.reset;
+    uint32_t resets = after.reset - before.reset;
     if (wound->rests && resets != 1) fail_msg("%s: %u resets", wound->name, resets);
     if (resets > 1 || after.follow > before.follow + 2)
         fail_msg("%s of %g: reset %u times, redone %u times", wound->name, (double)value, resets,
@@ -129,10 +130,10 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
 
 static void what_is_not_finite_goes_back_to_rest_alone_and_is_counted(void** state)
 {
-    static const float        bad[]  = {NAN, NAN, INFINITY, -3e38f};
-    struct hair_test*         test   = *state;
+    static const float bad[] = {NAN, NAN, INFINITY, -3e38f};
+    struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_groom*               groom  = hair_test_groom(&test->host.host, wanted);
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         print_message("    %s\n", hair_test_way_name(way));
         for (uint32_t solids = 0; solids < 2; ++solids)

@@ -25,32 +25,32 @@ static struct hair_state* scatter(const struct hair_test_living* living, float w
 
 // The grid's buffers after the block's start, and the twin's: the same sums in double precision.
 struct grids {
-    struct hair_crowd  crowd;
-    double             substep;
-    uint32_t           nodes;
-    int32_t*           grid;
+    struct hair_crowd crowd;
+    double substep;
+    uint32_t nodes;
+    int32_t* grid;
     struct hair_share* share;
-    float*             limit;
-    hair_vec4*         push;
-    double*            twin;
+    float* limit;
+    hair_vec4* push;
+    double* twin;
 };
 
 // A vertex among the eight nodes around it.
 struct seat {
-    double   speed[3], at[3]; // over HAIR_CROWD_SPEED; in cells, in the middle of the block
+    double speed[3], at[3]; // over HAIR_CROWD_SPEED; in cells, in the middle of the block
     uint32_t lowest[3];
-    int      inside;
+    int inside;
 };
 
 static struct seat seat_of(const struct grids* g, const struct hair_state* state)
 {
     const float *d = &state->displacement.x, *p = &state->position.x, *low = &g->crowd.lower.x;
-    struct seat  seat = {.inside = 1};
-    double       cell = (double)g->crowd.cell, top = (double)HAIR_CROWD_SPEED;
+    struct seat seat = {.inside = 1};
+    double cell = (double)g->crowd.cell, top = (double)HAIR_CROWD_SPEED;
     for (int k = 0; k < 3; ++k) {
-        seat.speed[k]  = fmin(fmax((double)d[k] / g->substep / top, -1), 1);
-        seat.at[k]     = (double)(p[k] - low[k]) / cell + seat.speed[k] * top * g->substep / cell;
-        seat.inside    = seat.inside && seat.at[k] >= 0 && seat.at[k] <= g->crowd.nodes[k] - 1;
+        seat.speed[k] = fmin(fmax((double)d[k] / g->substep / top, -1), 1);
+        seat.at[k] = (double)(p[k] - low[k]) / cell + seat.speed[k] * top * g->substep / cell;
+        seat.inside = seat.inside && seat.at[k] >= 0 && seat.at[k] <= g->crowd.nodes[k] - 1;
         seat.lowest[k] = (uint32_t)fmin(floor(fmax(seat.at[k], 0)), g->crowd.nodes[k] - 2);
     }
     return seat;
@@ -60,10 +60,10 @@ static struct seat seat_of(const struct grids* g, const struct hair_state* state
 static double reach(const struct grids* g, const struct seat* seat, uint32_t k, double from[3],
                     uint32_t* node)
 {
-    double   weight = 1;
+    double weight = 1;
     uint32_t n[3];
     for (int a = 0; a < 3; ++a) {
-        n[a]    = seat->lowest[a] + (k >> a & 1);
+        n[a] = seat->lowest[a] + (k >> a & 1);
         from[a] = seat->at[a] - n[a];
         weight *= 1 - fabs(from[a]);
     }
@@ -75,12 +75,12 @@ static double reach(const struct grids* g, const struct seat* seat, uint32_t k, 
 static double own_mass(const struct grids* g, const struct hair_state* state, uint32_t i, uint32_t k)
 {
     struct seat seat = seat_of(g, &state[i]);
-    double      sum  = 0;
+    double sum = 0;
     for (int way = -1; way <= 1; way += 2)
         for (int64_t j = way < 0 ? i : i + 1; j >= g->share[i].first && j < g->share[i].end; j += way) {
-            struct seat other  = seat_of(g, &state[j]);
-            double      weight = 1;
-            int         near   = 1;
+            struct seat other = seat_of(g, &state[j]);
+            double weight = 1;
+            int near = 1;
             for (int a = 0; a < 3; ++a) {
                 double from = other.at[a] - seat.lowest[a];
                 weight *= fmax(1 - fabs(from - (k >> a & 1)), 0);
@@ -94,13 +94,13 @@ static double own_mass(const struct grids* g, const struct hair_state* state, ui
 
 static void add(struct grids* g, const struct hair_state* state, uint32_t i)
 {
-    struct seat   seat = seat_of(g, &state[i]);
-    const double* v    = seat.speed;
+    struct seat seat = seat_of(g, &state[i]);
+    const double* v = seat.speed;
     for (uint32_t k = 0; k < 8 && seat.inside; ++k) {
-        double   r[3];
+        double r[3];
         uint32_t node;
-        double   weight = reach(g, &seat, k, r, &node), mass = weight * g->share[i].mass;
-        double*  sum = g->twin + NUMBERS * node;
+        double weight = reach(g, &seat, k, r, &node), mass = weight * g->share[i].mass;
+        double* sum = g->twin + NUMBERS * node;
         sum[0] += mass;
         sum[HAIR_CROWD_VOLUME] += weight * g->share[i].volume;
         for (int a = 0; a < 3; ++a) {
@@ -124,12 +124,12 @@ static struct grids find(struct hair_test_living* living, const struct hair_stat
     hair_crowd_left(sim);
     hair_gl_leave(sim->gl);
     struct grids g = {.crowd = sim->crowd, .substep = sim->substep};
-    g.nodes        = g.crowd.nodes[0] * g.crowd.nodes[1] * g.crowd.nodes[2];
-    g.grid         = hair_test_buffer(g.crowd.grid, g.nodes * NUMBERS * sizeof *g.grid);
-    g.share        = hair_test_buffer(g.crowd.share, living->vertices * sizeof *g.share);
-    g.limit        = hair_test_buffer(g.crowd.limit, g.nodes * sizeof *g.limit);
-    g.push         = hair_test_buffer(g.crowd.push, living->vertices * sizeof *g.push);
-    g.twin         = calloc(g.nodes, NUMBERS * sizeof *g.twin);
+    g.nodes = g.crowd.nodes[0] * g.crowd.nodes[1] * g.crowd.nodes[2];
+    g.grid = hair_test_buffer(g.crowd.grid, g.nodes * NUMBERS * sizeof *g.grid);
+    g.share = hair_test_buffer(g.crowd.share, living->vertices * sizeof *g.share);
+    g.limit = hair_test_buffer(g.crowd.limit, g.nodes * sizeof *g.limit);
+    g.push = hair_test_buffer(g.crowd.push, living->vertices * sizeof *g.push);
+    g.twin = calloc(g.nodes, NUMBERS * sizeof *g.twin);
     for (uint32_t i = 0; i < living->vertices; ++i) add(&g, state, i);
     return g;
 }
@@ -142,13 +142,13 @@ static void let_go(struct grids* g)
 static void the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair(void** state)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_test_only_crowd(5, 0.1f);
-    uint32_t                random  = 3;
-    hair_desc               desc    = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_only_crowd(5, 0.1f);
+    uint32_t random = 3;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
-    struct hair_state* at     = scatter(&living, 0.3f, 20, &random);
-    struct grids       g      = find(&living, at);
-    int64_t            sum[5] = {0}, expected[5] = {0};
+    struct hair_state* at = scatter(&living, 0.3f, 20, &random);
+    struct grids g = find(&living, at);
+    int64_t sum[5] = {0}, expected[5] = {0};
     for (uint32_t n = 0; n < g.nodes; ++n) {
         for (int k = 0; k < 5; ++k) sum[k] += g.grid[NUMBERS * n + (uint32_t)k];
         for (uint32_t k = 0; k < NUMBERS; ++k) // Of 2^30 in all, 2^21 and more a vertex.
@@ -195,7 +195,7 @@ static void rigid(const double* sum, const double from[3], double out[3])
         c[a] = sum[HAIR_CROWD_MOMENT + a] / m, v[a] = sum[HAIR_CROWD_MOMENTUM + a] / m;
     for (int a = 0; a < 3; ++a) {
         int b = (a + 1) % 3, d = (a + 2) % 3;
-        l[a]          = sum[HAIR_CROWD_ANGULAR + a] / m - (c[b] * v[d] - c[d] * v[b]);
+        l[a] = sum[HAIR_CROWD_ANGULAR + a] / m - (c[b] * v[d] - c[d] * v[b]);
         inertia[a][a] = (sum[HAIR_CROWD_SQUARES + b] + sum[HAIR_CROWD_SQUARES + d]) / m - c[b] * c[b] -
                         c[d] * c[d] + 1e-5 + 16 / m;
         inertia[b][d] = inertia[d][b] = c[b] * c[d] - sum[HAIR_CROWD_PRODUCTS + a] / m;
@@ -210,27 +210,27 @@ static void rigid(const double* sum, const double from[3], double out[3])
 static void accelerations_are_those_of_the_twin_in_double_precision(void** state)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_test_only_crowd(5, 0.02f);
-    uint32_t                random  = 4;
-    hair_desc               desc    = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_only_crowd(5, 0.02f);
+    uint32_t random = 4;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
-    struct hair_state* at   = scatter(&living, 0.05f, 1, &random);
-    struct grids       g    = find(&living, at);
-    double             time = 2 * g.substep, rate = -expm1(-5 * time) / time, pressed = 0, drawn = 0;
+    struct hair_state* at = scatter(&living, 0.05f, 1, &random);
+    struct grids g = find(&living, at);
+    double time = 2 * g.substep, rate = -expm1(-5 * time) / time, pressed = 0, drawn = 0;
     hair_test_near("block", 0, time, 1.0 / 120, 1e-9);
     for (uint32_t i = 0; i < living.vertices; ++i) {
-        struct seat  seat    = seat_of(&g, &at[i]);
-        const float* push    = &g.push[i].x;
-        double       pull[3] = {0}, press[3] = {0};
+        struct seat seat = seat_of(&g, &at[i]);
+        const float* push = &g.push[i].x;
+        double pull[3] = {0}, press[3] = {0};
         for (uint32_t k = 0; k < 8 && seat.inside; ++k) {
-            double        r[3], u[3];
-            uint32_t      n;
-            double        weight = reach(&g, &seat, k, r, &n);
-            const double* sum    = g.twin + NUMBERS * n;
+            double r[3], u[3];
+            uint32_t n;
+            double weight = reach(&g, &seat, k, r, &n);
+            const double* sum = g.twin + NUMBERS * n;
             if (sum[0] < 1) continue;
-            double alike   = sum[HAIR_CROWD_ALIKE] * STRAND_UNITS(&g.crowd) / (sum[0] * sum[0]);
+            double alike = sum[HAIR_CROWD_ALIKE] * STRAND_UNITS(&g.crowd) / (sum[0] * sum[0]);
             double company = fmin(fmax(2 * (1 - alike), 0), 1);
-            double over    = fmax(1 - (double)g.limit[n] / sum[HAIR_CROWD_VOLUME], 0);
+            double over = fmax(1 - (double)g.limit[n] / sum[HAIR_CROWD_VOLUME], 0);
             rigid(sum, r, u);
             for (int a = 0; a < 3; ++a) {
                 pull[a] += rate * (double)HAIR_CROWD_SPEED * weight * company * (u[a] - seat.speed[a]);
@@ -257,20 +257,20 @@ struct one_sided {
 static struct one_sided one_sided(struct hair_test* test, float cohesion, float volume)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_test_only_crowd(cohesion, volume);
-    uint32_t                random  = 5;
-    hair_desc               desc    = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_only_crowd(cohesion, volume);
+    uint32_t random = 5;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, &living);
-    struct hair_state* at     = scatter(&living, 0.05f, 1, &random);
-    struct grids       g      = find(&living, at);
-    double             sum[6] = {0}, lengths[2] = {0};
+    struct hair_state* at = scatter(&living, 0.05f, 1, &random);
+    struct grids g = find(&living, at);
+    double sum[6] = {0}, lengths[2] = {0};
     for (uint32_t i = 0; i < living.vertices; ++i) {
-        struct seat  seat = seat_of(&g, &at[i]);
-        const float* a    = &g.push[i].x;
-        double       mass = g.share[i].mass, each[6];
+        struct seat seat = seat_of(&g, &at[i]);
+        const float* a = &g.push[i].x;
+        double mass = g.share[i].mass, each[6];
         for (int k = 0; k < 3; ++k) {
             int b = (k + 1) % 3, c = (k + 2) % 3;
-            each[k]     = mass * (double)a[k];
+            each[k] = mass * (double)a[k];
             each[k + 3] = mass * (seat.at[b] * (double)a[c] - seat.at[c] * (double)a[b]);
         }
         for (int k = 0; k < 6; ++k) sum[k] += each[k];

@@ -19,8 +19,8 @@ static struct hair_test_strands strands_of(enum scene scene, uint32_t* random)
 {
     struct hair_test_strands strands = hair_test_strands_make(STRANDS, VERTICES);
     for (uint32_t i = 0; i < STRANDS; ++i) {
-        float     x = (float)(i % 4) - 1.5f, z = (float)(i / 4) - 1.5f;
-        float     spacing = scene == MEETING ? 0.02f : 0.008f;
+        float x = (float)(i % 4) - 1.5f, z = (float)(i / 4) - 1.5f;
+        float spacing = scene == MEETING ? 0.02f : 0.008f;
         hair_vec3 root = hair_v3(spacing * x, 0, spacing * z), way = hair_v3(0, -1, 0);
         if (scene == CROSSING) {
             way = hair_v3(hair_random(random) - 0.5f, hair_random(random) - 0.5f, hair_random(random) - 0.5f);
@@ -35,9 +35,9 @@ static struct hair_test_strands strands_of(enum scene scene, uint32_t* random)
 // Rigid motion of each strand: that of all, and its own.
 static void set_in_motion(struct hair_test_living* living, enum scene scene, uint32_t* random)
 {
-    struct hair_sim*   sim  = &living->hair->sim;
-    struct hair_state* at   = hair_test_buffer(sim->state, living->vertices * sizeof *at);
-    hair_vec3          turn = scene == MEETING ? hair_v3(0, 2, 0) : hair_v3(0.5f, 3, 0.3f), own[2] = {{0}};
+    struct hair_sim* sim = &living->hair->sim;
+    struct hair_state* at = hair_test_buffer(sim->state, living->vertices * sizeof *at);
+    hair_vec3 turn = scene == MEETING ? hair_v3(0, 2, 0) : hair_v3(0.5f, 3, 0.3f), own[2] = {{0}};
     for (uint32_t i = 0; i < living->vertices; ++i) {
         hair_vec3 x = hair_v3(at[i].position.x, at[i].position.y, at[i].position.z), v = hair_cross(turn, x);
         hair_vec3 root = hair_v3(at[i - i % VERTICES].position.x, 0, at[i - i % VERTICES].position.z);
@@ -48,9 +48,9 @@ static void set_in_motion(struct hair_test_living* living, enum scene scene, uin
         v = hair_add(v, hair_v3(0.3f, 0.1f, 0));
         v = hair_add(v, hair_add(hair_scale(own[0], 0.3f), hair_cross(hair_scale(own[1], 2), x)));
         if (scene == MEETING) v = hair_sub(v, hair_scale(root, 4));
-        v                  = hair_scale(v, (float)sim->substep);
+        v = hair_scale(v, (float)sim->substep);
         at[i].displacement = (hair_vec4){v.x, v.y, v.z, 0};
-        at[i].position.w   = 1;
+        at[i].position.w = 1;
     }
     hair_test_set_state(living, at);
     free(at);
@@ -63,16 +63,16 @@ struct motion {
 // In the middle of the last substep.
 static struct motion motion_of(const struct hair_test_living* living)
 {
-    const struct hair_sim* sim   = &living->hair->sim;
-    struct hair_state*     at    = hair_test_buffer(sim->state, living->vertices * sizeof *at);
-    struct motion          m     = {0};
-    double                 total = 0, centre[3] = {0};
+    const struct hair_sim* sim = &living->hair->sim;
+    struct hair_state* at = hair_test_buffer(sim->state, living->vertices * sizeof *at);
+    struct motion m = {0};
+    double total = 0, centre[3] = {0};
     for (uint32_t k = 0; k < 2 * living->vertices; ++k) { // First for the centre, then about it.
-        uint32_t     i = k % living->vertices, again = k / living->vertices;
-        double       after = (double)living->groom->rest[i].position.w;
-        double       mass  = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
+        uint32_t i = k % living->vertices, again = k / living->vertices;
+        double after = (double)living->groom->rest[i].position.w;
+        double mass = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
         const float *p = &at[i].position.x, *d = &at[i].displacement.x;
-        double       x[3], v[3];
+        double x[3], v[3];
         for (int a = 0; a < 3; ++a) {
             v[a] = (double)d[a] / sim->substep;
             x[a] = (double)p[a] - (double)d[a] / 2 - (again ? centre[a] / total : 0);
@@ -103,11 +103,11 @@ static struct change run(struct hair_test* test, hair_solver solver, enum scene 
                          float volume)
 {
     struct hair_test_living living;
-    hair_physics            physics  = hair_test_only_crowd(cohesion, volume);
-    uint32_t                random   = 7;
-    physics.root                     = HAIR_ROOT_FREE;
-    physics.young                    = hair_test_bare().young;
-    hair_desc                desc    = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_only_crowd(cohesion, volume);
+    uint32_t random = 7;
+    physics.root = HAIR_ROOT_FREE;
+    physics.young = hair_test_bare().young;
+    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
     struct hair_test_strands strands = strands_of(scene, &random);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);

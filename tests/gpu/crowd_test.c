@@ -13,21 +13,21 @@
 static double slowing(struct hair_test* test, hair_solver solver, double time, float cohesion, double* drift)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_test_only_crowd(cohesion, 0);
-    physics.root                    = HAIR_ROOT_FREE;
-    hair_desc desc                  = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_only_crowd(cohesion, 0);
+    physics.root = HAIR_ROOT_FREE;
+    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.01f, &living);
-    struct hair_sim*   sim      = &living.hair->sim;
-    struct hair_state* at       = hair_test_buffer(sim->state, living.vertices * sizeof *at);
-    double             relative = 0, speed = 0.005 * sim->substep;
+    struct hair_sim* sim = &living.hair->sim;
+    struct hair_state* at = hair_test_buffer(sim->state, living.vertices * sizeof *at);
+    double relative = 0, speed = 0.005 * sim->substep;
     for (uint32_t i = 0; i < living.vertices; ++i) {
         at[i].displacement.x = (float)((i / HAIR_TEST_CROWD_VERTICES % 2 ? 1 : -1) * speed);
-        at[i].position.w     = 1;
+        at[i].position.w = 1;
     }
     hair_test_set_state(&living, at);
     free(at);
     for (int i = 0; i < (int)(time * 120 + 0.5); ++i) hair_test_advance(&living, NULL, 1.0 / 120);
-    at     = hair_test_buffer(sim->state, living.vertices * sizeof *at);
+    at = hair_test_buffer(sim->state, living.vertices * sizeof *at);
     *drift = 0;
     for (uint32_t i = 0; i < living.vertices; ++i) {
         relative += (i / HAIR_TEST_CROWD_VERTICES % 2 ? 1 : -1) * (double)at[i].displacement.x / speed /
@@ -59,15 +59,15 @@ static void relative_motion_decays_at_the_rate_of_cohesion_and_none_is_made(void
 static double spread(struct hair_test* test, float volume)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_physics_default();
-    hair_solid              wall[2] = {hair_solid_default()};
+    hair_physics physics = hair_physics_default();
+    hair_solid wall[2] = {hair_solid_default()};
     physics.pull_root = physics.pull_tip = 0;
-    physics.volume                       = volume;
-    hair_desc desc                       = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    physics.volume = volume;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, &living);
     // Two walls that leave half of the width.
-    wall[0].size[0]     = 1;
-    wall[1]             = wall[0];
+    wall[0].size[0] = 1;
+    wall[1] = wall[0];
     wall[0].position[0] = -0.99f, wall[1].position[0] = 1.03f;
     wall[0].position[1] = wall[1].position[1] = -0.08f;
     wall[0].position[2] = wall[1].position[2] = 0.02f;
@@ -98,10 +98,10 @@ static void hair_that_is_pressed_together_keeps_more_of_its_volume(void** state)
 static void a_groom_at_rest_does_not_press(void** state)
 {
     struct hair_test_living living;
-    hair_physics            physics = hair_physics_default();
-    physics.cohesion                = 10;
-    physics.volume                  = 1;
-    hair_desc desc                  = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_physics_default();
+    physics.cohesion = 10;
+    physics.volume = 1;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
     hair_test_wait(&living, 30);
     hair_test_read_guides(&living);
@@ -115,11 +115,11 @@ static void swing(struct hair_test_living* living, struct hair_test* test, hair_
 {
     hair_physics physics = hair_physics_default();
     physics.pull_root = physics.pull_tip = 0;
-    physics.hold                         = 0;
-    physics.cohesion                     = 8;
-    physics.volume                       = 0.2f;
-    physics.gravity[0]                   = 7;
-    hair_desc desc                       = hair_test_rods(solver, mapping, 0, &physics);
+    physics.hold = 0;
+    physics.cohesion = 8;
+    physics.volume = 0.2f;
+    physics.gravity[0] = 7;
+    hair_desc desc = hair_test_rods(solver, mapping, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, living);
 }
 
@@ -135,20 +135,20 @@ static double apart(const struct hair_test_living* a, const struct hair_test_liv
 static void a_strand_by_itself_feels_nothing(void** state)
 {
     struct hair_test_living living[2];
-    double                  most = 0;
+    double most = 0;
     for (int on = 0; on < 2; ++on) {
-        struct hair_test_strands strand  = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(2, -1, 1), 0.2f);
-        hair_physics             physics = hair_test_bare();
-        physics.cohesion                 = on ? 20.0f : 0;
-        physics.volume                   = on ? 1.0f : 0;
-        hair_desc desc                   = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        struct hair_test_strands strand = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(2, -1, 1), 0.2f);
+        hair_physics physics = hair_test_bare();
+        physics.cohesion = on ? 20.0f : 0;
+        physics.volume = on ? 1.0f : 0;
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strand, &desc, &living[on]);
         hair_test_strands_free(&strand);
     }
     for (int k = 0; k < 30; ++k) {
         for (int on = 0; on < 2; ++on) hair_test_wait(&living[on], 1), hair_test_read_guides(&living[on]);
-        const struct hair_sim* sim  = &living[1].hair->sim;
-        hair_vec4*             push = hair_test_buffer(sim->crowd.push, sim->guide_vertices * sizeof *push);
+        const struct hair_sim* sim = &living[1].hair->sim;
+        hair_vec4* push = hair_test_buffer(sim->crowd.push, sim->guide_vertices * sizeof *push);
         for (uint32_t i = 0; i < sim->guide_vertices; ++i)
             most = fmax(most, hypot(hypot((double)push[i].x, (double)push[i].y), (double)push[i].z));
         free(push);
@@ -163,19 +163,19 @@ static void a_strand_by_itself_feels_nothing(void** state)
 // What is not finite of one strand: it alone is put back, and what the others feel stays within bounds.
 static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
 {
-    static const float      bad[] = {NAN, INFINITY, -3e38f};
+    static const float bad[] = {NAN, INFINITY, -3e38f};
     struct hair_test_living sound, hurt;
-    double                  most = 0;
+    double most = 0;
     swing(&sound, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
     hair_test_wait(&sound, 20);
     hair_test_read_guides(&sound);
     for (int n = 0; n < 9; ++n) {
         swing(&hurt, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
         hair_test_wait(&hurt, 18);
-        struct hair_sim* sim    = &hurt.hair->sim;
-        GLintptr         one    = 7 * HAIR_TEST_CROWD_VERTICES + 5;
-        GLuint           at[]   = {sim->state, sim->state, sim->history};
-        GLintptr         byte[] = {0, offsetof(struct hair_state, displacement), 0};
+        struct hair_sim* sim = &hurt.hair->sim;
+        GLintptr one = 7 * HAIR_TEST_CROWD_VERTICES + 5;
+        GLuint at[] = {sim->state, sim->state, sim->history};
+        GLintptr byte[] = {0, offsetof(struct hair_state, displacement), 0};
         glFinish();
         glNamedBufferSubData(at[n / 3], 32 * one + byte[n / 3], sizeof *bad, &bad[n % 3]);
         hair_test_wait(&hurt, 2);
@@ -195,10 +195,10 @@ static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
 static struct hair_test_subject moving(hair_solver solver, float cohesion, float volume)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
-    subject.desc.solver              = solver;
-    subject.desc.substep             = 0;
-    subject.physics.cohesion         = cohesion;
-    subject.physics.volume           = volume;
+    subject.desc.solver = solver;
+    subject.desc.substep = 0;
+    subject.physics.cohesion = cohesion;
+    subject.physics.volume = volume;
     return subject;
 }
 
@@ -218,7 +218,7 @@ static void the_same_inputs_give_the_same_bits(void** state)
         for (int mapping = solver == HAIR_SOLVER_DIRECT ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
              mapping <= HAIR_MAPPING_THREAD; ++mapping) {
             struct hair_test_subject subject = moving((hair_solver)solver, 10, 0.3f);
-            subject.desc.mapping             = (hair_mapping)mapping;
+            subject.desc.mapping = (hair_mapping)mapping;
             run(*state, &subject, &a);
             run(*state, &subject, &b);
             hair_test_same(&a, &b);
@@ -236,7 +236,7 @@ static void the_greatest_values_leave_hair_finite(void** state)
 
 static void motion_depends_neither_on_the_frame_rate_nor_on_the_mapping(void** state)
 {
-    static const int        per[] = {1, 2, 4, 5}; // frames of 1/60 s cut in as many: 4 and 5 cut blocks
+    static const int per[] = {1, 2, 4, 5}; // frames of 1/60 s cut in as many: 4 and 5 cut blocks
     struct hair_test_living once, other;
     swing(&once, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
     hair_test_wait(&once, 40);
@@ -276,7 +276,7 @@ static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state
     hair_physics off = straight.physics;
     hair_test_die(&loaded);
     off.cohesion = off.volume = 0;
-    hair_desc desc            = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_THREAD, 0, &off);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_THREAD, 0, &off);
     hair_test_crowd(*state, &desc, 0.04f, &loaded);
     hair_test_ok(*state, hair_load(loaded.hair, blob.bytes, blob.size));
     assert_int_equal(loaded.hair->sim.crowd.beat, 0);
@@ -289,7 +289,7 @@ static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state
 static void what_is_off_has_no_buffer_and_changes_no_bit(void** state)
 {
     static struct hair_test_seen never, off;
-    struct hair_test_subject     subject = moving(HAIR_SOLVER_DIRECT, 0, 0);
+    struct hair_test_subject subject = moving(HAIR_SOLVER_DIRECT, 0, 0);
     run(*state, &subject, &never);
     // Turned on and off again before anything moves: there are buffers, but nobody reads them.
     hair_instance* hair = hair_test_subject_make(*state, &subject);
@@ -307,7 +307,7 @@ static void what_is_off_has_no_buffer_and_changes_no_bit(void** state)
     hair_test_same(&never, &off);
     hair_destroy(hair);
     subject = moving(HAIR_SOLVER_REDBLACK, 100, 1); // which has none of it
-    hair    = hair_test_subject_make(*state, &subject);
+    hair = hair_test_subject_make(*state, &subject);
     hair_test_ok(*state, hair_step(hair, 0.02f));
     assert_int_equal(hair->sim.crowd.texture, 0);
     hair_destroy(hair);

@@ -13,23 +13,23 @@
 enum { SIZE = 48, MOST = 4096 };
 
 struct fixture {
-    struct hair_test*      test;
-    hair_context*          context;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_context* context;
+    hair_instance* hair;
     struct hair_test_frame frame;
 };
 
 static hair_instance* make(struct hair_test* test, hair_context* context)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
-    hair_instance*            hair   = NULL;
-    look.segments                    = 12;
-    look.radius                      = 1e-3f;
-    look.shading                     = HAIR_SHADING_LINES;
-    desc.look                        = &look;
-    hair_groom* groom                = hair_test_groom(&test->host.host, wanted);
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    hair_instance* hair = NULL;
+    look.segments = 12;
+    look.radius = 1e-3f;
+    look.shading = HAIR_SHADING_LINES;
+    desc.look = &look;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
     hair_test_ok(test, hair_create(context, groom, &desc, &hair));
     hair_groom_destroy(groom);
     return hair;
@@ -37,11 +37,11 @@ static hair_instance* make(struct hair_test* test, hair_context* context)
 
 static struct fixture start(void** state)
 {
-    struct fixture    f    = {.test = *state};
+    struct fixture f = {.test = *state};
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &f.test->host.host;
-    desc.get_proc          = hair_test_trace_proc;
-    desc.timings           = 1;
+    desc.host = &f.test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.timings = 1;
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
     f.hair = make(f.test, f.context);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
@@ -58,8 +58,8 @@ static void finish(struct fixture* f)
 // From `eye`, looking along `way`.
 static void look_along(hair_vec3 eye, hair_vec3 way, float view[16])
 {
-    hair_vec3   z = hair_scale(hair_normalize(way, hair_v3(0, 0, -1)), -1), x = hair_perpendicular(z);
-    hair_vec3   y     = hair_cross(z, x);
+    hair_vec3 z = hair_scale(hair_normalize(way, hair_v3(0, 0, -1)), -1), x = hair_perpendicular(z);
+    hair_vec3 y = hair_cross(z, x);
     const float m[16] = {x.x,
                          y.x,
                          z.x,
@@ -109,23 +109,23 @@ static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
 // not drawn where it is wholly out of view.
 static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void** state)
 {
-    static float   at[3 * MOST];
-    struct fixture f      = start(state);
-    uint32_t       random = 3, count, unseen = 0, culled = 0, wrong = 0;
-    hair_view      view     = hair_view_default();
-    const float    head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
+    static float at[3 * MOST];
+    struct fixture f = start(state);
+    uint32_t random = 3, count, unseen = 0, culled = 0, wrong = 0;
+    hair_view view = hair_view_default();
+    const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
     hair_test_ok(f.test, hair_teleport(f.hair, head));
     hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, at, MOST, &count));
     assert_in_range(count, 100, MOST);
     for (int i = 0; i < 800; ++i) {
-        float     away = i % 5 ? 1.5f : 0.2f;
+        float away = i % 5 ? 1.5f : 0.2f;
         hair_vec3 eye, way;
-        float*    numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
+        float* numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
         for (int k = 0; k < 6; ++k) *numbers[k] = (2 * hair_random(&random) - 1) * (k < 3 ? away : 1);
         look_along(hair_add(eye, hair_v3(5, 6, -7)), way, view.view);
         project(i % 4, view.projection);
         view.pass = i % 3 ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
-        int seen  = 0;
+        int seen = 0;
         for (uint32_t k = 0; k < count && !seen; ++k) seen = is_inside(&view, at + 3 * k, i % 4 == 2);
         glClipControl(GL_LOWER_LEFT, i % 4 == 2 ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
         hair_test_trace_clear();
@@ -145,8 +145,8 @@ static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void*
 
 static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
 {
-    struct fixture f    = start(state);
-    hair_view      view = hair_view_default();
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
     for (int clamps = 0; clamps < 2; ++clamps) {
         look_along(hair_v3(0, 0, 9), hair_v3(0, 0, -1), view.view);
         project(0, view.projection);
@@ -162,9 +162,9 @@ static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
 // What may be anywhere is drawn.
 static void hair_of_free_roots_is_drawn_wherever_its_groom_is(void** state)
 {
-    struct fixture f       = start(state);
-    hair_view      view    = hair_view_default();
-    hair_physics   physics = hair_physics_default();
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
+    hair_physics physics = hair_physics_default();
     look_along(hair_v3(0, 0, 2), hair_v3(0, 0, 1), view.view);
     project(0, view.projection);
     physics.root = HAIR_ROOT_FREE;
@@ -192,20 +192,20 @@ static float differ(const float* a, const float* b)
 // The same picture as one for which all is done anew.
 static void what_has_not_changed_is_not_listed_again(void** state)
 {
-    static float   kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
-    struct fixture f    = start(state);
-    hair_view      view = hair_view_default();
-    hair_lod       lod  = hair_lod_default();
-    hair_look      look = f.hair->draw.look;
-    view.path           = HAIR_PATH_INSTANCED;
-    lod.strand_pixels   = 4;
+    static float kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
+    hair_lod lod = hair_lod_default();
+    hair_look look = f.hair->draw.look;
+    view.path = HAIR_PATH_INSTANCED;
+    lod.strand_pixels = 4;
     project(0, view.projection);
     for (int i = 0; i < 10; ++i) {
         // Again; from elsewhere; less of it; by a level of detail; again; from elsewhere; stepped; again.
         static const uint32_t dispatches[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
         look_along(hair_v3(0, 0.1f, i >= 2 && i < 6 ? 0.7f : 0.8f), hair_v3(0, 0, -1), view.view);
         look.density = i >= 3 ? 0.6f : 1;
-        view.lod     = i >= 4 ? &lod : NULL;
+        view.lod = i >= 4 ? &lod : NULL;
         hair_test_ok(f.test, hair_set_look(f.hair, &look));
         if (i == 7) hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_trace_clear();
@@ -236,18 +236,18 @@ static uint32_t count_primitives(struct fixture* f, const hair_view* view, float
 // From near by, by every kind of projection. Of hair whose roots are free no patch may be left out.
 static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(void** state)
 {
-    static float   some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
-    struct fixture f       = start(state);
-    hair_view      view    = hair_view_default();
-    hair_physics   physics = hair_physics_default(), lets_go = physics;
-    uint32_t       random = 7, drawn[2] = {0, 0};
-    hair_look      look = f.hair->draw.look;
-    look.radius         = 4e-3f;
-    lets_go.root        = HAIR_ROOT_FREE;
+    static float some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
+    hair_physics physics = hair_physics_default(), lets_go = physics;
+    uint32_t random = 7, drawn[2] = {0, 0};
+    hair_look look = f.hair->draw.look;
+    look.radius = 4e-3f;
+    lets_go.root = HAIR_ROOT_FREE;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     for (int i = 0; i < 120; ++i) {
         hair_vec3 eye, way;
-        float*    numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
+        float* numbers[] = {&eye.x, &eye.y, &eye.z, &way.x, &way.y, &way.z};
         for (int k = 0; k < 6; ++k) *numbers[k] = (2 * hair_random(&random) - 1) * (k < 3 ? 0.3f : 1);
         look_along(eye, way, view.view);
         project(i % 4, view.projection);
@@ -273,13 +273,13 @@ static hair_memory memory_of(struct fixture* f)
 // Beside a light with a shadow: which takes a texture and a sampler to be bound, and nothing else does.
 static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    struct fixture f      = start(state);
-    hair_view      view   = hair_view_default();
-    hair_light     light  = hair_light_default();
-    GLuint         shadow = 0;
-    uint32_t       binds[3], samplers[3];
-    uint64_t       bytes[3];
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
+    hair_light light = hair_light_default();
+    GLuint shadow = 0;
+    uint32_t binds[3], samplers[3];
+    uint64_t bytes[3];
     glCreateTextures(GL_TEXTURE_2D, 1, &shadow);
     glTextureStorage2D(shadow, 1, GL_DEPTH_COMPONENT32F, 4, 4);
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
@@ -287,13 +287,13 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
     read(&f, &view, pixels); // What is made, is.
     for (int i = 0; i < 3; ++i) {
         light.shadow_texture = i == 2 ? shadow : 0;
-        view.lights          = &light;
-        view.light_count     = i > 0;
+        view.lights = &light;
+        view.light_count = i > 0;
         hair_test_trace_clear();
         hair_test_ok(f.test, hair_draw(f.hair, &view));
-        binds[i]    = hair_test_trace_count("glBindTextureUnit");
+        binds[i] = hair_test_trace_count("glBindTextureUnit");
         samplers[i] = hair_test_trace_count("glBindSampler");
-        bytes[i]    = memory_of(&f).bytes;
+        bytes[i] = memory_of(&f).bytes;
         assert_int_equal(hair_test_trace_count("glDispatch"), 0);
         assert_int_equal(hair_test_trace_count("glDrawArrays"), 1);
     }
@@ -309,10 +309,10 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
 // A frame is a step and a draw, with solids that followers come into and all passes timed.
 static void no_frame_waits_for_the_gpu(void** state)
 {
-    struct fixture f      = start(state);
-    hair_view      view   = hair_view_default();
-    hair_solid     solid  = hair_solid_default();
-    uint32_t       looked = 0;
+    struct fixture f = start(state);
+    hair_view view = hair_view_default();
+    hair_solid solid = hair_solid_default();
+    uint32_t looked = 0;
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
     project(0, view.projection);
     solid.size[0] = 0.05f, solid.position[1] = 0.2f;

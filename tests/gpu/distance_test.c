@@ -11,7 +11,7 @@
 #define SHAPES 6
 
 static const char* const names[SHAPES] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
-static const float       size[3]       = {0.3f, 0.5f, 0.2f};
+static const float size[3] = {0.3f, 0.5f, 0.2f};
 
 static void any_point(uint32_t* seed, float out[4])
 {
@@ -21,23 +21,23 @@ static void any_point(uint32_t* seed, float out[4])
 
 static void run(struct hair_test* test, uint32_t shape, float (*points)[4], float (*found)[4])
 {
-    static const char     rest[] = "layout(local_size_x = 50) in;\n"
-                                   "layout(std430, binding = 0) buffer point_block { vec4 point[]; };\n"
-                                   "layout(std430, binding = 1) buffer found_block { vec4 found[]; };\n"
-                                   "layout(location = 0) uniform uint shape;\n"
-                                   "layout(location = 1) uniform vec3 size;\n"
-                                   "void main()\n"
-                                   "{\n"
-                                   "    uint i = gl_GlobalInvocationID.x;\n"
-                                   "    vec3 gradient;\n"
-                                   "    float distance = shape_distance(shape, size, point[i].xyz, gradient);\n"
-                                   "    found[i] = vec4(gradient, distance);\n"
-                                   "}\n";
+    static const char rest[] = "layout(local_size_x = 50) in;\n"
+                               "layout(std430, binding = 0) buffer point_block { vec4 point[]; };\n"
+                               "layout(std430, binding = 1) buffer found_block { vec4 found[]; };\n"
+                               "layout(location = 0) uniform uint shape;\n"
+                               "layout(location = 1) uniform vec3 size;\n"
+                               "void main()\n"
+                               "{\n"
+                               "    uint i = gl_GlobalInvocationID.x;\n"
+                               "    vec3 gradient;\n"
+                               "    float distance = shape_distance(shape, size, point[i].xyz, gradient);\n"
+                               "    found[i] = vec4(gradient, distance);\n"
+                               "}\n";
     struct hair_gl_source source;
     assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "solid_distance.glsl", "", &source),
                      HAIR_OK);
-    const char* text[]  = {"#version 450 core\n", source.text, rest};
-    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[2];
+    const char* text[] = {"#version 450 core\n", source.text, rest};
+    GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[2];
     hair_free(&test->host.host, source.text);
     glCreateBuffers(2, buffer);
     glNamedBufferStorage(buffer[0], POINTS * sizeof *points, points, 0);
@@ -59,7 +59,7 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
 static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
 {
     static float points[POINTS][4], found[POINTS][4];
-    uint32_t     seed = 7;
+    uint32_t seed = 7;
     for (uint32_t shape = 0; shape < SHAPES; ++shape) {
         double most = 0, turned = 0;
         for (int i = 0; i < POINTS; ++i) any_point(&seed, points[i]);
@@ -69,7 +69,7 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
         for (int i = 0; i < POINTS; ++i) {
             double p[3] = {(double)points[i][0], (double)points[i][1], (double)points[i][2]}, n[3], off = 0;
             double distance = hair_distance_to_shape((hair_shape)shape, size, p, n);
-            most            = fmax(most, fabs(distance - (double)found[i][3]));
+            most = fmax(most, fabs(distance - (double)found[i][3]));
             for (int k = 0; k < 3; ++k) off += pow(n[k] - (double)found[i][k], 2);
             if (off < 1e-6) continue;
             ++turned;
@@ -92,7 +92,7 @@ static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(
     uint32_t seed = 11;
     for (uint32_t shape = 0; shape < SHAPES; ++shape)
         for (int i = 0; i < 2000; ++i) {
-            float  point[4];
+            float point[4];
             double p[3], n[3], q[3];
             any_point(&seed, point);
             for (int k = 0; k < 3; ++k) p[k] = (double)point[k];
@@ -102,7 +102,7 @@ static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(
             hair_test_near(names[shape], (size_t)i, hair_distance_to_shape((hair_shape)shape, size, q, NULL),
                            0, 1e-12);
             for (int other = 0; other < 20; ++other) {
-                float  way[4];
+                float way[4];
                 double length = 0;
                 any_point(&seed, way);
                 for (int k = 0; k < 3; ++k) length += (double)way[k] * (double)way[k];
@@ -117,19 +117,19 @@ static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(
 static void the_sign_says_what_is_inside(void** state)
 {
     (void)state;
-    uint32_t     seed = 13;
+    uint32_t seed = 13;
     const double r = (double)size[0], h = (double)size[1], z = (double)size[2];
     for (int i = 0; i < 20000; ++i) {
         float point[4];
         any_point(&seed, point);
         double p[3] = {(double)point[0], (double)point[1], (double)point[2]}, around = hypot(p[0], p[2]);
-        double beyond         = fmax(fabs(p[1]) - h, 0);
-        int    inside[SHAPES] = {hypot(around, p[1]) < r,
-                                 hypot(around, beyond) < r,
-                                 fabs(p[0]) < r && fabs(p[1]) < h && fabs(p[2]) < z,
-                                 around < r && fabs(p[1]) < h,
-                                 fabs(p[1]) < h && around < r * (h - p[1]) / (2 * h),
-                                 p[1] < 0};
+        double beyond = fmax(fabs(p[1]) - h, 0);
+        int inside[SHAPES] = {hypot(around, p[1]) < r,
+                              hypot(around, beyond) < r,
+                              fabs(p[0]) < r && fabs(p[1]) < h && fabs(p[2]) < z,
+                              around < r && fabs(p[1]) < h,
+                              fabs(p[1]) < h && around < r * (h - p[1]) / (2 * h),
+                              p[1] < 0};
         for (int shape = 0; shape < SHAPES; ++shape)
             if ((hair_distance_to_shape((hair_shape)shape, size, p, NULL) < 0) != inside[shape])
                 fail_msg("%s: point %d", names[shape], i);
@@ -139,13 +139,13 @@ static void the_sign_says_what_is_inside(void** state)
 static void a_solid_is_its_shape_turned_moved_and_rounded(void** state)
 {
     (void)state;
-    hair_solid solid  = hair_solid_default();
-    solid.shape       = HAIR_SHAPE_BOX;
-    solid.rounding    = 0.05f;
+    hair_solid solid = hair_solid_default();
+    solid.shape = HAIR_SHAPE_BOX;
+    solid.rounding = 0.05f;
     solid.rotation[2] = solid.rotation[3] = sqrtf(0.5f); // x to y
     for (int k = 0; k < 3; ++k) solid.size[k] = size[k], solid.position[k] = (float)(k + 1);
     const double above[3] = {1, 2.5, 3}, aside[3] = {1.5 + 0.3, 2, 3};
-    double       n[3];
+    double n[3];
     hair_test_near("above", 0, hair_distance_to_solid(&solid, above, n), 0.5 - 0.3 - 0.05, 1e-6);
     hair_test_near("upwards", 0, n[1], 1, 1e-6);
     hair_test_near("aside", 0, hair_distance_to_solid(&solid, aside, n), 0.8 - 0.5 - 0.05, 1e-6);

@@ -14,19 +14,19 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 static struct fixture start(void** state, float radius)
 {
-    struct fixture f    = {.test = *state};
-    hair_desc      desc = hair_desc_default();
-    hair_look      look = hair_look_default();
-    look.radius         = radius;
-    look.taper          = hair_curve_line(1, 1);
-    desc.look           = &look;
-    f.groom             = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    struct fixture f = {.test = *state};
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    look.radius = radius;
+    look.taper = hair_curve_line(1, 1);
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     return f;
 }
@@ -40,12 +40,12 @@ static void finish(struct fixture* f)
 // A metre around the head, seen along -z.
 static hair_view view_of(hair_pass pass, hair_primitive primitive)
 {
-    hair_view view     = hair_view_default();
-    view.pass          = pass;
-    view.primitive     = primitive;
+    hair_view view = hair_view_default();
+    view.pass = pass;
+    view.primitive = primitive;
     view.projection[0] = view.projection[5] = 2;
-    view.projection[10]                     = -0.5f;
-    view.projection[13]                     = -0.2f;
+    view.projection[10] = -0.5f;
+    view.projection[13] = -0.2f;
     return view;
 }
 
@@ -63,7 +63,7 @@ static void draw(struct fixture* f, const hair_view* view, GLsizei side, GLsizei
 
 static void colour_and_depth_passes_leave_the_same_depth(void** state)
 {
-    static float   pixels[4 * SIDE * SIDE], none[4 * SIDE * SIDE], depths[2][SIDE * SIDE];
+    static float pixels[4 * SIDE * SIDE], none[4 * SIDE * SIDE], depths[2][SIDE * SIDE];
     struct fixture f = start(state, 0.002f);
     for (int primitive = 0; primitive < 2; ++primitive) {
         hair_view color = view_of(HAIR_PASS_COLOR, (hair_primitive)primitive);
@@ -94,9 +94,9 @@ static double coverage(const float* pixels, GLsizei side)
 // in both.
 static void samples_and_smaller_pixels_see_the_same_width(void** state)
 {
-    static float   pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
-    struct fixture f    = start(state, 0.002f);
-    hair_view      view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+    static float pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
+    struct fixture f = start(state, 0.002f);
+    hair_view view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
     draw(&f, &view, SIDE, 4, pixels, NULL);
     draw(&f, &view, 4 * SIDE, 0, fine, NULL);
     double coarse = coverage(pixels, SIDE), true_one = coverage(fine, 4 * SIDE);
@@ -109,10 +109,10 @@ static void samples_and_smaller_pixels_see_the_same_width(void** state)
 static void a_wider_strand_covers_more(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
-    double       covered[2];
+    double covered[2];
     for (int wide = 0; wide < 2; ++wide) {
-        struct fixture f    = start(state, wide ? 0.004f : 0.0005f);
-        hair_view      view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+        struct fixture f = start(state, wide ? 0.004f : 0.0005f);
+        hair_view view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
         draw(&f, &view, SIDE, 4, pixels, NULL);
         covered[wide] = coverage(pixels, SIDE);
         finish(&f);
@@ -123,16 +123,16 @@ static void a_wider_strand_covers_more(void** state)
 // Grey at rest; red where a guide is stretched: here all of them by a tenth.
 static void guides_are_drawn_in_the_colour_of_their_stretch(void** state)
 {
-    static float   pixels[4 * SIDE * SIDE];
-    struct fixture f    = start(state, 0.001f);
-    hair_view      view = view_of(HAIR_PASS_GUIDES, HAIR_RIBBONS);
+    static float pixels[4 * SIDE * SIDE];
+    struct fixture f = start(state, 0.001f);
+    hair_view view = view_of(HAIR_PASS_GUIDES, HAIR_RIBBONS);
     for (int stretched = 0; stretched < 2; ++stretched) {
         if (stretched) {
-            struct hair_gl*    gl       = &f.test->context->gl;
-            size_t             count    = f.groom->info.guide_vertex_count;
+            struct hair_gl* gl = &f.test->context->gl;
+            size_t count = f.groom->info.guide_vertex_count;
             struct hair_state* vertices = calloc(count, sizeof *vertices);
             for (size_t i = 0; i < count; ++i) {
-                hair_vec4 p          = f.groom->rest[i].position;
+                hair_vec4 p = f.groom->rest[i].position;
                 vertices[i].position = (hair_vec4){1.1f * p.x, 1.1f * p.y, 1.1f * p.z, 0};
             }
             glFinish();

@@ -15,8 +15,8 @@
 static hair_instance* make(struct hair_test* test, hair_groom** groom)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_desc_default();
-    *groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc desc = hair_desc_default();
+    *groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
     return hair;
 }
@@ -30,9 +30,9 @@ static void drop(hair_instance* hair, hair_groom* groom)
 static void null_objects_are_argument_errors(void** state)
 {
     (void)state;
-    float    transform[16] = {0}, positions[3];
+    float transform[16] = {0}, positions[3];
     uint32_t count;
-    size_t   size;
+    size_t size;
     assert_int_equal(hair_context_reload(NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_create(NULL, NULL, NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
@@ -58,15 +58,15 @@ static void null_objects_are_argument_errors(void** state)
 static void null_arguments_are_named(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
-    hair_context*     context;
-    hair_instance*    other;
-    hair_desc         desc = hair_desc_default();
-    hair_context_desc of   = hair_context_desc_default();
-    float             positions[3];
-    uint32_t          count;
-    size_t            size;
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_context* context;
+    hair_instance* other;
+    hair_desc desc = hair_desc_default();
+    hair_context_desc of = hair_context_desc_default();
+    float positions[3];
+    uint32_t count;
+    size_t size;
     of.host = &test->host.host;
     refused(test, hair_context_create(&of, &context), HAIR_ERROR_ARGUMENT,
             "hair_context_desc.get_proc is NULL");
@@ -100,8 +100,8 @@ static void null_arguments_are_named(void** state)
 
 struct user {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // Give the library this desc.
@@ -115,8 +115,8 @@ static hair_result use_hair_look(struct user* user, void* desc)
 }
 static hair_result use_hair_desc(struct user* user, void* desc)
 {
-    hair_instance* hair   = NULL;
-    hair_result    result = hair_create(user->test->context, user->groom, desc, &hair);
+    hair_instance* hair = NULL;
+    hair_result result = hair_create(user->test->context, user->groom, desc, &hair);
     hair_destroy(hair);
     return result;
 }
@@ -127,28 +127,28 @@ static hair_result use_hair_view(struct user* user, void* desc)
 static hair_result use_hair_lod(struct user* user, void* desc)
 {
     hair_view view = hair_view_default();
-    view.lod       = desc;
+    view.lod = desc;
     return hair_draw(user->hair, &view);
 }
 static hair_result use_hair_context_desc(struct user* user, void* given)
 {
-    hair_context_desc* desc    = given;
-    hair_context*      context = NULL;
-    desc->host                 = &user->test->host.host;
-    desc->get_proc             = hair_egl_get_proc;
-    hair_result result         = hair_context_create(desc, &context);
+    hair_context_desc* desc = given;
+    hair_context* context = NULL;
+    desc->host = &user->test->host.host;
+    desc->get_proc = hair_egl_get_proc;
+    hair_result result = hair_context_create(desc, &context);
     hair_context_destroy(context);
     return result;
 }
 static hair_result use_hair_groom_desc(struct user* user, void* given)
 {
     static const uint32_t vertices[1] = {2};
-    hair_groom_desc*      desc        = given;
-    hair_groom*           groom       = NULL;
+    hair_groom_desc* desc = given;
+    hair_groom* groom = NULL;
     // 10 cm long, whatever its unit.
-    float positions[6]    = {0, 0, 0, 0, desc->import ? 0.1f / desc->import->scale : 0.1f, 0};
-    desc->host            = &user->test->host.host;
-    desc->positions       = positions;
+    float positions[6] = {0, 0, 0, 0, desc->import ? 0.1f / desc->import->scale : 0.1f, 0};
+    desc->host = &user->test->host.host;
+    desc->positions = positions;
     desc->strand_vertices = vertices;
     if (desc->strand_count == 0 && desc->made.version) desc->strand_count = 1; // which has no default
     hair_result result = hair_groom_create(desc, &groom);
@@ -158,15 +158,15 @@ static hair_result use_hair_groom_desc(struct user* user, void* given)
 static hair_result use_hair_import(struct user* user, void* given)
 {
     hair_groom_desc desc = hair_groom_desc_default();
-    desc.import          = given;
+    desc.import = given;
     return use_hair_groom_desc(user, &desc);
 }
 static hair_result use_hair_style_desc(struct user* user, void* given)
 {
-    hair_style_desc* desc  = given;
-    hair_asset*      asset = NULL;
-    desc->host             = &user->test->host.host;
-    hair_result result     = hair_asset_generate(desc, &asset);
+    hair_style_desc* desc = given;
+    hair_asset* asset = NULL;
+    desc->host = &user->test->host.host;
+    hair_result result = hair_asset_generate(desc, &asset);
     hair_asset_destroy(asset);
     return result;
 }
@@ -208,8 +208,8 @@ static int is_filled_in(const char* name)
 static void check_field(struct user* user, const struct subject* subject, const struct hair_field* field)
 {
     _Alignas(16) unsigned char desc[1024];
-    double                     wrong[6] = {NAN};
-    int                        count    = 0;
+    double wrong[6] = {NAN};
+    int count = 0;
     if (field->type == HAIR_FIELD_FLOAT) {
         wrong[count++] = NAN;
         wrong[count++] = INFINITY;
@@ -238,11 +238,11 @@ static void check_field(struct user* user, const struct subject* subject, const 
 
 static void check_subjects(void** state, void (*check)(struct user*, const struct subject*))
 {
-    struct user    user       = {.test = *state};
+    struct user user = {.test = *state};
     struct subject subjects[] = {SUBJECT(hair_physics),    SUBJECT(hair_look),   SUBJECT(hair_desc),
                                  SUBJECT(hair_view),       SUBJECT(hair_lod),    SUBJECT(hair_context_desc),
                                  SUBJECT(hair_groom_desc), SUBJECT(hair_import), SUBJECT(hair_style_desc)};
-    user.hair                 = make(user.test, &user.groom);
+    user.hair = make(user.test, &user.groom);
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) check(&user, &subjects[i]);
     drop(user.hair, user.groom);
 }
@@ -262,7 +262,7 @@ static void every_number_outside_its_range_is_named(void** state)
 // their range is no rigid motion.
 static void check_ends(struct user* user, const struct subject* subject)
 {
-    struct hair_test_frame     frame;
+    struct hair_test_frame frame;
     _Alignas(16) unsigned char desc[1024];
     hair_test_frame_make(&frame, 8, 8, GL_RGBA8, 0);
     subject->init(desc);
@@ -274,8 +274,8 @@ static void check_ends(struct user* user, const struct subject* subject)
             continue; // counts of arrays, which are not there
         for (int end = 0; end < 2; ++end) {
             subject->init(desc);
-            double   value = end ? field->max : field->min;
-            float    real  = (float)value;
+            double value = end ? field->max : field->min;
+            float real = (float)value;
             uint32_t whole = (uint32_t)value;
             memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
             if (strcmp(field->name, "hair_desc.mapping") == 0 &&
@@ -319,12 +319,12 @@ static void a_desc_of_another_version_or_without_its_default_function_is_refused
 static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair    = make(test, &groom);
-    hair_physics      physics = hair_physics_default();
-    physics.made.size         = offsetof(hair_physics, margin);
-    physics.damping           = 7;
-    physics.margin            = NAN; // beyond the end, and not to be read
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_physics physics = hair_physics_default();
+    physics.made.size = offsetof(hair_physics, margin);
+    physics.damping = 7;
+    physics.margin = NAN; // beyond the end, and not to be read
     hair_test_ok(test, hair_set_physics(hair, &physics));
     assert_true(hair->sim.physics.damping == 7);
     assert_true(hair->sim.physics.margin == hair_physics_default().margin);
@@ -336,9 +336,9 @@ static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
 static void transforms_that_are_not_rigid_are_refused(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
-    hair_desc         desc = hair_desc_default();
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_desc desc = hair_desc_default();
     for (int i = 0; i < 16; ++i) {
         float wrong[16];
         for (int kind = 0; kind < 3; ++kind) {
@@ -357,8 +357,8 @@ static void transforms_that_are_not_rigid_are_refused(void** state)
 static void steps_that_are_no_time_are_refused(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
     refused(test, hair_step(hair, NAN), HAIR_ERROR_ARGUMENT, "dt is ");
     refused(test, hair_step(hair, -1e-6f), HAIR_ERROR_ARGUMENT, "dt is -1e-06, not 0 or more");
     refused(test, hair_step(hair, -INFINITY), HAIR_ERROR_ARGUMENT, "dt is -inf");
@@ -368,11 +368,11 @@ static void steps_that_are_no_time_are_refused(void** state)
 static void a_substep_that_would_take_for_ever_is_refused(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair  = make(test, &groom);
-    hair_instance*    other = NULL;
-    hair_desc         desc  = hair_desc_default();
-    desc.substep            = 9e-6f;
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_instance* other = NULL;
+    hair_desc desc = hair_desc_default();
+    desc.substep = 9e-6f;
     refused(test, hair_create(test->context, groom, &desc, &other), HAIR_ERROR_ARGUMENT,
             "hair_desc.substep is 9e-06, not 0 or in [1e-05, 0.1]");
     assert_null(other);
@@ -385,10 +385,10 @@ static void a_substep_that_would_take_for_ever_is_refused(void** state)
 static void wrong_solids_are_named_and_change_nothing(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
-    hair_solid        good = {HAIR_SHAPE_CAPSULE, {0}, {0, 0, 0, 1}, {0.1f, 0.1f}, .scale = 1, .friction = 1};
-    hair_solid        many[2] = {good};
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_solid good = {HAIR_SHAPE_CAPSULE, {0}, {0, 0, 0, 1}, {0.1f, 0.1f}, .scale = 1, .friction = 1};
+    hair_solid many[2] = {good};
     hair_test_ok(test, hair_set_solids(hair, &good, 1, sizeof good));
     refused(test, hair_set_solids(hair, many, 1048577, sizeof good), HAIR_ERROR_ARGUMENT,
             "solid count is 1048577, not in [0, 1048576]");
@@ -396,19 +396,19 @@ static void wrong_solids_are_named_and_change_nothing(void** state)
     refused(test, hair_set_solids(hair, many, 2, 0), HAIR_ERROR_ARGUMENT, "solid stride is 0");
     struct {
         const char* words;
-        hair_solid  solid;
-    } wrong[]                  = {{"solids[1].shape is 9", good},        {"solids[1].position[2] is ", good},
-                                  {"solids[1].rotation has norm", good}, {"solids[1].size[0] is 0", good},
-                                  {"solids[1].size[0] is ", good},       {"solids[1].size[1] is -1", good}};
-    wrong[0].solid.shape       = (hair_shape)9;
+        hair_solid solid;
+    } wrong[] = {{"solids[1].shape is 9", good},        {"solids[1].position[2] is ", good},
+                 {"solids[1].rotation has norm", good}, {"solids[1].size[0] is 0", good},
+                 {"solids[1].size[0] is ", good},       {"solids[1].size[1] is -1", good}};
+    wrong[0].solid.shape = (hair_shape)9;
     wrong[1].solid.position[2] = NAN;
     wrong[2].solid.rotation[3] = 0.5f;
-    wrong[3].solid.size[0]     = 0;
-    wrong[4].solid.size[0]     = NAN;
-    wrong[5].solid.size[1]     = -1;
+    wrong[3].solid.size[0] = 0;
+    wrong[4].solid.size[0] = NAN;
+    wrong[5].solid.size[1] = -1;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         hair_solid two[2] = {good, wrong[i].solid};
-        two[0].size[0]    = 0.3f;
+        two[0].size[0] = 0.3f;
         refused(test, hair_set_solids(hair, two, 2, sizeof good), HAIR_ERROR_ARGUMENT, wrong[i].words);
         assert_int_equal(hair->sim.solids.now.count, 1);
         assert_memory_equal(&hair->sim.solids.now.solid[0], &good, sizeof good);
@@ -419,45 +419,45 @@ static void wrong_solids_are_named_and_change_nothing(void** state)
 static void views_without_sense_are_refused(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
-    hair_view         view = hair_view_default();
-    hair_light        light[5];
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_view view = hair_view_default();
+    hair_light light[5];
     for (int i = 0; i < 5; ++i) light[i] = hair_light_default();
     view.lights = light;
     memset(light[0].to, 0, sizeof light[0].to);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[0].to has no direction");
     light[0].kind = HAIR_LIGHT_POINT; // It needs none.
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, "framebuffer is not complete");
-    light[0]         = hair_light_default();
+    light[0] = hair_light_default();
     view.light_count = 2;
-    light[1].kind    = HAIR_LIGHT_SPOT;
-    light[1].inner   = light[1].outer;
+    light[1].kind = HAIR_LIGHT_SPOT;
+    light[1].inner = light[1].outer;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[1].inner is 0.5, not below its outer");
-    light[1]          = hair_light_default();
+    light[1] = hair_light_default();
     light[1].color[2] = NAN;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "hair_light.color[2] is nan");
     light[1] = (hair_light){0};
     refused(test, hair_draw(hair, &view), HAIR_ERROR_VERSION, "hair_light.made");
-    view.light_count          = 1;
-    light[0].shadow_texture   = 1;
+    view.light_count = 1;
+    light[0].shadow_texture = 1;
     light[0].shadow_matrix[3] = 0.5f;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "shadow_matrix is not orthographic");
     for (int i = 0; i < 5; ++i) {
-        light[i]                = hair_light_default();
+        light[i] = hair_light_default();
         light[i].shadow_texture = 1;
     }
     view.light_count = 5;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "5 of hair_view.lights have a shadow_texture");
     float sky[27] = {[26] = INFINITY};
-    view          = hair_view_default();
-    view.sky      = sky;
+    view = hair_view_default();
+    view.sky = sky;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "hair_view.sky[26] is inf");
 
     GLuint cube;
     glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube);
-    view                    = hair_view_default();
-    view.lights             = light;
+    view = hair_view_default();
+    view.lights = light;
     light[0].shadow_texture = cube;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
     glDeleteTextures(1, &cube);
@@ -468,11 +468,11 @@ static void views_without_sense_are_refused(void** state)
 static void a_failed_call_leaves_the_instance_as_it_was(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair    = make(test, &groom);
-    hair_instance     before  = *hair;
-    hair_physics      physics = hair_physics_default();
-    hair_look         look    = hair_look_default();
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_instance before = *hair;
+    hair_physics physics = hair_physics_default();
+    hair_look look = hair_look_default();
     physics.damping = -1, look.segments = 0;
     hair_set_physics(hair, &physics);
     hair_set_look(hair, &look);

@@ -14,21 +14,21 @@
 #define STATES 1024
 
 struct fixture {
-    struct hair_test*             test;
-    hair_groom*                   groom;
-    hair_instance*                hair;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_reference_sample* samples;
-    double                        longest; // of the guides, m
+    double longest; // of the guides, m
 };
 
 // Guides in disorder, smoothed on the GPU and by the reference.
 static struct fixture start(void** state)
 {
-    static struct hair_state  vertices[STATES];
-    struct fixture            f      = {.test = *state};
-    hair_desc                 desc   = hair_desc_default();
+    static struct hair_state vertices[STATES];
+    struct fixture f = {.test = *state};
+    hair_desc desc = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    uint32_t                  random = 99;
+    uint32_t random = 99;
     wanted.fewest = 5, wanted.most = 30, wanted.guides = 26, wanted.followers = 200;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -40,17 +40,17 @@ static struct fixture start(void** state)
     hair_smooth_run(&f.hair->smooth, &f.hair->sim);
     hair_gl_leave(gl);
 
-    uint32_t                each   = 2 * f.groom->most_vertices - 1;
+    uint32_t each = 2 * f.groom->most_vertices - 1;
     struct hair_step_params params = {.smooth_vertices = each,
                                       .rotation_before = {0, 0, 0, 1},
-                                      .rotation_after  = {0, 0, 0, 1},
-                                      .rotation_now    = {0, 0, 0, 1}};
-    f.samples                      = calloc(each * wanted.guides, sizeof *f.samples);
+                                      .rotation_after = {0, 0, 0, 1},
+                                      .rotation_now = {0, 0, 0, 1}};
+    f.samples = calloc(each * wanted.guides, sizeof *f.samples);
     for (uint32_t g = 0; g < wanted.guides; ++g) {
         static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide*            guide = &f.groom->guides[g];
+        const struct hair_guide* guide = &f.groom->guides[g];
         for (uint32_t i = 0; i < guide->count; ++i) {
-            hair_vec4 p  = vertices[guide->first + i].position;
+            hair_vec4 p = vertices[guide->first + i].position;
             in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
         }
         hair_reference_smooth((struct hair_reference_guide){guide, f.groom->rest + guide->first, &params},
@@ -74,9 +74,9 @@ static void finish(struct fixture* f)
 
 static void compare(struct fixture* f, const hair_look* look)
 {
-    struct hair_gl* gl       = &f->test->context->gl;
-    hair_vec4*      vertices = NULL;
-    double          worst    = 0;
+    struct hair_gl* gl = &f->test->context->gl;
+    hair_vec4* vertices = NULL;
+    double worst = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
     hair_result result = hair_draw_read_expanded(&f->hair->draw, &f->hair->smooth, &vertices);
@@ -84,7 +84,7 @@ static void compare(struct fixture* f, const hair_look* look)
     hair_test_ok(f->test, result);
     for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
         struct hair_reference_point expected;
-        double                      t = (double)(i % (look->segments + 1)) / look->segments;
+        double t = (double)(i % (look->segments + 1)) / look->segments;
         hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
                                 2 * f->groom->most_vertices - 1, f->samples, t, NULL, &expected);
         hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
@@ -101,8 +101,8 @@ static void compare(struct fixture* f, const hair_look* look)
 static void followers_are_where_the_reference_has_them(void** state)
 {
     static const uint32_t segments[] = {1, 2, 31, 64, 65, 256};
-    struct fixture        f          = start(state);
-    hair_look             look       = hair_look_default();
+    struct fixture f = start(state);
+    hair_look look = hair_look_default();
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         look.segments = segments[i];
         compare(&f, &look);
@@ -124,30 +124,30 @@ static hair_curve any_curve(uint32_t* random, float most)
 
 static hair_look any_look(uint32_t* random)
 {
-    hair_look look       = hair_look_default();
-    look.segments        = 20;
-    look.taper           = any_curve(random, 2);
-    look.clump           = any_curve(random, 1);
-    look.clump_width     = any_curve(random, 1);
-    look.interpolation   = (hair_interpolation)between(random, 0, 3);
-    look.tip_strays      = between(random, 0, 1);
-    look.strays          = between(random, 0, 1);
-    look.tip_stray       = any_curve(random, 0.03f);
-    look.stray           = any_curve(random, 0.03f);
-    look.length          = between(random, 0.2f, 1);
-    look.thinning        = between(random, 0, 1);
-    look.frizz           = any_curve(random, 0.004f);
-    look.kink            = between(random, 0.01f, 0.1f);
-    look.curl_radius     = between(random, 0, 0.008f);
-    look.curl_profile    = any_curve(random, 1);
+    hair_look look = hair_look_default();
+    look.segments = 20;
+    look.taper = any_curve(random, 2);
+    look.clump = any_curve(random, 1);
+    look.clump_width = any_curve(random, 1);
+    look.interpolation = (hair_interpolation)between(random, 0, 3);
+    look.tip_strays = between(random, 0, 1);
+    look.strays = between(random, 0, 1);
+    look.tip_stray = any_curve(random, 0.03f);
+    look.stray = any_curve(random, 0.03f);
+    look.length = between(random, 0.2f, 1);
+    look.thinning = between(random, 0, 1);
+    look.frizz = any_curve(random, 0.004f);
+    look.kink = between(random, 0.01f, 0.1f);
+    look.curl_radius = between(random, 0, 0.008f);
+    look.curl_profile = any_curve(random, 1);
     look.curl_wavelength = between(random, 0.02f, 0.2f);
-    look.curl_turns      = between(random, 0, 4);
-    look.curl_flatness   = between(random, 0, 1);
-    look.curl_left       = between(random, 0, 1);
+    look.curl_turns = between(random, 0, 4);
+    look.curl_flatness = between(random, 0, 1);
+    look.curl_left = between(random, 0, 1);
     look.curl_lock_phase = between(random, 0, 1);
-    look.curl_phase      = between(random, 0, 1);
-    look.curl_spread     = between(random, 0, 0.9f);
-    look.curls           = (hair_curls)between(random, 0, 2);
+    look.curl_phase = between(random, 0, 1);
+    look.curl_spread = between(random, 0, 0.9f);
+    look.curls = (hair_curls)between(random, 0, 2);
     for (int i = 0; i < 16; ++i) {
         look.curl_x[i] = between(random, -1, 1);
         look.curl_z[i] = between(random, -1, 1);
@@ -157,8 +157,8 @@ static hair_look any_look(uint32_t* random)
 
 static void any_look_is_as_in_the_reference(void** state)
 {
-    struct fixture f      = start(state);
-    uint32_t       random = 7;
+    struct fixture f = start(state);
+    uint32_t random = 7;
     for (int i = 0; i < 30; ++i) {
         hair_look look = any_look(&random);
         compare(&f, &look);
@@ -180,10 +180,10 @@ static GLuint link_tangents(const struct fixture* f)
         "    tangents[i] = vec4(evaluate(fetch_follower(i / each), i / each, t).tangent, 0.0);\n"
         "}\n";
     struct hair_gl_source source;
-    GLint                 linked = 0;
+    GLint linked = 0;
     assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "evaluate.glsl", "", &source), HAIR_OK);
-    const char* text[]  = {"#version 450 core\n#define HAIR_STYLED 1\n", source.text, main};
-    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    const char* text[] = {"#version 450 core\n#define HAIR_STYLED 1\n", source.text, main};
+    GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
     hair_free(&f->test->host.host, source.text);
     assert_true(linked);
@@ -192,13 +192,13 @@ static GLuint link_tangents(const struct fixture* f)
 
 static void compare_tangents(struct fixture* f, const hair_look* look, GLuint program)
 {
-    struct hair_draw*       draw   = &f->hair->draw;
-    struct hair_gl*         gl     = draw->gl;
-    GLuint                  buffer = 0;
-    uint32_t                count  = f->groom->info.follower_count * (look->segments + 1);
-    hair_vec4*              got    = malloc(count * sizeof *got);
+    struct hair_draw* draw = &f->hair->draw;
+    struct hair_gl* gl = draw->gl;
+    GLuint buffer = 0;
+    uint32_t count = f->groom->info.follower_count * (look->segments + 1);
+    hair_vec4* got = malloc(count * sizeof *got);
     struct hair_draw_params params;
-    double                  worst = 0, square = 0;
+    double worst = 0, square = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
     hair_test_ok(f->test, hair_gl_storage(gl, "tangents", count * sizeof *got, NULL, &buffer));
@@ -232,9 +232,9 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
 
 static void tangents_of_any_look_are_as_in_the_reference(void** state)
 {
-    struct fixture f       = start(state);
-    uint32_t       random  = 70;
-    GLuint         program = link_tangents(&f);
+    struct fixture f = start(state);
+    uint32_t random = 70;
+    GLuint program = link_tangents(&f);
     for (int i = 0; i < 6; ++i) {
         hair_look look = any_look(&random);
         compare_tangents(&f, &look, program);
@@ -246,12 +246,12 @@ static void tangents_of_any_look_are_as_in_the_reference(void** state)
 // Far out in the world, positions are as near as floats of the world allow.
 static void what_is_read_is_in_the_world(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = hair_look_default();
-    look.segments       = 3;
-    uint32_t count      = f.groom->info.follower_count * 4, there;
-    float*   near       = malloc(3 * sizeof *near * count);
-    float*   far        = malloc(3 * sizeof *far * count);
+    struct fixture f = start(state);
+    hair_look look = hair_look_default();
+    look.segments = 3;
+    uint32_t count = f.groom->info.follower_count * 4, there;
+    float* near = malloc(3 * sizeof *near * count);
+    float* far = malloc(3 * sizeof *far * count);
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, near, count, &there));
     assert_int_equal(there, count);
@@ -268,9 +268,9 @@ static void what_is_read_is_in_the_world(void** state)
 static void no_more_than_the_capacity_is_written(void** state)
 {
     static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
-    struct fixture              f       = start(state);
+    struct fixture f = start(state);
     for (int i = 0; i < 3; ++i) {
-        float    some[3 * 8];
+        float some[3 * 8];
         uint32_t all, count;
         hair_test_ok(f.test, hair_read(f.hair, whats[i], NULL, 0, &all));
         memset(some, 0xff, sizeof some);

@@ -19,8 +19,8 @@
 static hair_instance* make(struct hair_test* test, hair_groom** groom)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_desc_default();
-    *groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc desc = hair_desc_default();
+    *groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
     return hair;
 }
@@ -36,21 +36,21 @@ static void drop(hair_instance* hair, hair_groom* groom)
 static void without_a_current_context_every_call_says_so(void** state)
 {
     struct hair_test* test = *state;
-    hair_groom*       groom;
-    hair_instance*    hair = make(test, &groom);
-    hair_instance*    other;
-    hair_desc         desc = hair_desc_default();
-    hair_view         view = hair_view_default();
-    hair_context_desc of   = hair_context_desc_default();
-    hair_context*     context;
-    float             positions[3];
-    uint32_t          count;
-    size_t            size;
-    hair_health       health = hair_health_default();
-    hair_field_info   field  = hair_field_info_default();
-    const char*       words  = "no OpenGL context is current";
-    of.host                  = &test->host.host;
-    of.get_proc              = hair_egl_get_proc;
+    hair_groom* groom;
+    hair_instance* hair = make(test, &groom);
+    hair_instance* other;
+    hair_desc desc = hair_desc_default();
+    hair_view view = hair_view_default();
+    hair_context_desc of = hair_context_desc_default();
+    hair_context* context;
+    float positions[3];
+    uint32_t count;
+    size_t size;
+    hair_health health = hair_health_default();
+    hair_field_info field = hair_field_info_default();
+    const char* words = "no OpenGL context is current";
+    of.host = &test->host.host;
+    of.get_proc = hair_egl_get_proc;
     hair_egl_make_current(NULL);
     refused(test, hair_context_create(&of, &context), HAIR_ERROR_OPENGL, words);
     refused(test, hair_context_reload(test->context), HAIR_ERROR_OPENGL, words);
@@ -83,13 +83,13 @@ static void each_missing_function_is_named(void** state)
     };
     struct hair_test* test = *state;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-        hair_context*     context = NULL;
-        hair_context_desc desc    = hair_context_desc_default();
-        desc.host                 = &test->host.host;
-        desc.get_proc             = all_but_one;
-        desc.get_proc_user        = (void*)(uintptr_t)names[i];
+        hair_context* context = NULL;
+        hair_context_desc desc = hair_context_desc_default();
+        desc.host = &test->host.host;
+        desc.get_proc = all_but_one;
+        desc.get_proc_user = (void*)(uintptr_t)names[i];
         // Without the first two the version cannot be asked.
-        int         first = strcmp(names[i], "glGetIntegerv") == 0 || strcmp(names[i], "glGetString") == 0;
+        int first = strcmp(names[i], "glGetIntegerv") == 0 || strcmp(names[i], "glGetString") == 0;
         const char* words = first ? "get_proc does not find glGet" : names[i];
         refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, words);
         assert_null(context);
@@ -98,12 +98,12 @@ static void each_missing_function_is_named(void** state)
 
 static void glsl_that_is_not_there_or_wrong_is_an_opengl_error(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_egl_get_proc;
-    desc.glsl_dir             = "/nonexistent";
+    struct hair_test* test = *state;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.glsl_dir = "/nonexistent";
     assert_int_equal(hair_context_create(&desc, &context), HAIR_ERROR_OPENGL);
     assert_null(context);
     assert_non_null(strstr(test->host.sentence, "is not there"));
@@ -121,10 +121,10 @@ static void expect(int code, const char* command)
 
 // Programs of solvers wait for the first hair that needs them.
 struct broken {
-    hair_context*  context;
-    hair_desc      desc;
-    const char*    file;
-    hair_groom*    groom;
+    hair_context* context;
+    hair_desc desc;
+    const char* file;
+    hair_groom* groom;
     hair_instance* hair;
 };
 
@@ -158,13 +158,13 @@ static void hair_create_finds_it(struct hair_test* test, struct broken* b)
 static void a_reload_finds_it(struct hair_test* test, struct broken* b)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_instance*            other  = NULL;
+    hair_instance* other = NULL;
     break_shader(b);
     assert_int_equal(hair_context_reload(b->context), HAIR_ERROR_OPENGL);
     hair_test_forgive(test);
     hair_test_ok(test, hair_step(b->hair, 1.0f / 60));
     wanted.fewest = wanted.most = 33;
-    hair_groom* longer          = hair_test_groom(&test->host.host, wanted);
+    hair_groom* longer = hair_test_groom(&test->host.host, wanted);
     assert_int_equal(hair_create(b->context, longer, &b->desc, &other), HAIR_ERROR_OPENGL);
     assert_null(other);
     hair_test_forgive(test);
@@ -175,9 +175,9 @@ static void a_reload_finds_it(struct hair_test* test, struct broken* b)
 static void hair_step_finds_it(struct hair_test* test, struct broken* b)
 {
     static float before[300], after[300];
-    uint32_t     count;
-    hair_solid   solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                          {0.05f, 0},        .scale = 1,      .friction = 1};
+    uint32_t count;
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                        {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, before, 100, &count));
     hair_test_ok(test, hair_set_solids(b->hair, &solid, 1, sizeof solid));
     assert_int_equal(hair_step(b->hair, 1.0f / 60), HAIR_ERROR_OPENGL);
@@ -194,14 +194,14 @@ static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
     expect(0, "cp -r glsl/* $D");
     for (int way = 0; way < HAIR_TEST_WAYS; way += 3) { // a work group and a thread per guide, and redblack
         hair_context_desc of = hair_context_desc_default();
-        struct broken     b  = {.desc = hair_test_way(way)};
-        of.host              = &test->host.host;
-        of.get_proc          = hair_egl_get_proc;
-        of.glsl_dir          = hair_test_folder();
-        b.file               = b.desc.solver == HAIR_SOLVER_REDBLACK ? "redblack.comp"
-                               : b.desc.solver == HAIR_SOLVER_FOLLOW ? "rod.comp"
-                                                                     : "mixed.comp";
-        b.groom              = hair_test_groom(&test->host.host, hair_test_handmade_default());
+        struct broken b = {.desc = hair_test_way(way)};
+        of.host = &test->host.host;
+        of.get_proc = hair_egl_get_proc;
+        of.glsl_dir = hair_test_folder();
+        b.file = b.desc.solver == HAIR_SOLVER_REDBLACK ? "redblack.comp"
+                 : b.desc.solver == HAIR_SOLVER_FOLLOW ? "rod.comp"
+                                                       : "mixed.comp";
+        b.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
         hair_test_ok(test, hair_context_create(&of, &b.context));
         hair_create_finds_it(test, &b);
         a_reload_finds_it(test, &b);
@@ -216,13 +216,13 @@ static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
 static int exit_code_of_an_old_driver(void)
 {
     struct hair_test_host host;
-    hair_egl*             egl     = NULL;
-    hair_context*         context = NULL;
+    hair_egl* egl = NULL;
+    hair_context* context = NULL;
     hair_test_host_init(&host);
     if (hair_egl_create(&host.host, -1, &egl) != HAIR_ERROR_OPENGL || egl) return 1;
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &host.host;
-    desc.get_proc          = hair_egl_get_proc;
+    desc.host = &host.host;
+    desc.get_proc = hair_egl_get_proc;
     if (hair_context_create(&desc, &context) != HAIR_ERROR_OPENGL || context) return 2;
     return host.blocks ? 3 : 0;
 }
@@ -264,11 +264,11 @@ static void* with_old_version(const char* name, void* user)
 
 static void an_old_context_is_told_its_version(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = with_old_version;
+    struct hair_test* test = *state;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = with_old_version;
     refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, "version 4.3, not 4.5 or newer");
 }
 

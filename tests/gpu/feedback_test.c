@@ -10,26 +10,26 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair[2]; // by compute, by transform feedback
-    double            length;  // of the longest guide, m
-    uint32_t          vertices;
+    hair_groom* groom;
+    hair_instance* hair[2]; // by compute, by transform feedback
+    double length; // of the longest guide, m
+    uint32_t vertices;
 };
 
 static struct fixture start(void** state, const hair_physics* physics)
 {
-    struct fixture            f      = {.test = *state};
+    struct fixture f = {.test = *state};
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.fewest = 2, wanted.most = 41, wanted.guides = 40;
-    f.groom    = hair_test_groom(&f.test->host.host, wanted);
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     f.vertices = f.groom->info.guide_vertex_count;
     for (uint32_t i = 0; i < wanted.guides; ++i)
         f.length = fmax(f.length, (double)f.groom->guides[i].arc_length);
     for (int i = 0; i < 2; ++i) {
         hair_desc desc = hair_desc_default();
-        desc.solver    = HAIR_SOLVER_REDBLACK;
-        desc.mapping   = i ? HAIR_MAPPING_FEEDBACK : HAIR_MAPPING_GROUP;
-        desc.physics   = physics;
+        desc.solver = HAIR_SOLVER_REDBLACK;
+        desc.mapping = i ? HAIR_MAPPING_FEEDBACK : HAIR_MAPPING_GROUP;
+        desc.physics = physics;
         hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair[i]));
     }
     return f;
@@ -46,11 +46,11 @@ static void finish(struct fixture* f)
 static double step(struct fixture* f, int frame, double* moved)
 {
     static float was[3 * 4096], at[2][3 * 4096];
-    float        a = 0.15f * (float)frame, worst = 0;
+    float a = 0.15f * (float)frame, worst = 0;
     float head[16] = {cosf(a), 0, -sinf(a), 0, 0, 1, 0, 0, sinf(a), 0, cosf(a), 0, 0.02f * a, 0.1f * a, 0, 1};
     hair_solid solid = hair_solid_default();
-    uint32_t   count;
-    solid.shape   = HAIR_SHAPE_CAPSULE;
+    uint32_t count;
+    solid.shape = HAIR_SHAPE_CAPSULE;
     solid.size[0] = 0.05f, solid.size[1] = 0.1f;
     solid.position[0] = 0.2f - 0.01f * (float)frame;
     hair_test_ok(f->test, hair_read(f->hair[0], HAIR_READ_GUIDES, was, f->vertices, &count));
@@ -61,7 +61,7 @@ static double step(struct fixture* f, int frame, double* moved)
         hair_test_ok(f->test, hair_read(f->hair[i], HAIR_READ_GUIDES, at[i], f->vertices, &count));
     }
     for (uint32_t i = 0; i < 3 * count; ++i) {
-        worst  = fmaxf(worst, fabsf(at[0][i] - at[1][i]));
+        worst = fmaxf(worst, fabsf(at[0][i] - at[1][i]));
         *moved = fmax(*moved, (double)fabsf(at[0][i] - was[i]));
         assert_true(isfinite(at[1][i]));
     }
@@ -72,7 +72,7 @@ static void five_steps_are_those_of_compute(void** state)
 {
     for (int off = 0; off < 3; ++off) { // Everything on; no angular forces; no angular constraints.
         hair_physics physics = hair_physics_default();
-        double       worst = 0, moved = 0;
+        double worst = 0, moved = 0;
         if (off == 1) physics.angular = 0;
         if (off == 2) physics.bend = 0;
         struct fixture f = start(state, &physics);
@@ -86,11 +86,11 @@ static void five_steps_are_those_of_compute(void** state)
 
 static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 {
-    struct fixture     f     = start(state, NULL);
-    struct hair_state* bad   = calloc(f.vertices, sizeof *bad);
-    double             moved = 0;
-    uint32_t           guide = 7, first = f.groom->guides[guide].first, count;
-    float*             at = malloc(3 * sizeof *at * f.vertices);
+    struct fixture f = start(state, NULL);
+    struct hair_state* bad = calloc(f.vertices, sizeof *bad);
+    double moved = 0;
+    uint32_t guide = 7, first = f.groom->guides[guide].first, count;
+    float* at = malloc(3 * sizeof *at * f.vertices);
     for (int i = 0; i < 2; ++i) {
         glFinish();
         glGetNamedBufferSubData(f.hair[i]->sim.state, 0, (GLsizeiptr)(f.vertices * sizeof *bad), bad);
@@ -108,11 +108,11 @@ static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 
 static void other_solvers_have_none(void** state)
 {
-    struct hair_test* test  = *state;
-    hair_groom*       groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_instance*    hair  = NULL;
-    hair_desc         desc  = hair_desc_default();
-    desc.mapping            = HAIR_MAPPING_FEEDBACK;
+    struct hair_test* test = *state;
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance* hair = NULL;
+    hair_desc desc = hair_desc_default();
+    desc.mapping = HAIR_MAPPING_FEEDBACK;
     hair_test_refused(test, hair_create(test->context, groom, &desc, &hair), HAIR_ERROR_ARGUMENT,
                       "which only the solver redblack has");
     assert_null(hair);

@@ -37,16 +37,16 @@ static void light_everywhere(struct hair_test* test, const struct hair_fibre* fi
                              float found[EYES][4])
 {
     static hair_fibre_table table;
-    struct hair_gl_source   source;
+    struct hair_gl_source source;
     struct hair_draw_params params = {.view = {{{0}}}};
-    float                   variance[3];
-    GLuint                  buffer[2], texture;
+    float variance[3];
+    GLuint buffer[2], texture;
     hair_fibre_fill(fibre, table);
     hair_fibre_variances(fibre->along, variance);
     params.fibre = (hair_vec4){variance[0], 0, tilt, 0};
     assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "fibre.glsl", "", &source), HAIR_OK);
-    const char* text[]  = {"#version 450 core\n", source.text, text_of_sums};
-    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    const char* text[] = {"#version 450 core\n", source.text, text_of_sums};
+    GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     hair_free(&test->host.host, source.text);
     glCreateBuffers(2, buffer);
     glNamedBufferStorage(buffer[0], EYES * 16, NULL, 0);
@@ -83,8 +83,8 @@ static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
     static const float along[] = {0.1f, 0.3f, 0.6f, 1};
     for (int r = 0; r < 4; ++r) {
         struct hair_fibre fibre = {0.3f, along[r], 1.55f};
-        float             found[EYES][4];
-        double            most = 0;
+        float found[EYES][4];
+        double most = 0;
         light_everywhere(*state, &fibre, 0, found);
         for (int i = 0; i < EYES; ++i) {
             most = fmax(most, fabs((double)found[i][0] - 1));
@@ -99,8 +99,8 @@ static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
 static void tilted_scales_move_light_and_lose_none(void** state)
 {
     struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};
-    float             found[EYES][4];
-    double            sum = 0, weight = 0;
+    float found[EYES][4];
+    double sum = 0, weight = 0;
     light_everywhere(*state, &fibre, 0.05f, found);
     for (int i = 0; i < EYES; ++i) {
         double cosine = sqrt(1 - (double)found[i][3] * (double)found[i][3]);
@@ -117,7 +117,7 @@ static void light_may_go_the_other_way(void** state)
     static const float tilts[] = {0, 0.05f, 0.3f};
     for (int t = 0; t < 3; ++t) {
         struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};
-        float             found[EYES][4];
+        float found[EYES][4];
         light_everywhere(*state, &fibre, tilts[t], found);
         for (int i = 0; i < EYES; ++i) {
             assert_true(found[i][2] >= 0);

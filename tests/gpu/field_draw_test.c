@@ -13,12 +13,12 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
-    hair_desc         desc;
-    hair_solid        solids[SOLIDS];
-    hair_view         view;
-    float             pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_desc desc;
+    hair_solid solids[SOLIDS];
+    hair_view view;
+    float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
 };
 
 static struct fixture f;
@@ -32,28 +32,28 @@ static void start(void** state)
          {0.15f, 0.08f, -1.05f},
          {0.6f, 0, 0, 0.8f},
          {0.03f, 0.06f},
-         .scale    = 1,
+         .scale = 1,
          .friction = 1},
         {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f}, .scale = 1, .friction = 1},
     };
     f = (struct fixture){.test = *state, .desc = hair_desc_default(), .view = hair_view_default()};
     memcpy(f.solids, solids, sizeof solids);
-    f.desc.field_voxel  = 0.004f;
+    f.desc.field_voxel = 0.004f;
     f.desc.transform[0] = f.desc.transform[10] = -1;
-    f.desc.transform[12]                       = 0.2f;
-    f.desc.transform[14]                       = -1;
+    f.desc.transform[12] = 0.2f;
+    f.desc.transform[14] = -1;
     f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &f.desc, &f.hair));
     hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));
-    f.view.pass          = HAIR_PASS_SOLIDS;
+    f.view.pass = HAIR_PASS_SOLIDS;
     f.view.projection[0] = f.view.projection[5] = 3;
-    f.view.projection[8]                        = 0.6f; // Their middle is the picture\'s.
-    f.view.projection[9]                        = 0.3f;
-    f.view.projection[10]                       = -1.2f / 0.8f;
-    f.view.projection[11]                       = -1;
-    f.view.projection[14]                       = -2 * 0.4f * 2 / 1.6f;
-    f.view.projection[15]                       = 0;
+    f.view.projection[8] = 0.6f; // Their middle is the picture\'s.
+    f.view.projection[9] = 0.3f;
+    f.view.projection[10] = -1.2f / 0.8f;
+    f.view.projection[11] = -1;
+    f.view.projection[14] = -2 * 0.4f * 2 / 1.6f;
+    f.view.projection[15] = 0;
 }
 
 static void finish(void)
@@ -89,8 +89,8 @@ static double march(const double way[3], double from, double* meets)
     double least = INFINITY;
     for (double t = from; t < 1.5; t += 0.0005) {
         const double p[3] = {way[0] * t, way[1] * t, way[2] * t};
-        uint32_t     number;
-        double       distance = hair_test_nearest(f.solids, SOLIDS, p, &number);
+        uint32_t number;
+        double distance = hair_test_nearest(f.solids, SOLIDS, p, &number);
         if (distance < least) least = distance;
         if (distance < 0) {
             *meets = -t;
@@ -115,7 +115,7 @@ static void a_solid_is_drawn_where_it_is_with_its_depth(void** state)
         double way[3], z = 0;
         find_ray(i, way);
         double near = march(way, 0.5, &z);
-        int    hit  = f.depths[i] < 1;
+        int hit = f.depths[i] < 1;
         if (fabs(near) > 0.002 && (near < 0) != hit) fail_msg("pixel %d: %g m off, drawn %d", i, near, hit);
         if (!hit || near > 0) continue;
         ++covered;
@@ -133,16 +133,16 @@ static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** stat
     hair_field_info info = hair_field_info_default();
     hair_test_ok(f.test, hair_get_field(f.hair, &info));
     const double height = (double)f.hair->field.box.lower.z, length = (double)info.voxel * info.size[2];
-    f.view.slice    = HAIR_SLICE_Z;
+    f.view.slice = HAIR_SLICE_Z;
     f.view.slice_at = (float)(-height / length);
     draw();
     int inside = 0, outside = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
-        double   way[3];
+        double way[3];
         uint32_t number;
         find_ray(i, way);
-        double       distance = hair_test_nearest(f.solids, SOLIDS, way, &number);
-        const float* color    = &f.pixels[4 * i];
+        double distance = hair_test_nearest(f.solids, SOLIDS, way, &number);
+        const float* color = &f.pixels[4 * i];
         if (fabs(distance) < (double)info.voxel || distance > 3 * (double)info.voxel) continue;
         hair_test_near("depth of the slice", (size_t)i, (double)f.depths[i], depth_at(-1), 1e-4);
         assert_true(distance < 0 ? color[0] > color[2] : color[2] > color[0]);

@@ -15,24 +15,24 @@
 static const struct hair_pose head = {{3, -2, 1}, {0.36f, 0.48f, 0, 0.8f}};
 
 struct fixture {
-    struct hair_test*       test;
-    hair_groom*             groom;
+    struct hair_test* test;
+    hair_groom* groom;
     struct hair_solid_field field;
-    hair_form*              forms[2]; // a ball of 0.1 m and a box
-    hair_solid              solids[SOLIDS];
-    uint32_t                random;
+    hair_form* forms[2]; // a ball of 0.1 m and a box
+    hair_solid solids[SOLIDS];
+    uint32_t random;
 };
 
 static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh)
 {
-    hair_form*     form = NULL;
+    hair_form* form = NULL;
     hair_form_desc desc = hair_form_desc_default();
-    desc.host           = &test->host.host;
-    desc.positions      = mesh.positions;
-    desc.triangles      = mesh.triangles;
-    desc.vertex_count   = mesh.vertex_count;
+    desc.host = &test->host.host;
+    desc.positions = mesh.positions;
+    desc.triangles = mesh.triangles;
+    desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
-    desc.resolution     = 40;
+    desc.resolution = 40;
     hair_test_ok(test, hair_form_create(&desc, &form));
     hair_test_mesh_free(&mesh);
     return form;
@@ -42,16 +42,16 @@ static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh)
 static void begin(struct hair_test* test, struct fixture* out)
 {
     static const float half[] = {0.05f, 0.08f, 0.03f};
-    *out                      = (struct fixture){.test = test, .random = 3};
-    out->groom                = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    out->forms[0]             = form_of(test, hair_test_ball_mesh(0.1f, 24, 48));
-    out->forms[1]             = form_of(test, hair_test_box_mesh(half));
+    *out = (struct fixture){.test = test, .random = 3};
+    out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    out->forms[0] = form_of(test, hair_test_ball_mesh(0.1f, 24, 48));
+    out->forms[1] = form_of(test, hair_test_box_mesh(half));
     hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
     for (int i = 0; i < SOLIDS; ++i) {
         out->solids[i] = hair_test_any_solid(&out->field.box, &head, 0.1f, &out->random);
         if (i % 2) continue;
         out->solids[i].shape = HAIR_SHAPE_FORM;
-        out->solids[i].form  = out->forms[i / 2 % 2];
+        out->solids[i].form = out->forms[i / 2 % 2];
         out->solids[i].scale = 0.6f + 0.3f * (float)i;
     }
 }
@@ -74,10 +74,10 @@ static void update(struct fixture* f)
 static void check_voxels(struct fixture* f)
 {
     struct hair_test_field read = hair_test_field_read(&f->field);
-    double                 most = 0, voxel = (double)f->field.box.voxel;
-    size_t                 of_forms = 0;
+    double most = 0, voxel = (double)f->field.box.voxel;
+    size_t of_forms = 0;
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
-        double   point[3];
+        double point[3];
         uint32_t number;
         hair_test_voxel(&f->field.box, &head, i, point);
         double right = fmin(hair_test_nearest(f->solids, SOLIDS, point, &number), (double)f->field.box.far);
@@ -112,10 +112,10 @@ static void a_form_of_a_ball_is_a_ball(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    hair_solid             ball = f.solids[0], sphere = f.solids[0];
+    hair_solid ball = f.solids[0], sphere = f.solids[0];
     struct hair_test_field read;
-    ball.form      = f.forms[0];
-    sphere.shape   = HAIR_SHAPE_SPHERE;
+    ball.form = f.forms[0];
+    sphere.shape = HAIR_SHAPE_SPHERE;
     sphere.size[0] = 0.1f * ball.scale;
     double voxel = (double)f.field.box.voxel, most = 0;
     hair_test_ok(f.test, hair_field_update(&f.field, &ball, 1, &head));
@@ -135,7 +135,7 @@ static void a_form_of_a_ball_is_a_ball(void** state)
 
 static void a_form_is_there_once_for_all_solids_of_all_instances(void** state)
 {
-    struct fixture          f;
+    struct fixture f;
     struct hair_solid_field other;
     begin(*state, &f);
     const struct hair_forms* forms = &f.test->context->forms;
@@ -202,11 +202,11 @@ static void a_host_without_memory_is_an_error_and_leaves_no_form(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    size_t   bytes   = f.test->host.live;
+    size_t bytes = f.test->host.live;
     uint32_t refused = 0;
     for (;; ++refused) {
         f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result  = hair_field_update(&f.field, f.solids, SOLIDS, &head);
+        hair_result result = hair_field_update(&f.field, f.solids, SOLIDS, &head);
         f.test->host.refuse = 0;
         if (result == HAIR_OK) break;
         hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");

@@ -18,17 +18,17 @@ static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
 static const struct hair_pose elsewhere = {{30, -20, 10}, {0.36f, 0.48f, 0, 0.8f}};
 
 struct fixture {
-    struct hair_test*       test;
-    hair_groom*             groom;
+    struct hair_test* test;
+    hair_groom* groom;
     struct hair_solid_field field;
-    struct hair_pose        head;
-    hair_solid              solids[MANY];
-    uint32_t                random;
+    struct hair_pose head;
+    hair_solid solids[MANY];
+    uint32_t random;
 };
 
 static void begin(struct hair_test* test, struct hair_pose head, struct fixture* out)
 {
-    *out       = (struct fixture){.test = test, .head = head, .random = 7};
+    *out = (struct fixture){.test = test, .head = head, .random = 7};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
     for (int i = 0; i < MANY; ++i)
@@ -55,17 +55,17 @@ static uint32_t runs(struct fixture* f)
 
 static void check_voxels(struct fixture* f, uint32_t count)
 {
-    const struct hair_field_box* box  = &f->field.box;
-    struct hair_test_field       read = hair_test_field_read(&f->field);
-    double                       most = 0, voxel = (double)box->voxel;
-    size_t                       near = 0;
+    const struct hair_field_box* box = &f->field.box;
+    struct hair_test_field read = hair_test_field_read(&f->field);
+    double most = 0, voxel = (double)box->voxel;
+    size_t near = 0;
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
-        double   point[3];
+        double point[3];
         uint32_t number, own = read.number[i];
         hair_test_voxel(box, &f->head, i, point);
         double right = fmin(hair_test_nearest(f->solids, count, point, &number), (double)box->far);
-        double off   = fabs((double)read.distance[i] - right);
-        most         = fmax(most, off);
+        double off = fabs((double)read.distance[i] - right);
+        most = fmax(most, off);
         if (!(off <= 0.05 * voxel))
             fail_msg("voxel %zu holds %g, not %g", i, (double)read.distance[i], right);
         near += own != HAIR_NO_SOLID;
@@ -96,12 +96,12 @@ static void every_voxel_holds_the_distance_to_the_nearest_solid_and_its_number(v
 
 static void the_box_has_from_32_to_256_voxels_along_its_longest_side(void** state)
 {
-    struct fixture     f;
+    struct fixture f;
     static const float asked[] = {0.0005f, 0.002f, 0.005f, 0.02f, 1};
     begin(*state, origin, &f);
     for (size_t i = 0; i < sizeof asked / sizeof *asked; ++i) {
-        struct hair_field_box box  = hair_field_box_of(f.groom, asked[i]);
-        uint32_t              most = 0;
+        struct hair_field_box box = hair_field_box_of(f.groom, asked[i]);
+        uint32_t most = 0;
         for (int k = 0; k < 3; ++k) most = box.bricks[k] > most ? box.bricks[k] : most;
         assert_in_range(most, 32 / HAIR_BRICK, 256 / HAIR_BRICK);
         if (most > 32 / HAIR_BRICK && most < 256 / HAIR_BRICK) assert_true(box.voxel == asked[i]);
@@ -113,9 +113,9 @@ static void the_box_holds_the_hair_at_rest_and_some_of_its_swing_but_no_more_tha
 {
     struct fixture f;
     begin(*state, origin, &f);
-    const struct hair_field_box* box   = &f.field.box;
-    const hair_vec3              low   = box->lower;
-    float                        brick = HAIR_BRICK * box->voxel, longest = 0;
+    const struct hair_field_box* box = &f.field.box;
+    const hair_vec3 low = box->lower;
+    float brick = HAIR_BRICK * box->voxel, longest = 0;
     hair_vec3 high = hair_add(low, hair_v3(brick * (float)box->bricks[0], brick * (float)box->bricks[1],
                                            brick * (float)box->bricks[2]));
     for (uint32_t i = 0; i < f.groom->info.guide_count; ++i)
@@ -143,21 +143,21 @@ struct sample {
 // glsl/field.glsl at `points`, xyz from the head's origin along the world's axes, w unused.
 static void sample(struct fixture* f, const float (*points)[4], struct sample* out, uint32_t* numbers)
 {
-    static const char     rest[] = "layout(local_size_x = 50) in;\n"
-                                   "layout(std430, binding = 0) buffer point_block { vec4 point[]; };\n"
-                                   "layout(std430, binding = 1) buffer sample_block { vec4 found[]; };\n"
-                                   "layout(std430, binding = 2) buffer number_block { uint number[]; };\n"
-                                   "void main()\n"
-                                   "{\n"
-                                   "    uint i    = gl_GlobalInvocationID.x;\n"
-                                   "    vec3 p    = point[i].xyz;\n"
-                                   "    found[i]  = vec4(field_gradient(p), field_distance(p));\n"
-                                   "    number[i] = field_solid(p);\n"
-                                   "}\n";
+    static const char rest[] = "layout(local_size_x = 50) in;\n"
+                               "layout(std430, binding = 0) buffer point_block { vec4 point[]; };\n"
+                               "layout(std430, binding = 1) buffer sample_block { vec4 found[]; };\n"
+                               "layout(std430, binding = 2) buffer number_block { uint number[]; };\n"
+                               "void main()\n"
+                               "{\n"
+                               "    uint i    = gl_GlobalInvocationID.x;\n"
+                               "    vec3 p    = point[i].xyz;\n"
+                               "    found[i]  = vec4(field_gradient(p), field_distance(p));\n"
+                               "    number[i] = field_solid(p);\n"
+                               "}\n";
     struct hair_gl_source source;
     assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "field.glsl", "", &source), HAIR_OK);
-    const char* text[]  = {"#version 450 core\n", source.text, rest};
-    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[3];
+    const char* text[] = {"#version 450 core\n", source.text, rest};
+    GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[3];
     hair_free(&f->test->host.host, source.text);
     glCreateBuffers(3, buffer);
     glNamedBufferStorage(buffer[0], POINTS * sizeof *points, points, 0);
@@ -180,19 +180,19 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
 // that is near.
 static void between_voxels_distance_sign_gradient_and_number_are_right(void** state)
 {
-    static float         points[POINTS][4];
+    static float points[POINTS][4];
     static struct sample found[POINTS];
-    static uint32_t      numbers[POINTS];
-    struct fixture       f;
+    static uint32_t numbers[POINTS];
+    struct fixture f;
     begin(*state, elsewhere, &f);
     update(&f, MANY);
     for (int i = 0; i < POINTS; ++i)
         for (int k = 0; k < 3; ++k) points[i][k] = 0.4f * hair_random(&f.random) - 0.2f;
     sample(&f, points, found, numbers);
     double voxel = (double)f.field.box.voxel, most[2] = {0}, turned = 0;
-    int    near = 0, far = 0, compared = 0;
+    int near = 0, far = 0, compared = 0;
     for (int i = 0; i < POINTS; ++i) {
-        double   point[3], gradient[3], dot = 0;
+        double point[3], gradient[3], dot = 0;
         uint32_t number, second;
         for (int k = 0; k < 3; ++k) point[k] = f.head.position[k] + (double)points[i][k];
         double right = hair_test_nearest(f.solids, MANY, point, &number), own = (double)found[i].distance;
@@ -208,7 +208,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
         hair_solid others[MANY];
         memcpy(others, f.solids, sizeof others);
         others[number] = others[number ? 0 : 1];
-        int round      = f.solids[number].shape <= HAIR_SHAPE_CAPSULE &&
+        int round = f.solids[number].shape <= HAIR_SHAPE_CAPSULE &&
                     hair_test_nearest(others, MANY, point, &second) > right + 2 * voxel;
         most[!round] = fmax(most[!round], fabs(own - right));
         if (!(fabs(own - right) <= (round ? 0.5 : 0.9) * voxel))
@@ -238,7 +238,7 @@ static void assert_as_made_at_once(struct fixture* f, uint32_t count)
     hair_field_create(&fresh, &f->test->context->forms, f->groom, VOXEL);
     hair_test_ok(f->test, hair_field_update(&fresh, f->solids, count, &f->head));
     struct hair_test_field a = hair_test_field_read(&f->field), b = hair_test_field_read(&fresh);
-    size_t                 voxels = hair_test_field_count(&a);
+    size_t voxels = hair_test_field_count(&a);
     assert_memory_equal(a.distance, b.distance, voxels * sizeof *a.distance);
     assert_memory_equal(a.number, b.number, voxels * sizeof *a.number);
     hair_test_field_free(&a);
@@ -269,7 +269,7 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
     struct fixture f;
     begin(*state, elsewhere, &f);
     update(&f, MANY);
-    uint32_t        before = runs(&f);
+    uint32_t before = runs(&f);
     struct hair_gl *gl = &f.test->context->gl, kept = *gl;
 #define FUNCTION(type, name, parameters) gl->name = NULL;
 #include "lib/gl/functions.inl"
@@ -278,7 +278,7 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
     // Not by more than rounding either.
     f.solids[3].position[0] += 1e-6f;
     hair_result again = hair_field_update(&f.field, f.solids, MANY, &f.head);
-    *gl               = kept;
+    *gl = kept;
     assert_int_equal(result, HAIR_OK);
     assert_int_equal(again, HAIR_OK);
     f.solids[3].position[0] += 1e-3f;
@@ -293,18 +293,18 @@ static void what_moves_with_the_head_is_not_written_again(void** state)
     struct fixture f;
     begin(*state, origin, &f);
     update(&f, MANY);
-    uint32_t   before = runs(&f);
+    uint32_t before = runs(&f);
     hair_solid rest[MANY];
     memcpy(rest, f.solids, sizeof rest);
     for (int step = 1; step <= 20; ++step) {
-        float angle        = 0.3f * (float)step;
-        f.head.rotation    = (hair_quat){0, sinf(angle / 2), 0, cosf(angle / 2)};
+        float angle = 0.3f * (float)step;
+        f.head.rotation = (hair_quat){0, sinf(angle / 2), 0, cosf(angle / 2)};
         f.head.position[0] = 0.1 * step;
         for (int i = 0; i < MANY; ++i) {
-            hair_vec3 at  = hair_rotate(f.head.rotation, hair_load3(rest[i].position));
+            hair_vec3 at = hair_rotate(f.head.rotation, hair_load3(rest[i].position));
             hair_quat own = {rest[i].rotation[0], rest[i].rotation[1], rest[i].rotation[2],
                              rest[i].rotation[3]};
-            own           = hair_quat_multiply(f.head.rotation, own);
+            own = hair_quat_multiply(f.head.rotation, own);
             hair_store3(f.solids[i].position, hair_add(at, hair_v3((float)f.head.position[0], 0, 0)));
             memcpy(f.solids[i].rotation, &own, sizeof own);
         }
@@ -319,7 +319,7 @@ static void there_is_no_field_where_no_solid_is_near(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
-    size_t   bytes  = f.test->host.live;
+    size_t bytes = f.test->host.live;
     uint32_t before = runs(&f);
     update(&f, 0);
     assert_false(hair_field_is_near(&f.field));
@@ -387,7 +387,7 @@ static void ten_thousand_solids_are_one_field(void** state)
     hair_test_ok(f.test, hair_field_update(&f.field, solids, count, &f.head));
     struct hair_test_field read = hair_test_field_read(&f.field);
     for (size_t i = 0; i < hair_test_field_count(&read); i += 997) {
-        double   point[3];
+        double point[3];
         uint32_t number;
         hair_test_voxel(&f.field.box, &f.head, i, point);
         double right = fmin(hair_test_nearest(solids, count, point, &number), (double)f.field.box.far);
@@ -408,11 +408,11 @@ static void a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_firs
 {
     struct fixture f;
     begin(*state, origin, &f);
-    struct hair_gl* gl                                                        = &f.test->context->gl;
-    size_t          bytes                                                     = f.test->host.live;
+    struct hair_gl* gl = &f.test->context->gl;
+    size_t bytes = f.test->host.live;
     void(APIENTRY * kept)(GLuint, GLsizei, GLenum, GLsizei, GLsizei, GLsizei) = gl->TextureStorage3D;
-    gl->TextureStorage3D                                                      = make_nothing;
-    hair_result result   = hair_field_update(&f.field, f.solids, MANY, &f.head);
+    gl->TextureStorage3D = make_nothing;
+    hair_result result = hair_field_update(&f.field, f.solids, MANY, &f.head);
     gl->TextureStorage3D = kept;
     hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "the driver has no");
     assert_int_equal(f.test->host.live, bytes);
@@ -425,11 +425,11 @@ static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(
 {
     struct fixture f;
     begin(*state, origin, &f);
-    size_t   bytes   = f.test->host.live;
+    size_t bytes = f.test->host.live;
     uint32_t refused = 0;
     for (;; ++refused) {
         f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result  = hair_field_update(&f.field, f.solids, MANY, &f.head);
+        hair_result result = hair_field_update(&f.field, f.solids, MANY, &f.head);
         f.test->host.refuse = 0;
         if (result == HAIR_OK) break;
         hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
@@ -444,12 +444,12 @@ static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(
 
 static void the_host_is_given_textures_and_where_they_are(void** state)
 {
-    struct hair_test* test  = *state;
-    hair_groom*       groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_desc         desc  = hair_desc_default();
+    struct hair_test* test = *state;
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc desc = hair_desc_default();
     hair_solid ball = {HAIR_SHAPE_SPHERE, {1.02f, 2, 3}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
     hair_field_info info = hair_field_info_default();
-    hair_instance*  hair = NULL;
+    hair_instance* hair = NULL;
     // Turned by 90 degrees about y.
     const float turned[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 2, 3, 1};
     memcpy(desc.transform, turned, sizeof turned);
@@ -460,18 +460,18 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
     hair_test_ok(test, hair_step(hair, 0.1f));
     hair_test_ok(test, hair_get_field(hair, &info));
     assert_true(info.distance_texture && info.solid_texture);
-    float*   texels = calloc((size_t)info.size[0] * info.size[1] * info.size[2], sizeof *texels);
-    uint32_t bytes  = info.size[0] * info.size[1] * info.size[2] * (uint32_t)sizeof *texels;
+    float* texels = calloc((size_t)info.size[0] * info.size[1] * info.size[2], sizeof *texels);
+    uint32_t bytes = info.size[0] * info.size[1] * info.size[2] * (uint32_t)sizeof *texels;
     glGetTextureImage(info.distance_texture, 0, GL_RED, GL_FLOAT, (GLsizei)bytes, texels);
     // Its centre, and points on its surface, of the world.
     static const float points[][4] = {
         {0, 0, 0, -0.05f}, {0.05f, 0, 0, 0}, {0, 0.05f, 0, 0}, {0, 0, -0.05f, 0}};
     for (int i = 0; i < 4; ++i) {
-        float    at[3];
+        float at[3];
         uint32_t cell[3];
         for (int row = 0; row < 3; ++row) {
             const float* m = info.transform;
-            at[row]        = m[12 + row];
+            at[row] = m[12 + row];
             for (int k = 0; k < 3; ++k) at[row] += m[4 * k + row] * (ball.position[k] + points[i][k]);
             cell[row] = (uint32_t)(at[row] * (float)info.size[row]);
         }

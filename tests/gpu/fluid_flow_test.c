@@ -38,21 +38,21 @@ static double fastest(const struct hair_test_fluid* f)
 static void nothing_is_left_to_be_driven_out_of_cells(void** state)
 {
     static const struct {
-        const char*       name;
+        const char* name;
         hair_fluid_method method;
-        uint32_t          cycles, cells;
+        uint32_t cycles, cells;
     } ways[] = {{"multigrid", HAIR_FLUID_MULTIGRID, 4, 32},
                 {"relaxation", HAIR_FLUID_RELAXATION, 60, 16},
                 {"jacobi", HAIR_FLUID_JACOBI, 200, 16}};
     for (int i = 0; i < 3; ++i) {
         struct hair_test_fluid f;
         struct hair_fluid_desc desc = hair_test_fluid_desc(ways[i].cells);
-        desc.method                 = ways[i].method;
-        desc.cycles                 = ways[i].cycles;
+        desc.method = ways[i].method;
+        desc.cycles = ways[i].cycles;
         hair_test_fluid_begin(*state, &desc, 1, &f);
         advance(&f, 3);
         double* right = hair_test_floats(f.fluid.right.buffer, f.count);
-        double  share = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
+        double share = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
         print_message("    %s, %u: %.1e is left\n", ways[i].name, ways[i].cycles, share);
         assert_true(share <= 1e-3);
         free(right);
@@ -67,7 +67,7 @@ static double flux(const struct hair_test_fluid* f)
 {
     enum { POINTS = 20000 };
     double *velocity = hair_test_fluid_velocity(f), sum = 0, in = 0;
-    double  radius = 1 + (double)HAIR_TEST_FLUID_BALL * f->cells / (double)HAIR_TEST_FLUID_SIDE;
+    double radius = 1 + (double)HAIR_TEST_FLUID_BALL * f->cells / (double)HAIR_TEST_FLUID_SIDE;
     for (int i = 0; i < POINTS; ++i) { // Evenly, along a spiral.
         double z = 1 - (2 * i + 1.0) / POINTS, side = sqrt(1 - z * z), flow = 0;
         double normal[3] = {side * cos(2.399963 * i), side * sin(2.399963 * i), z}, place[3];
@@ -92,13 +92,13 @@ static double one_sided(const struct hair_test_fluid* f, const double* velocity,
 {
     double sum = 0, n = f->cells;
     for (size_t i = 0; i < f->count; ++i) {
-        double place[3]    = {(double)(i % f->cells) + 0.5, (double)(i / f->cells % f->cells) + 0.5,
-                              (double)(i / f->cells / f->cells) + 0.5};
+        double place[3] = {(double)(i % f->cells) + 0.5, (double)(i / f->cells % f->cells) + 0.5,
+                           (double)(i / f->cells / f->cells) + 0.5};
         double mirrored[3] = {place[0], place[1], place[2]};
-        mirrored[axis]     = n - place[axis];
+        mirrored[axis] = n - place[axis];
         for (int k = 0; k < 3; ++k) {
             double other = (k == axis ? -1 : 1) * hair_test_fluid_at(f, velocity, k, mirrored);
-            double off   = hair_test_fluid_at(f, velocity, k, place) - other;
+            double off = hair_test_fluid_at(f, velocity, k, place) - other;
             sum += off * off / (double)f->count;
         }
     }
@@ -127,7 +127,7 @@ static void air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it(void
         through = fmax(fabs(through), fabs(flux(&f)));
     }
     for (size_t i = 0; i < f.faces; ++i) mean[i] /= STEPS * WIND;
-    double side[2]  = {one_sided(&f, mean, 1), one_sided(&f, mean, 2)};
+    double side[2] = {one_sided(&f, mean, 1), one_sided(&f, mean, 2)};
     double place[3] = {16, 16 + 1.5 * 4, 16}, beside = hair_test_fluid_at(&f, mean, 0, place);
     double lee = 0;
     for (double radii = 1.5; radii <= 2.5; radii += 0.25) lee += fabs(behind(&f, mean, radii)) / 5;
@@ -152,7 +152,7 @@ static void without_solids_the_wind_stays_as_it_is_wherever_the_head_goes(void**
         for (size_t k = 0; k < f.faces; ++k) {
             size_t side = f.cells + 1, slot = k % (side * side * side), axis = k / (side * side * side);
             size_t at[3] = {slot % side, slot / side % side, slot / side / side};
-            int    there = 1;
+            int there = 1;
             for (size_t a = 0; a < 3; ++a) there &= at[a] < f.cells || a == axis;
             if (there) hair_test_near("velocity", k, velocity[k], axis ? 0 : WIND, 1e-4);
         }
@@ -172,8 +172,8 @@ static void without_solids_the_wind_stays_as_it_is_wherever_the_head_goes(void**
 static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
 {
     struct hair_test_fluid f;
-    struct hair_air        air  = {0};
-    hair_wind              wind = hair_wind_default();
+    struct hair_air air = {0};
+    hair_wind wind = hair_wind_default();
     begin(*state, 32, 0, &f);
     wind.velocity[0] = (float)WIND, wind.gusts = 0.2f, wind.gust_length = 0.5f;
     hair_test_ok(f.test, hair_air_need(&air, &f.test->context->gl, &wind));
@@ -185,8 +185,8 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
         advance(&f, 1);
         air.moved[0] += WIND * f.now.dt;
         if (i < 15 || i % 5) continue;
-        struct hair_air_gusts now      = hair_air_gusts_from(&air, &wind, &f.now.head);
-        double*               velocity = hair_test_fluid_velocity(&f);
+        struct hair_air_gusts now = hair_air_gusts_from(&air, &wind, &f.now.head);
+        double* velocity = hair_test_fluid_velocity(&f);
         for (int k = 0; k < 6 * 6 * 6; ++k) {
             double place[3] = {7 + 3.5 * (k % 6), 7 + 3.5 * (k / 6 % 6), 7 + 3.5 * (k / 36)}, gust[3];
             hair_test_gust_at(&f, &now, texel, place, gust);
@@ -210,7 +210,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
 static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
 {
     struct hair_test_fluid f;
-    hair_solid             ball;
+    hair_solid ball;
     begin(*state, 32, 1, &f);
     f.now.wind = hair_v3(0, 0, 0);
     for (int i = 0; i < 6; ++i) { // With the head, to which the box goes along by whole cells.
@@ -222,10 +222,10 @@ static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
         advance(&f, 1);
     }
     double *velocity = hair_test_fluid_velocity(&f), place[3] = {0, 16, 16}, n = f.cells;
-    double  cell   = (double)HAIR_TEST_FLUID_SIDE / n;
-    double  middle = f.now.head.position[0] / cell - f.fluid.origin[0];
-    place[0]       = middle + (double)HAIR_TEST_FLUID_BALL / cell + 1;
-    double ahead   = hair_test_fluid_at(&f, velocity, 0, place);
+    double cell = (double)HAIR_TEST_FLUID_SIDE / n;
+    double middle = f.now.head.position[0] / cell - f.fluid.origin[0];
+    place[0] = middle + (double)HAIR_TEST_FLUID_BALL / cell + 1;
+    double ahead = hair_test_fluid_at(&f, velocity, 0, place);
     place[0] = middle, place[1] = 16 + (double)HAIR_TEST_FLUID_BALL / cell + 1;
     double beside = hair_test_fluid_at(&f, velocity, 0, place);
     // What has no rotation: (R / r)^3 of its speed ahead, half as much the other way beside.
@@ -248,20 +248,20 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
 {
     struct hair_test_fluid f;
     struct hair_fluid_desc desc = hair_test_fluid_desc(32);
-    desc.closed                 = 1;
-    desc.cycles                 = 6;
+    desc.closed = 1;
+    desc.cycles = 6;
     hair_test_fluid_begin(*state, &desc, 0, &f);
     f.now.wind = hair_v3(0, 0, 0);
     advance(&f, 1);
     // Two rolls, so as to have no divergence: curls of sin(pi x) sin(pi y) along z, and of the same of y and z along x.
     double *velocity = calloc(f.faces, sizeof *velocity), pi = 3.14159265358979, n = f.cells;
-    size_t  side = f.cells + 1, slots = side * side * side;
+    size_t side = f.cells + 1, slots = side * side * side;
     for (size_t i = 0; i < slots; ++i) {
         double x = (double)(i % side) / n, y = (double)(i / side % side) / n,
-               z                = (double)(i / side / side) / n;
-        double half             = 0.5 / n;
-        velocity[i]             = sin(pi * x) * cos(pi * (y + half));
-        velocity[i + slots]     = -cos(pi * (x + half)) * sin(pi * y) + sin(pi * y) * cos(pi * (z + half));
+               z = (double)(i / side / side) / n;
+        double half = 0.5 / n;
+        velocity[i] = sin(pi * x) * cos(pi * (y + half));
+        velocity[i + slots] = -cos(pi * (x + half)) * sin(pi * y) + sin(pi * y) * cos(pi * (z + half));
         velocity[i + 2 * slots] = -cos(pi * (y + half)) * sin(pi * z);
         if (i % side == f.cells) velocity[i + slots] = velocity[i + 2 * slots] = 0;
         if (i / side % side == f.cells) velocity[i] = velocity[i + 2 * slots] = 0;
@@ -273,7 +273,7 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
     free(velocity);
     for (int i = 0; i < 20; ++i) {
         advance(&f, 1);
-        velocity   = hair_test_fluid_velocity(&f);
+        velocity = hair_test_fluid_velocity(&f);
         double now = energy(velocity, f.faces), out = 0;
         for (size_t k = 0; k < slots; ++k) {
             size_t at[3] = {k % side, k / side % side, k / side / side};
@@ -298,7 +298,7 @@ static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
     begin(*state, 16, 1, &f);
     struct hair_fluid_now kept = f.now;
     for (int i = 0; i < 40; ++i) {
-        f.now    = kept;
+        f.now = kept;
         f.now.dt = i % 4 == 0 ? 0.1 : i % 4 == 1 ? 1e-5 : 1.0 / 60;
         if (i % 2) f.now.wind = hair_v3(1000, -1000, 1000);
         if (i % 3 == 0) f.now.wind = hair_v3(0, 0, 0);
@@ -328,7 +328,7 @@ static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
 static void the_same_inputs_give_the_same_bits(void** state)
 {
     double* velocity[2];
-    size_t  faces = 0;
+    size_t faces = 0;
     for (int run = 0; run < 2; ++run) {
         struct hair_test_fluid f;
         begin(*state, 16, 1, &f);
@@ -346,14 +346,14 @@ static void the_same_inputs_give_the_same_bits(void** state)
 
 static void a_host_or_a_driver_without_memory_is_an_error_that_leaves_nothing(void** state)
 {
-    struct hair_test*      test = *state;
-    struct hair_fluid      fluid;
-    struct hair_fluid_desc desc  = hair_test_fluid_desc(16);
-    size_t                 bytes = test->host.live;
+    struct hair_test* test = *state;
+    struct hair_fluid fluid;
+    struct hair_fluid_desc desc = hair_test_fluid_desc(16);
+    size_t bytes = test->host.live;
     for (uint32_t refused = 0;; ++refused) {
-        test->host.refuse  = test->host.allocations + 1 + refused;
+        test->host.refuse = test->host.allocations + 1 + refused;
         hair_result result = hair_fluid_create(&fluid, &test->context->gl, &desc);
-        test->host.refuse  = 0;
+        test->host.refuse = 0;
         if (result == HAIR_OK) break;
         hair_test_refused(test, result, HAIR_ERROR_MEMORY, "out of memory for");
         assert_int_equal(test->host.live, bytes);

@@ -35,7 +35,7 @@ static void check_faces(const char* what, const double* got, const double* least
     uint32_t side = CELLS + 1, slots = cubed(side);
     for (uint32_t i = 0; i < 3 * slots; ++i) {
         uint32_t at[3] = {i % slots % side, i % slots / side % side, i % slots / (side * side)};
-        int      there = 1;
+        int there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < CELLS || k == i / slots;
         if (there) hair_test_near(what, i, got[i], fmin(fmax(got[i], least[i]), most[i]), tolerance);
     }
@@ -54,7 +54,7 @@ static void begin(struct hair_test* test, struct hair_test_fluid* f)
 static double from_ball(const double place[3], const void* user)
 {
     const double* middle = user;
-    double        cell = (double)HAIR_TEST_FLUID_SIDE / CELLS, sum = 0;
+    double cell = (double)HAIR_TEST_FLUID_SIDE / CELLS, sum = 0;
     for (int k = 0; k < 3; ++k) sum += (place[k] - middle[k]) * (place[k] - middle[k]);
     return sqrt(sum) - (double)HAIR_TEST_FLUID_BALL / cell;
 }
@@ -63,7 +63,7 @@ static double from_ball(const double place[3], const void* user)
 static void faces_are_as_open_as_the_ball_leaves_them(void** state)
 {
     struct hair_test_fluid f;
-    double                 middle[3], most = 0, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
+    double middle[3], most = 0, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
     begin(*state, &f);
     f.now.head = (struct hair_pose){{3.013, -1.5, 0.022}, {0.36f, 0.48f, 0, 0.8f}};
     hair_fluid_place(&f.fluid, &f.now);
@@ -75,8 +75,8 @@ static void faces_are_as_open_as_the_ball_leaves_them(void** state)
     double* open = hair_test_fluid_open(&f, 0);
     for (uint32_t i = 0; i < f.faces; ++i) {
         uint32_t side = CELLS + 1, axis = i / cubed(side), slot = i % cubed(side);
-        int32_t  at[3] = {(int32_t)(slot % side), (int32_t)(slot / side % side),
-                          (int32_t)(slot / (side * side))};
+        int32_t at[3] = {(int32_t)(slot % side), (int32_t)(slot / side % side),
+                         (int32_t)(slot / (side * side))};
         if (at[0] == CELLS || at[1] == CELLS || at[2] == CELLS) continue;
         double expected = hair_reference_open(axis, at, from_ball, middle);
         // The field is a half's rounding and the chord of 5 mm off, that is 1/40 of a cell at most; a face all along.
@@ -104,7 +104,7 @@ static void coarser_faces_are_as_open_as_their_four_parts(void** state)
 static void walls_move_as_the_solid_does(void** state)
 {
     struct hair_test_fluid f;
-    const double           spin = 0.1 * 60, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
+    const double spin = 0.1 * 60, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
     begin(*state, &f);
     hair_solid ball = f.solids.now.solid[0];
     hair_solids_settle(&f.solids);
@@ -113,7 +113,7 @@ static void walls_move_as_the_solid_does(void** state)
     hair_test_ok(f.test, hair_solids_set(&f.test->host.host, &f.solids, &ball, 1, sizeof ball));
     hair_fluid_place(&f.fluid, &f.now);
     double *open = hair_test_fluid_open(&f, 0), *wall = hair_test_floats(f.fluid.wall.buffer, f.faces);
-    size_t  closed = 0, slots = f.faces / 3, side = CELLS + 1;
+    size_t closed = 0, slots = f.faces / 3, side = CELLS + 1;
     for (size_t i = 0; i < 2 * slots; ++i) {
         size_t slot = i % slots;
         if (open[i] > 0.5) continue;
@@ -133,10 +133,10 @@ static void walls_move_as_the_solid_does(void** state)
 // Halves, as the texture holds them: exact in sixteenths up to 64.
 static double* put_air(struct hair_test_fluid* f, double most)
 {
-    double* air   = any_numbers(3 * f->count, most, 5);
-    float*  texel = calloc(4 * f->count, sizeof *texel);
+    double* air = any_numbers(3 * f->count, most, 5);
+    float* texel = calloc(4 * f->count, sizeof *texel);
     for (size_t i = 0; i < 3 * f->count; ++i) {
-        air[i]                     = round(air[i] * 16) / 16;
+        air[i] = round(air[i] * 16) / 16;
         texel[4 * (i / 3) + i % 3] = (float)air[i];
     }
     const uint32_t size[3] = {f->cells, f->cells, f->cells};
@@ -155,16 +155,16 @@ static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
     begin(*state, &f);
     double *before = any_numbers(f.faces, 3, 1), *air = put_air(&f, 3), gone = 0, between = 0;
     f.now.head.position[0] = 2.2 * (double)HAIR_TEST_FLUID_SIDE / CELLS;
-    f.now.wind             = hair_v3(4, 1, -2);
+    f.now.wind = hair_v3(4, 1, -2);
     hair_fluid_place(&f.fluid, &f.now);
     hair_test_put_floats(f.fluid.velocity[0].buffer, before, f.faces);
     hair_fluid_carry(&f.fluid);
-    struct hair_reference_flow flow  = {CELLS,      {2, 0, 0},   CELLS / (60 * (double)HAIR_TEST_FLUID_SIDE),
-                                        {4, 1, -2}, {-1, 1, -2}, before,
-                                        air,        BLUR};
-    double *                   least = calloc(f.faces, sizeof *least), *most = calloc(f.faces, sizeof *most);
-    double*                    got[2] = {hair_test_floats(f.fluid.velocity[1].buffer, f.faces),
-                                         hair_test_floats(f.fluid.velocity[2].buffer, f.faces)};
+    struct hair_reference_flow flow = {CELLS,      {2, 0, 0},   CELLS / (60 * (double)HAIR_TEST_FLUID_SIDE),
+                                       {4, 1, -2}, {-1, 1, -2}, before,
+                                       air,        BLUR};
+    double *least = calloc(f.faces, sizeof *least), *most = calloc(f.faces, sizeof *most);
+    double* got[2] = {hair_test_floats(f.fluid.velocity[1].buffer, f.faces),
+                      hair_test_floats(f.fluid.velocity[2].buffer, f.faces)};
     hair_reference_carry(&flow, least, most);
     check_faces("carried", got[0], least, most, 0.02);
     hair_reference_correct(&flow, got[0], least, most);
@@ -181,13 +181,13 @@ static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
 
 struct pressed {
     struct hair_test_fluid f;
-    double *               open[2], *wall, *velocity, *right, *pressure;
+    double *open[2], *wall, *velocity, *right, *pressure;
 };
 
 static void begin_pressed(struct hair_test* test, hair_fluid_method method, struct pressed* p)
 {
     struct hair_fluid_desc desc = hair_test_fluid_desc(CELLS);
-    desc.method                 = method;
+    desc.method = method;
     hair_test_fluid_begin(test, &desc, 1, &p->f);
     struct hair_test_fluid* f = &p->f;
     hair_fluid_place(&f->fluid, &f->now);
@@ -197,7 +197,7 @@ static void begin_pressed(struct hair_test* test, hair_fluid_method method, stru
         p->open[i] = method == HAIR_FLUID_MULTIGRID || !i ? hair_test_fluid_open(f, i) : NULL;
     p->velocity = any_numbers(f->faces, 3, 3);
     hair_test_put_floats(f->fluid.velocity[2].buffer, p->velocity, f->faces);
-    p->right    = any_numbers(f->count + f->count / 8, 1, 4);
+    p->right = any_numbers(f->count + f->count / 8, 1, 4);
     p->pressure = any_numbers(f->count + f->count / 8, 1, 5);
     hair_test_put_floats(f->fluid.right.buffer, p->right, f->count + f->count / 8);
     hair_test_put_floats(f->fluid.pressure[0].buffer, p->pressure, f->count + f->count / 8);
@@ -254,9 +254,9 @@ static void coarser_cells_take_what_is_left_and_give_their_pressure_back(void** 
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
-    struct hair_fluid* fluid  = &p.f.fluid;
-    size_t             coarse = p.f.count / 8;
-    double *           left = calloc(p.f.count, sizeof *left), *right = calloc(coarse, sizeof *right);
+    struct hair_fluid* fluid = &p.f.fluid;
+    size_t coarse = p.f.count / 8;
+    double *left = calloc(p.f.count, sizeof *left), *right = calloc(coarse, sizeof *right);
     hair_reference_prolong(CELLS, p.pressure + p.f.count, p.pressure);
     hair_fluid_run(fluid, HAIR_GL_FLUID_PROLONG, 0, 0, (uint32_t)p.f.count);
     check_buffer("pressure", fluid->pressure[0].buffer, 0, p.pressure, p.f.count, 1e-6);
@@ -273,7 +273,7 @@ static void the_coarsest_level_is_solved_at_once(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
-    size_t  count = p.f.count / 8;
+    size_t count = p.f.count / 8;
     double *own = calloc(count, sizeof *own), *left = calloc(count, sizeof *left);
     double* right = p.right + p.f.count;
     hair_fluid_run(&p.f.fluid, HAIR_GL_FLUID_BOTTOM, 1, 0, 1);
@@ -291,8 +291,8 @@ static void the_slope_of_the_pressure_is_taken_from_velocities_that_are_then_sho
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
-    double* air   = calloc(3 * p.f.count, sizeof *air);
-    float*  texel = calloc(4 * p.f.count, sizeof *texel);
+    double* air = calloc(3 * p.f.count, sizeof *air);
+    float* texel = calloc(4 * p.f.count, sizeof *texel);
     hair_fluid_project(&p.f.fluid);
     hair_reference_release(CELLS, p.open[0], p.wall, p.pressure, p.velocity);
     double* got = hair_test_fluid_velocity(&p.f);

@@ -13,7 +13,7 @@
 // Add a head, a neck and shoulders that touch hair.
 static void add_bust(struct hair_test* test, hair_instance* hair)
 {
-    hair_solid solids[3]  = {hair_solid_default(), hair_solid_default(), hair_solid_default()};
+    hair_solid solids[3] = {hair_solid_default(), hair_solid_default(), hair_solid_default()};
     solids[0].position[1] = 1.63f, solids[0].size[0] = 0.088f;
     solids[1].shape = solids[2].shape = HAIR_SHAPE_CAPSULE;
     solids[1].position[1] = 1.48f, solids[1].size[0] = 0.05f, solids[1].size[1] = 0.08f;
@@ -32,9 +32,9 @@ static void turn_head(struct hair_test* test, hair_instance* hair, double yaw)
 // Shake the head for a second, wait for ten. Return the speed of the fastest vertex in the last frame, m/s.
 static double shake_and_wait(struct hair_test* test, hair_instance* hair, uint32_t vertices)
 {
-    float *  before = malloc(3 * vertices * sizeof *before), *after = malloc(3 * vertices * sizeof *after);
+    float *before = malloc(3 * vertices * sizeof *before), *after = malloc(3 * vertices * sizeof *after);
     uint32_t count;
-    double   farthest = 0;
+    double farthest = 0;
     for (int k = 0; k <= 660; ++k) {
         if (k <= 60) turn_head(test, hair, 0.6 * sin(6.283185307179586 * k / 60));
         hair_test_ok(test, hair_step(hair, (float)FRAME));
@@ -51,11 +51,11 @@ static double shake_and_wait(struct hair_test* test, hair_instance* hair, uint32
 
 static double speed_at_rest(struct hair_test* test, hair_style style, hair_solver solver, int solids)
 {
-    hair_style_desc cut     = hair_style_desc_default();
-    hair_physics    physics = hair_physics_default();
-    hair_desc       desc    = hair_desc_default();
-    hair_instance*  hair    = NULL;
-    hair_groom_info info    = hair_groom_info_default();
+    hair_style_desc cut = hair_style_desc_default();
+    hair_physics physics = hair_physics_default();
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    hair_groom_info info = hair_groom_info_default();
     cut.style = style, cut.guide_count = GUIDES, cut.strand_vertices = 32;
     physics.sleep = 0, desc.physics = &physics, desc.solver = solver;
     hair_groom* groom = hair_test_haircut(test, &cut, 0);
@@ -94,10 +94,10 @@ static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
     for (int held = 0; held < 2; ++held) {
         hair_physics physics = hair_physics_default();
         physics.pull_root = physics.pull_tip = 0;
-        physics.hold                         = (float)held;
+        physics.hold = (float)held;
         struct hair_test_strands strands =
             hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(1, 0.3f, 0.1f), 0.05f);
-        hair_desc               desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_MAPPING_AUTO, 0, &physics);
         struct hair_test_living living;
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 240);

@@ -21,7 +21,7 @@ static hair_health ask(struct hair_test* test, hair_instance* hair)
 static void shake(struct hair_test* test, hair_instance* hair, uint32_t frames)
 {
     for (uint32_t i = 0; i < frames; ++i) {
-        float angle    = i < SHAKE ? 0.4f * sinf(6.2831853f * (float)(i + 1) / SHAKE) : 0;
+        float angle = i < SHAKE ? 0.4f * sinf(6.2831853f * (float)(i + 1) / SHAKE) : 0;
         float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
                           sinf(angle), 0, cosf(angle),  0, 0, 0, 0, 1};
         hair_test_ok(test, hair_set_transform(hair, head));
@@ -33,7 +33,7 @@ static void shake(struct hair_test* test, hair_instance* hair, uint32_t frames)
 static void add_box(struct hair_test* test, hair_instance* hair)
 {
     static float at[3 * 4096];
-    uint32_t     tip = hair_sim_guides(&hair->sim, NULL)[0].count - 1, count;
+    uint32_t tip = hair_sim_guides(&hair->sim, NULL)[0].count - 1, count;
     hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, at, 4096, &count));
     hair_solid box = hair_test_body(HAIR_SHAPE_BOX, at[3 * tip], at[3 * tip + 1], at[3 * tip + 2]);
     for (int k = 0; k < 3; ++k) box.size[k] = 0.03f;
@@ -43,17 +43,17 @@ static void add_box(struct hair_test* test, hair_instance* hair)
 static void check_haircut(struct hair_test* test, hair_style style, hair_solver solver, float damping,
                           int collides)
 {
-    hair_style_desc of      = hair_style_desc_default();
-    hair_desc       desc    = hair_desc_default();
-    hair_physics    physics = hair_physics_default();
-    hair_instance*  hair    = NULL;
-    of.style                = style;
-    of.guide_count          = GUIDES;
-    physics.damping         = damping;
-    desc.physics            = &physics;
-    desc.solver             = solver;
-    desc.diagnose           = 1;
-    hair_groom* groom       = hair_test_haircut(test, &of, 0);
+    hair_style_desc of = hair_style_desc_default();
+    hair_desc desc = hair_desc_default();
+    hair_physics physics = hair_physics_default();
+    hair_instance* hair = NULL;
+    of.style = style;
+    of.guide_count = GUIDES;
+    physics.damping = damping;
+    desc.physics = &physics;
+    desc.solver = solver;
+    desc.diagnose = 1;
+    hair_groom* groom = hair_test_haircut(test, &of, 0);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     if (collides) add_box(test, hair);
     shake(test, hair, SHAKE + 90);
@@ -115,13 +115,13 @@ static void the_energy_is_that_of_the_reference(void** state)
         struct hair_test_strands strands =
             hair_test_straight(vertices[k], hair_v3(0, 0, 0), hair_v3(1, 0.2f, 0), 0.1f);
         struct hair_test_living living;
-        struct hair_energy      energy;
-        hair_physics            physics = hair_test_bare();
-        static float            at[3][3 * 64];
-        double                  h = 1.0 / 960;
-        uint32_t                count;
-        hair_desc               desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, h, &physics);
-        desc.diagnose                = 1;
+        struct hair_energy energy;
+        hair_physics physics = hair_test_bare();
+        static float at[3][3 * 64];
+        double h = 1.0 / 960;
+        uint32_t count;
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, h, &physics);
+        desc.diagnose = 1;
         hair_test_live(*state, &strands, &desc, &living);
         struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
         for (int n = 0; n < 80; ++n) {
@@ -132,7 +132,7 @@ static void the_energy_is_that_of_the_reference(void** state)
         set_reference(rod, at, vertices[k], h);
         glGetNamedBufferSubData(living.hair->sim.diagnosis.energy, 0, sizeof energy, &energy);
         struct hair_reference_rod_energy exact = hair_reference_rod_energy(rod);
-        double                           off   = energy_off(&energy, &exact);
+        double off = energy_off(&energy, &exact);
         print_message("    %u vertices: kinetic %.4g, gravity %.4g, elastic %.4g J by the reference, %.4g, "
                       "%.4g, %.4g\n",
                       vertices[k], exact.kinetic, exact.gravity, exact.elastic, (double)energy.now.x,
@@ -151,7 +151,7 @@ static void too_stiff_a_guide_is_softened(void** state)
         struct hair_test_strands strands =
             hair_test_straight(64, hair_v3(0, 0, 0), hair_v3(0, 1, 0), stiff ? 0.01f : 0.3f);
         struct hair_test_living living;
-        hair_physics            physics = hair_test_bare();
+        hair_physics physics = hair_test_bare();
         physics.stiffness_root = physics.stiffness_tip = stiff ? 1e4f : 1;
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
@@ -167,12 +167,12 @@ static void too_stiff_a_guide_is_softened(void** state)
 // Programs of a copy of the shaders, one of which is changed.
 static hair_context* make_context(struct hair_test* test, const char* change)
 {
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    char              command[256];
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    char command[256];
     snprintf(command, sizeof command, "cp -r glsl/* $D && cd $D/sim && %s", change);
     hair_test_shell_expect(0, command, "");
-    desc.host     = &test->host.host;
+    desc.host = &test->host.host;
     desc.get_proc = hair_egl_get_proc;
     desc.glsl_dir = hair_test_folder();
     hair_test_ok(test, hair_context_create(&desc, &context));
@@ -182,10 +182,10 @@ static hair_context* make_context(struct hair_test* test, const char* change)
 static hair_health live_with(struct hair_test* test, const char* change, uint32_t vertices, uint32_t diagnose)
 {
     struct hair_test_strands strands = hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.1f);
-    hair_physics             physics = hair_test_bare();
-    hair_context *           own = make_context(test, change), *context = test->context;
-    physics.damping              = 20;
-    hair_desc               desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_physics physics = hair_test_bare();
+    hair_context *own = make_context(test, change), *context = test->context;
+    physics.damping = 20;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
     struct hair_test_living living;
     desc.diagnose = diagnose;
     test->context = own;
@@ -206,7 +206,7 @@ static hair_health live_with(struct hair_test* test, const char* change, uint32_
 static void a_solver_that_feeds_motion_is_found_out(void** state)
 {
     static const struct {
-        uint32_t    vertices;
+        uint32_t vertices;
         const char* change;
     } cases[] = {
         {40, "sed -i 's/= 1.0 + b \\* params.damping/= 1.0 - b * params.damping/' mixed.glsl"},

@@ -15,11 +15,11 @@
 #define SIZE 32
 
 struct fixture {
-    struct hair_test*      test;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    hair_view              view;
-    GLuint                 depth;
+    hair_view view;
+    GLuint depth;
 };
 
 static GLuint make_texture(GLenum target, GLenum format, GLsizei size)
@@ -37,17 +37,17 @@ static GLuint make_texture(GLenum target, GLenum format, GLsizei size)
 
 static struct fixture start(void** state)
 {
-    static const float        near_by = 0.01f;
-    struct fixture            f       = {.test = *state, .view = hair_view_default()};
-    struct hair_test_handmade wanted  = hair_test_handmade_default();
-    hair_desc                 desc    = hair_desc_default();
-    hair_groom*               groom   = hair_test_groom(&f.test->host.host, wanted);
+    static const float near_by = 0.01f;
+    struct fixture f = {.test = *state, .view = hair_view_default()};
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc desc = hair_desc_default();
+    hair_groom* groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, groom, &desc, &f.hair));
     hair_groom_destroy(groom);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     f.view.projection[0] = f.view.projection[5] = 2;
-    f.view.projection[10]                       = -2;
-    f.depth                                     = make_texture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, SIZE);
+    f.view.projection[10] = -2;
+    f.depth = make_texture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, SIZE);
     glClearTexImage(f.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &near_by);
     return f;
 }
@@ -62,7 +62,7 @@ static void finish(struct fixture* f)
 static uint32_t draw(struct fixture* f)
 {
     static float pixels[4 * SIZE * SIZE];
-    uint32_t     drawn = 0;
+    uint32_t drawn = 0;
     hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     hair_test_frame_read(&f->frame, pixels);
@@ -76,7 +76,7 @@ static uint32_t draw(struct fixture* f)
 static void refuse(struct fixture* f, GLuint texture)
 {
     static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_ID, HAIR_PASS_OPACITY};
-    char                   words[128];
+    char words[128];
     snprintf(words, sizeof words, "hair_view.depth_texture is %u, not a 2D texture of depth", texture);
     f->view.depth_texture = texture;
     for (int i = 0; i < 4; ++i) {
@@ -103,7 +103,7 @@ static void what_is_no_texture_of_depth_is_refused(void** state)
         {GL_TEXTURE_2D_MULTISAMPLE, GL_DEPTH_COMPONENT24},
     };
     struct fixture f = start(state);
-    GLuint         texture;
+    GLuint texture;
     assert_true(draw(&f) > 0);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
         texture = make_texture(kinds[i].target, kinds[i].format, 8);
@@ -129,7 +129,7 @@ static void every_format_of_depth_is_read(void** state)
 {
     static const GLenum formats[] = {GL_DEPTH_COMPONENT16,  GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32,
                                      GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8,  GL_DEPTH32F_STENCIL8};
-    struct fixture      f         = start(state);
+    struct fixture f = start(state);
     for (int i = 0; i < 6; ++i) {
         GLuint frame;
         f.view.depth_texture = make_texture(GL_TEXTURE_2D, formats[i], SIZE);
@@ -163,7 +163,7 @@ static void by_any_matrix_there_is_a_picture(void** state)
         {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0},
         {[0] = FLT_MIN, [3] = -FLT_MAX, [5] = FLT_MAX, [10] = FLT_MIN, [15] = FLT_MAX},
     };
-    struct fixture f     = start(state);
+    struct fixture f = start(state);
     f.view.depth_texture = f.depth;
     assert_int_equal(draw(&f), 0);
     for (size_t i = 0; i < sizeof odd / sizeof *odd; ++i) {
@@ -189,11 +189,11 @@ static void a_matrix_that_is_not_finite_is_refused(void** state)
 
 static void textures_of_lights_and_colours_may_be_no_buffers_either(void** state)
 {
-    struct fixture f     = start(state);
-    hair_light     light = hair_light_default();
+    struct fixture f = start(state);
+    hair_light light = hair_light_default();
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-    GLuint buffer      = f.hair->draw.patch_texture;
-    f.view.lights      = &light;
+    GLuint buffer = f.hair->draw.patch_texture;
+    f.view.lights = &light;
     light.body_texture = buffer;
     hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, "lights[0].body_texture is");
     light.body_texture = 0, light.shadow_texture = buffer;

@@ -24,14 +24,14 @@ enum kind {
 }; // the third without end, the last by glDepthRange, and upside down
 
 struct fixture {
-    struct hair_test*      test;
-    hair_context*          context;
-    hair_groom*            groom;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_context* context;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    GLuint                 depth; // of the frame, to be lent
-    hair_view              view;
-    enum kind              kind;
+    GLuint depth; // of the frame, to be lent
+    hair_view view;
+    enum kind kind;
 };
 
 static const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
@@ -39,13 +39,13 @@ static const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1}
 static void make_hair(struct fixture* f)
 {
     hair_style_desc style = hair_style_desc_default();
-    hair_desc       desc  = hair_desc_default();
-    hair_look       look  = hair_look_default();
-    style.guide_count     = 200;
-    look.radius           = 1e-3f;
-    look.segments         = 8;
-    look.shading          = HAIR_SHADING_LINES;
-    desc.look             = &look;
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    style.guide_count = 200;
+    look.radius = 1e-3f;
+    look.segments = 8;
+    look.shading = HAIR_SHADING_LINES;
+    desc.look = &look;
     memcpy(desc.transform, head, sizeof head);
     f->groom = hair_test_haircut(f->test, &style, 3000);
     hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &f->hair));
@@ -76,7 +76,7 @@ static void set_kind(struct fixture* f, enum kind kind)
 
 static void look_from(struct fixture* f, float turn, float up)
 {
-    float       s = sinf(turn), c = cosf(turn);
+    float s = sinf(turn), c = cosf(turn);
     const float target[3] = {5, 6 + 1.5f + up, -7}, rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     memset(f->view.view, 0, sizeof f->view.view);
     f->view.view[14] = -AWAY, f->view.view[15] = 1;
@@ -89,10 +89,10 @@ static void look_from(struct fixture* f, float turn, float up)
 
 static struct fixture start(void** state)
 {
-    struct fixture    f    = {.test = *state, .view = hair_view_default()};
+    struct fixture f = {.test = *state, .view = hair_view_default()};
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &f.test->host.host;
-    desc.get_proc          = hair_test_trace_proc;
+    desc.host = &f.test->host.host;
+    desc.get_proc = hair_test_trace_proc;
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
     make_hair(&f);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
@@ -117,7 +117,7 @@ static void finish(struct fixture* f)
 static float depth_at(const struct fixture* f, float away)
 {
     const float* m = f->view.projection;
-    float        z = (m[14] - m[10] * away) / (m[15] - m[11] * away);
+    float z = (m[14] - m[10] * away) / (m[15] - m[11] * away);
     if (f->kind == REVERSED) return z;
     return f->kind == RANGED ? 0.5f - 0.5f * z : 0.5f + 0.5f * z;
 }
@@ -125,7 +125,7 @@ static float depth_at(const struct fixture* f, float away)
 static void clear(const struct fixture* f)
 {
     static const float black[4] = {0, 0, 0, 0};
-    float              far_away = f->kind >= REVERSED ? 0 : 1;
+    float far_away = f->kind >= REVERSED ? 0 : 1;
     glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
     glClearTexImage(f->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
 }
@@ -139,8 +139,8 @@ static void put_wall(const struct fixture* f, const int at[4], float away)
 // Into a depth that has the wall in it. Primitives are those of tessellators.
 static uint32_t draw(const struct fixture* f, int lends, const int at[4], float away, float* pixels)
 {
-    hair_view view  = f->view;
-    GLuint    query = 0, count = 0;
+    hair_view view = f->view;
+    GLuint query = 0, count = 0;
     glGenQueries(1, &query);
     clear(f);
     put_wall(f, at, away);
@@ -156,9 +156,9 @@ static uint32_t draw(const struct fixture* f, int lends, const int at[4], float 
 
 static uint32_t read_hidden(const struct fixture* f, uint32_t hidden[])
 {
-    const struct hair_draw* of      = &f->hair->draw;
-    struct hair_patch*      patches = calloc(of->patches, sizeof *patches);
-    uint32_t                count   = 0;
+    const struct hair_draw* of = &f->hair->draw;
+    struct hair_patch* patches = calloc(of->patches, sizeof *patches);
+    uint32_t count = 0;
     glGetNamedBufferSubData(of->patch, 0, (GLsizeiptr)(of->patches * sizeof *patches), patches);
     for (uint32_t i = 0; i < of->patches; ++i) {
         count += patches[i].hidden;
@@ -185,16 +185,16 @@ static float sum(const float* pixels)
 // Nothing is behind what is far, all is behind what is near, and some behind what is near and covers half of the picture.
 static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void** state)
 {
-    static float       kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
-    static const int   places[3][4] = {{0, 0, SIZE, SIZE}, {0, 0, SIZE, SIZE}, {0, 0, SIZE / 2, SIZE}};
-    static const float away[3]      = {4, 0.3f, 0.3f};
-    struct fixture     f            = start(state);
-    uint32_t           patches      = f.hair->draw.patches;
+    static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
+    static const int places[3][4] = {{0, 0, SIZE, SIZE}, {0, 0, SIZE, SIZE}, {0, 0, SIZE / 2, SIZE}};
+    static const float away[3] = {4, 0.3f, 0.3f};
+    struct fixture f = start(state);
+    uint32_t patches = f.hair->draw.patches;
     for (int i = 0; i < KINDS * 3 * 3; ++i) {
         int where = i % 3;
         set_kind(&f, (enum kind)(i / 9));
-        f.view.path        = (hair_path)(i / 3 % 3);
-        uint32_t all       = draw(&f, 0, places[where], away[where], kept);
+        f.view.path = (hair_path)(i / 3 % 3);
+        uint32_t all = draw(&f, 0, places[where], away[where], kept);
         uint32_t primitive = draw(&f, 1, places[where], away[where], some), hidden = read_hidden(&f, NULL);
         if (differ(kept, some) > 0) fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
         assert_true((sum(kept) > 0) == (where != 1));
@@ -212,7 +212,7 @@ static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void*
 
 static void move(struct fixture* f, float turn, int solid)
 {
-    float      c = cosf(turn), s = sinf(turn), at[16];
+    float c = cosf(turn), s = sinf(turn), at[16];
     hair_solid ball = hair_solid_default();
     memcpy(at, head, sizeof at);
     at[0] = at[10] = c, at[2] = -s, at[8] = s;
@@ -225,25 +225,25 @@ static void move(struct fixture* f, float turn, int solid)
 // By all that has a say in where strands are drawn, and how wide.
 static void no_strand_that_is_seen_is_left_out(void** state)
 {
-    static float   kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
-    struct fixture f    = start(state);
-    hair_lod       lod  = hair_lod_default();
-    hair_look      look = f.hair->draw.look, curls = look;
-    uint32_t       random = 5, hidden = 0, drawn = 0;
+    static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
+    struct fixture f = start(state);
+    hair_lod lod = hair_lod_default();
+    hair_look look = f.hair->draw.look, curls = look;
+    uint32_t random = 5, hidden = 0, drawn = 0;
     lod.strand_pixels = 6;
     hair_test_ok(f.test, hair_look_preset(&curls, HAIR_LOOK_WAVY));
     curls.segments = 12;
     for (int i = 0; i < 96; ++i) {
         float number[6];
         for (int k = 0; k < 6; ++k) number[k] = hair_random(&random);
-        int       x = (int)(0.5f * SIZE * number[0]), y = (int)(0.5f * SIZE * number[1]);
+        int x = (int)(0.5f * SIZE * number[0]), y = (int)(0.5f * SIZE * number[1]);
         const int at[4] = {x, y, (int)((float)(SIZE - x) * (0.5f + 0.5f * number[2])), SIZE - y};
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 6.28f * number[3], 0.4f * number[4] - 0.2f);
-        f.view.path      = (hair_path)(i % 3);
+        f.view.path = (hair_path)(i % 3);
         f.view.primitive = i % 5 ? HAIR_RIBBONS : HAIR_LINES;
-        f.view.coverage  = i % 7 ? HAIR_COVERAGE_SAMPLES : HAIR_COVERAGE_SHARES;
-        f.view.lod       = i % 2 ? &lod : NULL;
+        f.view.coverage = i % 7 ? HAIR_COVERAGE_SAMPLES : HAIR_COVERAGE_SHARES;
+        f.view.lod = i % 2 ? &lod : NULL;
         f.view.jitter[0] = i % 11 ? 0 : 0.4f;
         if (i % 8 == 0) hair_test_ok(f.test, hair_set_look(f.hair, i % 16 ? &curls : &look));
         move(&f, 0.3f * sinf((float)i), i % 24 > 12);
@@ -266,12 +266,12 @@ static void no_strand_that_is_seen_is_left_out(void** state)
 static void depth_may_be_of_any_size(void** state)
 {
     static const GLsizei sizes[][2] = {{1, 1}, {7, 3}, {8, 8}, {33, 300}, {1000, 700}};
-    struct fixture       f          = start(state);
-    static float         pixels[4 * SIZE * SIZE];
-    GLuint               kept = f.depth;
-    f.depth                   = 0;
+    struct fixture f = start(state);
+    static float pixels[4 * SIZE * SIZE];
+    GLuint kept = f.depth;
+    f.depth = 0;
     for (int i = 0; i < 5; ++i) {
-        GLsizei   w = sizes[i][0], h = sizes[i][1];
+        GLsizei w = sizes[i][0], h = sizes[i][1];
         const int all[4] = {0, 0, w, h}, left[4] = {0, 0, w / 2, h};
         make_depth(&f, w, h);
         draw(&f, 1, all, 0.3f, pixels);
@@ -290,11 +290,11 @@ static void depth_may_be_of_any_size(void** state)
 // The same patches as in the view that it was drawn in, from wherever they are looked at.
 static void depth_may_be_that_of_another_view(void** state)
 {
-    static float    pixels[4 * SIZE * SIZE];
+    static float pixels[4 * SIZE * SIZE];
     static uint32_t before[1024], now[1024];
-    const int       left[4] = {0, 0, SIZE / 2, SIZE};
-    struct fixture  f       = start(state);
-    float           given[16];
+    const int left[4] = {0, 0, SIZE / 2, SIZE};
+    struct fixture f = start(state);
+    float given[16];
     assert_in_range(f.hair->draw.patches, 2, 1024);
     for (int i = 0; i < 2 * KINDS; ++i) {
         set_kind(&f, (enum kind)(i % KINDS));
@@ -316,8 +316,8 @@ static void depth_may_be_that_of_another_view(void** state)
 static hair_report_row report(const struct fixture* f)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[64], none = {0};
-    uint32_t         count = 0;
+    hair_report_row rows[64], none = {0};
+    uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].work, "hide") == 0) return rows[i];
@@ -328,9 +328,9 @@ static hair_report_row report(const struct fixture* f)
 // And when it is gone its memory goes too.
 static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    const int      all[4] = {0, 0, SIZE, SIZE};
-    struct fixture f      = start(state);
+    static float pixels[4 * SIZE * SIZE];
+    const int all[4] = {0, 0, SIZE, SIZE};
+    struct fixture f = start(state);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f, 0, all, 0.3f, pixels);
     assert_int_equal(report(&f).why, HAIR_WHY_NOT_WANTED);
@@ -359,11 +359,11 @@ static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
 // Nothing of it is hidden.
 static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    const int      all[4] = {0, 0, SIZE, SIZE};
-    struct fixture f      = start(state);
+    static float pixels[4 * SIZE * SIZE];
+    const int all[4] = {0, 0, SIZE, SIZE};
+    struct fixture f = start(state);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-    draw(&f, 0, all, 4, pixels);  // After which guides are smooth.
+    draw(&f, 0, all, 4, pixels); // After which guides are smooth.
     for (int i = 0; i < 2; ++i) { // Beside it; and where depth tells no near from far.
         hair_mat4_multiply(f.view.projection, f.view.view, f.view.depth_matrix);
         f.view.depth_matrix[12] += i == 0 ? 20 : 0;
@@ -379,10 +379,10 @@ static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** s
 // Lists that were made behind a wall are of no use to who sees past it.
 static void what_was_hidden_is_listed_again_when_it_is_not(void** state)
 {
-    static float   kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];
-    const int      all[4] = {0, 0, SIZE, SIZE};
-    struct fixture f      = start(state);
-    f.view.path           = HAIR_PATH_INSTANCED;
+    static float kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];
+    const int all[4] = {0, 0, SIZE, SIZE};
+    struct fixture f = start(state);
+    f.view.path = HAIR_PATH_INSTANCED;
     draw(&f, 0, all, 4, kept);
     for (int i = 0; i < 6; ++i) {
         draw(&f, i % 3 < 2, all, i % 3 ? 4 : 0.3f, now);

@@ -15,23 +15,23 @@
 #define SOLIDS 3
 
 struct fixture {
-    struct hair_test*             test;
-    hair_groom*                   groom;
-    hair_instance*                hair;
-    hair_look                     look;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_look look;
     struct hair_reference_sample* samples;
-    hair_solid                    solids[SOLIDS];
+    hair_solid solids[SOLIDS];
 };
 
 static void smooth(struct fixture* f)
 {
     static struct hair_state vertices[STATES];
-    uint32_t                 random = 99, each = 2 * f->groom->most_vertices - 1;
-    struct hair_gl*          gl     = &f->test->context->gl;
-    struct hair_step_params  params = {.smooth_vertices = each,
-                                       .rotation_before = {0, 0, 0, 1},
-                                       .rotation_after  = {0, 0, 0, 1},
-                                       .rotation_now    = {0, 0, 0, 1}};
+    uint32_t random = 99, each = 2 * f->groom->most_vertices - 1;
+    struct hair_gl* gl = &f->test->context->gl;
+    struct hair_step_params params = {.smooth_vertices = each,
+                                      .rotation_before = {0, 0, 0, 1},
+                                      .rotation_after = {0, 0, 0, 1},
+                                      .rotation_now = {0, 0, 0, 1}};
     hair_test_scatter(f->groom, 0.001f, 0, &random, vertices);
     glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *vertices,
@@ -42,9 +42,9 @@ static void smooth(struct fixture* f)
     f->samples = calloc(each * f->groom->info.guide_count, sizeof *f->samples);
     for (uint32_t g = 0; g < f->groom->info.guide_count; ++g) {
         static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide*            guide = &f->groom->guides[g];
+        const struct hair_guide* guide = &f->groom->guides[g];
         for (uint32_t i = 0; i < guide->count; ++i) {
-            hair_vec4 p  = vertices[guide->first + i].position;
+            hair_vec4 p = vertices[guide->first + i].position;
             in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
         }
         hair_reference_smooth((struct hair_reference_guide){guide, f->groom->rest + guide->first, &params},
@@ -55,9 +55,9 @@ static void smooth(struct fixture* f)
 static hair_solid solid_of(hair_shape shape, const float position[3], const float rotation[4], float radius)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = shape;
-    solid.size[0]    = radius;
-    solid.size[1]    = 0.1f;
+    solid.shape = shape;
+    solid.size[0] = radius;
+    solid.size[1] = 0.1f;
     memcpy(solid.position, position, sizeof solid.position);
     memcpy(solid.rotation, rotation, sizeof solid.rotation);
     return solid;
@@ -67,8 +67,8 @@ static hair_solid solid_of(hair_shape shape, const float position[3], const floa
 // guide; else those of many lie anywhere on the ball, and no follower of theirs is like a hair.
 static struct fixture start(void** state, int alone)
 {
-    struct fixture            f      = {.test = *state, .look = hair_look_default()};
-    hair_desc                 desc   = hair_desc_default();
+    struct fixture f = {.test = *state, .look = hair_look_default()};
+    hair_desc desc = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.fewest = 5, wanted.most = 30, wanted.guides = 26, wanted.followers = 400;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
@@ -103,7 +103,7 @@ static void find_point(const struct fixture* f, uint32_t number, double t,
 static double distance_to(const hair_solid* solid, const double p[3])
 {
     const float* q = solid->rotation;
-    double       x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
+    double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
     // The second column of the rotation: where its own y points.
     double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3], along = 0;
     double half = solid->shape == HAIR_SHAPE_CAPSULE ? (double)solid->size[1] : 0;
@@ -132,8 +132,8 @@ static double distance_to_all(const struct fixture* f, const double p[3])
 
 static float* read_followers(struct fixture* f, hair_collision collision)
 {
-    uint32_t count    = f->groom->info.follower_count * (f->look.segments + 1), there;
-    float*   vertices = malloc(3 * sizeof *vertices * count);
+    uint32_t count = f->groom->info.follower_count * (f->look.segments + 1), there;
+    float* vertices = malloc(3 * sizeof *vertices * count);
     f->look.collision = collision;
     hair_test_ok(f->test, hair_set_look(f->hair, &f->look));
     hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
@@ -163,15 +163,15 @@ static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
 static void the_first_vertex_inside_is_found(void** state)
 {
     static const uint32_t segments[] = {1, 2, 31, 64, 256};
-    struct fixture        f          = start(state, 0);
-    static float          hits[400];
+    struct fixture f = start(state, 0);
+    static float hits[400];
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         uint32_t found = 0, doubtful = 0;
         f.look.segments = segments[i];
         free(read_followers(&f, HAIR_COLLISION_PUSH));
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
-            double   nearest;
+            double nearest;
             uint32_t expected = find_hit(&f, n, &nearest);
             if (nearest < FIELD) {
                 ++doubtful;
@@ -194,19 +194,19 @@ static void the_first_vertex_inside_is_found(void** state)
 static void a_work_group_finds_the_same(void** state)
 {
     static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
-    static float          hits[400], others[400];
-    struct fixture        f        = start(state, 0);
-    int                   software = f.test->context->gl.software;
-    uint32_t              runs     = hair_test_runs_of(&f.test->context->gl, "interpolate/hit_group");
+    static float hits[400], others[400];
+    struct fixture f = start(state, 0);
+    int software = f.test->context->gl.software;
+    uint32_t runs = hair_test_runs_of(&f.test->context->gl, "interpolate/hit_group");
     for (size_t i = 0; i < 2 * sizeof segments / sizeof *segments; ++i) {
-        uint32_t       differ    = 0;
+        uint32_t differ = 0;
         hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
-        f.look.segments          = segments[i / 2];
-        float* before            = read_followers(&f, collision);
+        f.look.segments = segments[i / 2];
+        float* before = read_followers(&f, collision);
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         f.test->context->gl.software = !software;
-        f.hair->draw.hits.fresh      = 0; // Nothing is looked for twice.
-        float* after                 = read_followers(&f, collision);
+        f.hair->draw.hits.fresh = 0; // Nothing is looked for twice.
+        float* after = read_followers(&f, collision);
         f.test->context->gl.software = software;
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *others, others);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
@@ -226,23 +226,23 @@ static void a_work_group_finds_the_same(void** state)
 static void a_prepass_finds_the_same(void** state)
 {
     static const uint32_t segments[] = {1, 31, 64, 100};
-    static float          hits[400], others[400];
-    struct fixture        f       = start(state, 0);
-    hair_instance*        compute = f.hair;
-    hair_desc             desc    = hair_desc_default();
-    hair_instance*        prepass = NULL;
-    desc.field_voxel              = 0.001f;
-    desc.first_hit                = HAIR_FIRST_HIT_PREPASS;
+    static float hits[400], others[400];
+    struct fixture f = start(state, 0);
+    hair_instance* compute = f.hair;
+    hair_desc desc = hair_desc_default();
+    hair_instance* prepass = NULL;
+    desc.field_voxel = 0.001f;
+    desc.first_hit = HAIR_FIRST_HIT_PREPASS;
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &prepass));
     f.hair = prepass;
     free(f.samples);
     smooth(&f);
     hair_test_ok(f.test, hair_set_solids(prepass, f.solids, SOLIDS, sizeof *f.solids));
     for (int i = 0; i < 8; ++i) {
-        uint32_t       differ    = 0;
+        uint32_t differ = 0;
         hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
-        f.look.segments          = segments[i / 2];
-        f.hair                   = compute;
+        f.look.segments = segments[i / 2];
+        f.hair = compute;
         free(read_followers(&f, collision));
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         f.hair = prepass;
@@ -261,7 +261,7 @@ static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
                     const struct hair_reference_repair* repair, const float* vertices)
 {
     struct hair_reference_point expected;
-    size_t                      at = (size_t)number * (f->look.segments + 1) + k;
+    size_t at = (size_t)number * (f->look.segments + 1) + k;
     find_point(f, number, t, repair, &expected);
     for (int i = 0; i < 3; ++i)
         hair_test_near("coordinate", at, (double)vertices[3 * at + (size_t)i], expected.position[i],
@@ -270,10 +270,10 @@ static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
 
 static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
 {
-    struct fixture f        = start(state, 0);
-    float*         vertices = read_followers(&f, HAIR_COLLISION_SWITCH);
-    static float   hits[400];
-    uint32_t       switched = 0;
+    struct fixture f = start(state, 0);
+    float* vertices = read_followers(&f, HAIR_COLLISION_SWITCH);
+    static float hits[400];
+    uint32_t switched = 0;
     read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
         int hit = (double)hits[n] < HAIR_NO_HIT;
@@ -281,7 +281,7 @@ static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
         switched += hit;
         for (uint32_t k = 0; k <= f.look.segments; ++k) {
             struct hair_reference_repair repair;
-            double                       t = (double)k / f.look.segments;
+            double t = (double)k / f.look.segments;
             hair_reference_switch(t, (double)hits[n] / f.look.segments, &repair);
             compare(&f, n, k, t, hit ? &repair : NULL, vertices);
         }
@@ -294,29 +294,29 @@ static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
 static double from_half(uint16_t half)
 {
     double mantissa = half & 1023, sign = half >> 15 ? -1 : 1;
-    int    exponent = half >> 10 & 31;
+    int exponent = half >> 10 & 31;
     return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
 }
 
 static void what_leads_followers_round_solids_is_a_spline(void** state)
 {
     static const uint32_t segments[] = {7, 32, 100};
-    static float          hits[400];
-    static uint16_t       halves[400][HAIR_REPAIR_CONTROLS][4];
-    struct fixture        f = start(state, 0);
+    static float hits[400];
+    static uint16_t halves[400][HAIR_REPAIR_CONTROLS][4];
+    struct fixture f = start(state, 0);
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         f.look.segments = segments[i];
         float* vertices = read_followers(&f, HAIR_COLLISION_PUSH);
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         read_buffer(&f, f.hair->draw.hits.repair, sizeof *halves, halves);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
-            int    hit = (double)hits[n] < HAIR_NO_HIT;
+            int hit = (double)hits[n] < HAIR_NO_HIT;
             double controls[HAIR_REPAIR_CONTROLS][4];
             for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c)
                 for (int axis = 0; axis < 4; ++axis) controls[c][axis] = from_half(halves[n][c][axis]);
             for (uint32_t k = 0; k <= f.look.segments; ++k) {
                 struct hair_reference_repair repair;
-                double                       t = (double)k / f.look.segments;
+                double t = (double)k / f.look.segments;
                 if (hit) t *= 1 + controls[0][0];
                 hair_reference_spline(controls, t, &repair);
                 compare(&f, n, k, t, hit ? &repair : NULL, vertices);
@@ -334,7 +334,7 @@ struct strand {
 static struct strand measure(const struct fixture* f, const float* vertices, uint32_t number)
 {
     struct strand strand = {0};
-    const float*  p      = vertices + (size_t)number * (f->look.segments + 1) * 3;
+    const float* p = vertices + (size_t)number * (f->look.segments + 1) * 3;
     for (uint32_t k = 1; k <= f->look.segments; ++k) {
         double at[3] = {(double)p[3 * k], (double)p[3 * k + 1], (double)p[3 * k + 2]}, square = 0;
         for (uint32_t i = 0; i < 3; ++i) square += pow(at[i] - (double)p[3 * (k - 1) + i], 2);
@@ -347,14 +347,14 @@ static struct strand measure(const struct fixture* f, const float* vertices, uin
 // Strands whose roots are inside, or all but, have nowhere to go at once: they are not looked at.
 static void followers_pushed_out_of_solids_are_outside_and_as_long_as_before(void** state)
 {
-    struct fixture f      = start(state, 1);
-    float*         before = read_followers(&f, HAIR_COLLISION_NONE);
-    float*         after  = read_followers(&f, HAIR_COLLISION_PUSH);
-    uint32_t       inside = 0, left = 0;
-    double         deepest = 0, longest = 0;
+    struct fixture f = start(state, 1);
+    float* before = read_followers(&f, HAIR_COLLISION_NONE);
+    float* after = read_followers(&f, HAIR_COLLISION_PUSH);
+    uint32_t inside = 0, left = 0;
+    double deepest = 0, longest = 0;
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
-        const float*  p       = before + (size_t)n * (f.look.segments + 1) * 3;
-        double        root[3] = {(double)p[0], (double)p[1], (double)p[2]};
+        const float* p = before + (size_t)n * (f.look.segments + 1) * 3;
+        double root[3] = {(double)p[0], (double)p[1], (double)p[2]};
         struct strand a = measure(&f, before, n), b = measure(&f, after, n);
         if (distance_to_all(&f, root) < 0.01) continue;
         if (a.deepest == 0)
@@ -378,11 +378,11 @@ static void followers_pushed_out_of_solids_are_outside_and_as_long_as_before(voi
 // until its middle is past it pushes it out on the other side, and guides that are simulated are not there.
 static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
 {
-    struct fixture f      = start(state, 1);
-    float*         before = NULL;
-    double         worst  = 0;
-    size_t         each   = f.look.segments + 1;
-    float*         freely = read_followers(&f, HAIR_COLLISION_NONE);
+    struct fixture f = start(state, 1);
+    float* before = NULL;
+    double worst = 0;
+    size_t each = f.look.segments + 1;
+    float* freely = read_followers(&f, HAIR_COLLISION_NONE);
     for (int frame = 0; frame < 60; ++frame) {
         f.solids[0].position[0] = 0.25f - 0.002f * (float)frame;
         hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
@@ -405,15 +405,15 @@ static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
 
 static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** state)
 {
-    struct fixture f    = start(state, 0);
-    uint32_t       hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit"),
-             repairs    = hair_test_runs_of(&f.test->context->gl, "repair");
-    float* without      = read_followers(&f, HAIR_COLLISION_NONE);
+    struct fixture f = start(state, 0);
+    uint32_t hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit"),
+             repairs = hair_test_runs_of(&f.test->context->gl, "repair");
+    float* without = read_followers(&f, HAIR_COLLISION_NONE);
     hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, 0));
     float* none = read_followers(&f, HAIR_COLLISION_PUSH);
     for (int i = 0; i < SOLIDS; ++i) f.solids[i].position[1] += 3;
     hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
-    float* far  = read_followers(&f, HAIR_COLLISION_PUSH);
+    float* far = read_followers(&f, HAIR_COLLISION_PUSH);
     size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.segments + 1);
     assert_memory_equal(none, without, size);
     assert_memory_equal(far, without, size);
@@ -432,7 +432,7 @@ static void nothing_is_looked_for_twice(void** state)
     struct fixture f = start(state, 0);
     free(read_followers(&f, HAIR_COLLISION_PUSH));
     uint32_t count, hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit");
-    float    some[3];
+    float some[3];
     for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits);
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));

@@ -16,7 +16,7 @@
 static int way; // in which hair is simulated: main goes through all
 
 struct strands {
-    float    positions[3 * MOST];
+    float positions[3 * MOST];
     uint32_t vertices;
 };
 
@@ -42,7 +42,7 @@ static hair_groom* make_groom(struct hair_test* test)
 static hair_instance* make(struct hair_test* test, const hair_groom* groom)
 {
     hair_instance* hair = NULL;
-    hair_desc      desc = hair_test_way(way);
+    hair_desc desc = hair_test_way(way);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     return hair;
 }
@@ -67,9 +67,9 @@ static void swing(struct hair_test* test, hair_instance* hair, float x, int step
 static void a_new_instance_is_in_its_rest_pose(void** state)
 {
     static struct strands strands;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = make_groom(test);
-    hair_instance*        hair  = make(test, groom);
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
     read(test, hair, HAIR_READ_GUIDES, &strands);
     assert_int_equal(strands.vertices, groom->info.guide_vertex_count);
     for (uint32_t i = 0; i < strands.vertices; ++i) {
@@ -83,13 +83,13 @@ static void a_new_instance_is_in_its_rest_pose(void** state)
 
 static void a_reset_is_as_good_as_new(void** state)
 {
-    static struct strands       used, fresh;
+    static struct strands used, fresh;
     static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH};
-    struct hair_test*           test    = *state;
-    hair_groom*                 groom   = make_groom(test);
-    hair_instance*              hair    = make(test, groom);
-    hair_instance*              other   = make(test, groom);
-    float                       back[16];
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    hair_instance* other = make(test, groom);
+    float back[16];
     swing(test, hair, 0, 10);
     hair_test_ok(test, hair_step(hair, 0.003f));
     identity(back);
@@ -131,15 +131,15 @@ static void compare_in_heads(const struct strands* a, const float at_a[16], cons
 
 static void a_teleport_takes_shape_and_motion_along(void** state)
 {
-    static struct strands       before, after;
+    static struct strands before, after;
     static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
-    struct hair_test*           test    = *state;
-    hair_groom*                 groom   = make_groom(test);
-    hair_instance*              hair    = make(test, groom);
-    hair_instance*              other   = make(test, groom);
-    hair_look                   look    = hair_look_default();
-    hair_physics                still   = hair_physics_default();
-    float                       here[16], there[16];
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    hair_instance* other = make(test, groom);
+    hair_look look = hair_look_default();
+    hair_physics still = hair_physics_default();
+    float here[16], there[16];
     look.segments = 8;
     // Gravity has a direction of its own in the world; without it the world looks alike from everywhere.
     memset(still.gravity, 0, sizeof still.gravity);
@@ -170,10 +170,10 @@ static void a_teleport_takes_shape_and_motion_along(void** state)
 static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** state)
 {
     static struct strands strands;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = make_groom(test);
-    hair_instance*        hair  = make(test, groom);
-    float                 there[16];
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    float there[16];
     pose(0, 0.5f, 0, 0, there);
     hair_test_ok(test, hair_set_transform(hair, there));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
@@ -188,10 +188,10 @@ static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** sta
 static void strands_rest_on_a_solid_that_moves_into_them(void** state)
 {
     static struct strands strands;
-    struct hair_test*     test    = *state;
-    hair_groom*           groom   = make_groom(test);
-    hair_instance*        hair    = make(test, groom);
-    hair_physics          physics = hair_physics_default();
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    hair_physics physics = hair_physics_default();
     hair_test_ok(test, hair_set_physics(hair, &physics));
     for (int i = 0; i <= 60; ++i) {
         hair_solid solids[2] = {
@@ -200,7 +200,7 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
              {0.3f - 0.0025f * (float)i, 0.1f, 0},
              {0, 0, 0, 1},
              {0.04f, 0.1f},
-             .scale    = 1,
+             .scale = 1,
              .friction = 1}};
         hair_test_ok(test, hair_set_solids(hair, solids, 2, sizeof *solids));
         hair_test_ok(test, hair_step(hair, 1.0f / 60));
@@ -209,9 +209,9 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
     double touching = 0;
     for (uint32_t g = 0; g < groom->info.guide_count; ++g)
         for (uint32_t i = 2; i < groom->guides[g].count; ++i) {
-            const float* p         = strands.positions + 3 * (groom->guides[g].first + i);
-            float        y         = fminf(fmaxf(p[1], 0), 0.2f); // nearest height of the capsule's axis
-            double       from_axis = hypot(hypot(p[0] - 0.15, p[1] - y), p[2]);
+            const float* p = strands.positions + 3 * (groom->guides[g].first + i);
+            float y = fminf(fmaxf(p[1], 0), 0.2f); // nearest height of the capsule's axis
+            double from_axis = hypot(hypot(p[0] - 0.15, p[1] - y), p[2]);
             hair_test_near("inside the sphere", i, fmin(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), 0.091),
                            0.091, 1e-5);
             hair_test_near("inside the capsule", i, fmin(from_axis, 0.041), 0.041, 1e-5);
@@ -227,26 +227,26 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
 static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
 {
     static struct hair_state state[MOST];
-    double                   worst = 0;
+    double worst = 0;
     glGetNamedBufferSubData(hair->sim.state, 0, groom->info.guide_vertex_count * sizeof *state, state);
     for (uint32_t g = 0; g < groom->info.guide_count; ++g)
         for (uint32_t i = groom->guides[g].first; i + 1 < groom->guides[g].first + groom->guides[g].count;
              ++i) {
             hair_vec4 a = state[i].position, b = state[i + 1].position;
-            double    length = hair_distance(hair_v3(a.x, a.y, a.z), hair_v3(b.x, b.y, b.z));
-            worst            = fmax(worst, fabs(length / groom->rest[i].position.w - 1));
+            double length = hair_distance(hair_v3(a.x, a.y, a.z), hair_v3(b.x, b.y, b.z));
+            worst = fmax(worst, fabs(length / groom->rest[i].position.w - 1));
         }
     return worst;
 }
 
 static void far_from_the_origin_nothing_stretches_more(void** state)
 {
-    struct hair_test* test  = *state;
-    hair_groom*       groom = make_groom(test);
-    double            stretch[2];
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    double stretch[2];
     for (int far = 0; far < 2; ++far) {
         hair_instance* hair = make(test, groom);
-        float          there[16];
+        float there[16];
         pose(0, far ? 1e5f : 0, 0, 0, there);
         hair_test_ok(test, hair_teleport(hair, there));
         swing(test, hair, far ? 1e5f : 0, 60);
@@ -263,15 +263,15 @@ static void far_from_the_origin_nothing_stretches_more(void** state)
 static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
 {
     static struct hair_state near[MOST], far[MOST];
-    struct hair_test*        test  = *state;
-    hair_groom*              groom = make_groom(test);
-    size_t                   size  = groom->info.guide_vertex_count * sizeof *near;
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    size_t size = groom->info.guide_vertex_count * sizeof *near;
     for (int out = 0; out < 2; ++out) {
-        hair_instance* hair  = NULL;
-        hair_desc      desc  = hair_test_way(way);
-        hair_solid     solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0},
-                                .scale = 1,        .friction = 1};
-        desc.transform[12]   = out ? 1e5f : 0;
+        hair_instance* hair = NULL;
+        hair_desc desc = hair_test_way(way);
+        hair_solid solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0},
+                            .scale = 1,        .friction = 1};
+        desc.transform[12] = out ? 1e5f : 0;
         hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
         hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
         for (int i = 0; i < 30; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 60));
@@ -289,8 +289,8 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
     view.primitive = HAIR_LINES; // Ribbons are much narrower than these pixels.
     // 0.8 m wide around the head, seen along -z.
     view.projection[0] = view.projection[5] = 2.5f;
-    view.projection[10]                     = -0.5f;
-    view.projection[13]                     = -0.3f;
+    view.projection[10] = -0.5f;
+    view.projection[13] = -0.3f;
     hair_test_frame_clear(frame);
     hair_test_ok(test, hair_draw(hair, &view));
     hair_test_frame_read(frame, pixels);
@@ -300,13 +300,13 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
 
 static void instances_beside_each_other_are_as_if_alone(void** state)
 {
-    static struct strands  alone[2], beside[2];
-    static float           seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
-    struct hair_test*      test  = *state;
-    hair_groom*            groom = make_groom(test);
-    hair_solid             solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                                    {0.05f, 0},        .scale = 1,      .friction = 1};
-    hair_instance*         hair[2];
+    static struct strands alone[2], beside[2];
+    static float seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                        {0.05f, 0},        .scale = 1,      .friction = 1};
+    hair_instance* hair[2];
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 2; ++i) {
@@ -342,10 +342,10 @@ static void instances_beside_each_other_are_as_if_alone(void** state)
 static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
 {
     static struct strands kept, gone;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = make_groom(test);
-    hair_instance*        hair  = make(test, groom);
-    hair_instance*        other = make(test, groom);
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    hair_instance* other = make(test, groom);
     swing(test, hair, 0, 5);
     hair_groom_destroy(groom);
     swing(test, other, 0, 5);
@@ -360,21 +360,21 @@ static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
 static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
 {
     static struct strands strands;
-    struct hair_test*     test   = *state;
-    hair_groom*           groom  = make_groom(test);
-    hair_instance*        hair   = make(test, groom);
-    uint32_t              random = 7;
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    uint32_t random = 7;
     for (int i = 0; i < 100; ++i) {
         hair_physics physics = hair_physics_default();
-        float        there[16], far = powf(10, 8 * hair_random(&random) - 2);
+        float there[16], far = powf(10, 8 * hair_random(&random) - 2);
         pose(6.28f * hair_random(&random), far, -far, 0, there);
         for (int k = 0; k < 3; ++k) physics.gravity[k] = 2000 * hair_random(&random) - 1000;
         physics.damping = 1000 * hair_random(&random), physics.pull_root = 30 * hair_random(&random);
         physics.angular = 30 * hair_random(&random), physics.bend = hair_random(&random);
         physics.iterations = 1 + (uint32_t)(40 * hair_random(&random));
-        hair_solid solid   = {HAIR_SHAPE_CAPSULE, {far, -far, 0},
-                              {0, 0, 0, 1},       {1e-3f + 10 * hair_random(&random), far},
-                              .scale = 1,         .friction = 1};
+        hair_solid solid = {HAIR_SHAPE_CAPSULE, {far, -far, 0},
+                            {0, 0, 0, 1},       {1e-3f + 10 * hair_random(&random), far},
+                            .scale = 1,         .friction = 1};
         hair_test_ok(test, hair_set_physics(hair, &physics));
         hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)i % 2, sizeof solid));
         hair_test_ok(test, i % 7 ? hair_set_transform(hair, there) : hair_teleport(hair, there));
@@ -392,10 +392,10 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
 static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** state)
 {
     static struct strands strands;
-    struct hair_test*     test  = *state;
-    hair_groom*           groom = make_groom(test);
-    hair_instance*        hair  = make(test, groom);
-    const float           far[] = {1e6f, 0, 1e9f, -1e9f, 0};
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    const float far[] = {1e6f, 0, 1e9f, -1e9f, 0};
     for (size_t i = 0; i < sizeof far / sizeof *far; ++i) {
         float there[16];
         pose(0, 0, far[i], 0, there);
@@ -415,10 +415,10 @@ static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** 
 static void a_step_shorter_than_rounding_moves_no_solid_too_far(void** state)
 {
     static struct strands before, after;
-    struct hair_test*     test    = *state;
-    hair_groom*           groom   = make_groom(test);
-    hair_instance*        hair    = make(test, groom);
-    hair_physics          physics = hair_physics_default();
+    struct hair_test* test = *state;
+    hair_groom* groom = make_groom(test);
+    hair_instance* hair = make(test, groom);
+    hair_physics physics = hair_physics_default();
     memset(physics.gravity, 0, sizeof physics.gravity);
     hair_test_ok(test, hair_set_physics(hair, &physics));
     hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}, .scale = 1, .friction = 1};

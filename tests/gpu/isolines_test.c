@@ -23,7 +23,7 @@ struct vertex {
 static struct {
     void(APIENTRY* patches)(GLenum, GLint, GLsizei, GLsizei);
     void(APIENTRY* listed)(GLenum, GLenum, const void*, GLsizei, GLsizei);
-    GLuint   feedback, buffer, queries[2];
+    GLuint feedback, buffer, queries[2];
     GLintptr at; // bytes captured so far
     uint64_t generated, draws;
 } capture;
@@ -75,8 +75,8 @@ static void APIENTRY capture_listed(GLenum mode, GLenum type, const void* comman
 
 struct drawn {
     struct vertex* vertices; // two a segment, in the order drawn
-    size_t         segments;
-    uint64_t       generated, draws;
+    size_t segments;
+    uint64_t generated, draws;
 };
 
 #define FIBRES_LINES (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(LINES))
@@ -86,16 +86,16 @@ struct drawn {
 // What makes lines, and the same without pixels: without and with solids in reach.
 static const struct {
     hair_gl_pass pass[2];
-    const char*  stages[2];
+    const char* stages[2];
 } paths[] = {
     [HAIR_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
                                  HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
                                 {"draw/patch.vert draw/patch.tesc draw/strand.tese",
                                  "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
-    [HAIR_PATH_INSTANCED]    = {{HAIR_GL_INSTANCED | FIBRES_LINES, HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
-                                {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_PATH_EXPANDED]     = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
-                                {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
+    [HAIR_PATH_INSTANCED] = {{HAIR_GL_INSTANCED | FIBRES_LINES, HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
+                             {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
+    [HAIR_PATH_EXPANDED] = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
+                            {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
 };
 
 #define PATHS (sizeof paths / sizeof *paths)
@@ -105,16 +105,16 @@ static const struct {
 static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_path path,
                              size_t most_segments, int hits, const hair_lod* lod)
 {
-    struct hair_gl*         gl    = &test->context->gl;
-    hair_gl_pass            pass  = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
-    struct hair_gl_program* own   = hair_gl_know(gl, pass);
-    GLuint                  whole = own->program, program = 0;
-    char                    stages[128];
+    struct hair_gl* gl = &test->context->gl;
+    hair_gl_pass pass = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
+    struct hair_gl_program* own = hair_gl_know(gl, pass);
+    GLuint whole = own->program, program = 0;
+    char stages[128];
     snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[path].stages[hits]);
     hair_test_ok(test, hair_gl_link(gl, "capture", stages, "strand_position", &program));
     memset(&capture, 0, sizeof capture);
     capture.patches = gl->DrawArraysInstanced;
-    capture.listed  = gl->MultiDrawElementsIndirect;
+    capture.listed = gl->MultiDrawElementsIndirect;
     glCreateTransformFeedbacks(1, &capture.feedback);
     glCreateBuffers(1, &capture.buffer);
     // Room for more than is right, so that too much is seen too.
@@ -123,24 +123,24 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
 
     struct hair_test_frame frame; // Without one every draw fails.
     hair_test_frame_make(&frame, 4, 4, GL_RGBA8, 0);
-    own->program                  = program;
-    gl->DrawArraysInstanced       = capture_patches;
+    own->program = program;
+    gl->DrawArraysInstanced = capture_patches;
     gl->MultiDrawElementsIndirect = capture_listed;
-    hair_view view                = hair_view_default();
-    view.path                     = path;
-    view.lod                      = lod;
-    view.primitive                = HAIR_LINES;
-    hair_result result            = hair_draw(hair, &view);
-    own->program                  = whole;
-    gl->DrawArraysInstanced       = capture.patches;
+    hair_view view = hair_view_default();
+    view.path = path;
+    view.lod = lod;
+    view.primitive = HAIR_LINES;
+    hair_result result = hair_draw(hair, &view);
+    own->program = whole;
+    gl->DrawArraysInstanced = capture.patches;
     gl->MultiDrawElementsIndirect = capture.listed;
     hair_test_frame_free(&frame);
     hair_test_ok(test, result);
 
-    struct drawn drawn = {.segments  = (size_t)capture.at / (2 * sizeof(struct vertex)),
+    struct drawn drawn = {.segments = (size_t)capture.at / (2 * sizeof(struct vertex)),
                           .generated = capture.generated,
-                          .draws     = capture.draws};
-    drawn.vertices     = malloc((size_t)capture.at + 1);
+                          .draws = capture.draws};
+    drawn.vertices = malloc((size_t)capture.at + 1);
     glGetNamedBufferSubData(capture.buffer, 0, capture.at, drawn.vertices);
     glDeleteBuffers(1, &capture.buffer);
     glDeleteTransformFeedbacks(1, &capture.feedback);
@@ -158,9 +158,9 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_path 
 static hair_look look_of(uint32_t segments)
 {
     hair_look look = hair_look_default();
-    look.segments  = segments;
-    look.radius    = 0.001f;
-    look.taper     = hair_curve_line(1, 1);
+    look.segments = segments;
+    look.radius = 0.001f;
+    look.taper = hair_curve_line(1, 1);
     return look;
 }
 
@@ -171,7 +171,7 @@ static long follower_of(const struct vertex* vertex)
 
 struct segment {
     struct vertex ends[2];
-    size_t        at;
+    size_t at;
 };
 
 static int by_follower(const void* a, const void* b)
@@ -220,11 +220,11 @@ static uint32_t find_segment(const struct vertex* drawn, const float* follower, 
 static void check_every_segment(const struct drawn* drawn, const float* expected, uint32_t followers,
                                 uint32_t segments)
 {
-    uint8_t* seen  = calloc((size_t)followers * segments, 1);
+    uint8_t* seen = calloc((size_t)followers * segments, 1);
     uint32_t guess = 0;
     for (size_t i = 0; i < drawn->segments; ++i) {
         const struct vertex* vertices = drawn->vertices + 2 * i;
-        long                 follower = follower_of(&vertices[0]);
+        long follower = follower_of(&vertices[0]);
         assert_in_range(follower, 0, followers - 1);
         assert_int_equal(follower_of(&vertices[1]), follower); // No segment runs from one strand to another.
         uint32_t s =
@@ -247,22 +247,22 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
                           hair_collision collision)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.followers                 = followers;
-    wanted.each                      = isolines;
-    hair_groom*    groom             = hair_test_groom(&test->host.host, wanted);
-    hair_look      look              = look_of(segments);
-    hair_desc      desc              = hair_desc_default();
-    hair_instance* hair              = NULL;
-    desc.look                        = &look;
-    look.collision                   = collision;
-    hair_solid solid                 = hair_solid_default();
-    solid.position[0]                = 0.15f;
-    solid.size[0]                    = 0.06f;
+    wanted.followers = followers;
+    wanted.each = isolines;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+    hair_look look = look_of(segments);
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    desc.look = &look;
+    look.collision = collision;
+    hair_solid solid = hair_solid_default();
+    solid.position[0] = 0.15f;
+    solid.size[0] = 0.06f;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
 
-    uint32_t count    = followers * (segments + 1);
-    float*   expected = malloc(3 * sizeof *expected * count);
+    uint32_t count = followers * (segments + 1);
+    float* expected = malloc(3 * sizeof *expected * count);
     hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
     assert_int_equal(count, followers * (segments + 1));
 
@@ -314,22 +314,22 @@ static void the_most_segments_are_drawn_whole(void** state)
 // As one draw these would be of just under, just over and twice 65,536 vertices.
 static void the_65536th_vertex_is_no_boundary(void** state)
 {
-    check(*state, 1985, 64, 32);  // 65,505
-    check(*state, 1986, 64, 32);  // 65,538
-    check(*state, 1008, 64, 64);  // 65,520
-    check(*state, 1009, 64, 64);  // 65,585
-    check(*state, 2048, 1, 31);   // 65,536
-    check(*state, 32768, 64, 1);  // 65,536
-    check(*state, 4100, 64, 32);  // 135,300
+    check(*state, 1985, 64, 32); // 65,505
+    check(*state, 1986, 64, 32); // 65,538
+    check(*state, 1008, 64, 64); // 65,520
+    check(*state, 1009, 64, 64); // 65,585
+    check(*state, 2048, 1, 31); // 65,536
+    check(*state, 32768, 64, 1); // 65,536
+    check(*state, 4100, 64, 32); // 135,300
     check(*state, 1025, 64, 128); // beyond, in each of two parts
 }
 
 // The self-test of context creation finds the fault: with its finding put aside, strands go missing.
 static void a_driver_that_loses_strands_is_found_out(void** state)
 {
-    struct hair_test* test     = *state;
-    const char*       renderer = (const char*)glGetString(GL_RENDERER);
-    const char*       version  = (const char*)glGetString(GL_VERSION);
+    struct hair_test* test = *state;
+    const char* renderer = (const char*)glGetString(GL_RENDERER);
+    const char* version = (const char*)glGetString(GL_VERSION);
     if (!strstr(renderer, "llvmpipe") || !strstr(version, "Mesa 22.3")) skip();
     assert_in_range(test->context->gl.max_draw_vertices, 1, 65535);
     assert_int_equal(test->context->gl.lines_level, 0);
@@ -338,14 +338,14 @@ static void a_driver_that_loses_strands_is_found_out(void** state)
 static size_t count_drawn(struct hair_test* test, hair_path path, float density, uint32_t segments)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.followers                 = 1000;
-    wanted.each                      = 64;
-    hair_groom*    groom             = hair_test_groom(&test->host.host, wanted);
-    hair_look      look              = look_of(segments);
-    hair_desc      desc              = hair_desc_default();
-    hair_instance* hair              = NULL;
-    look.density                     = density;
-    desc.look                        = &look;
+    wanted.followers = 1000;
+    wanted.each = 64;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+    hair_look look = look_of(segments);
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    look.density = density;
+    desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     struct drawn drawn = draw(test, hair, path, (size_t)1000 * segments, 0);
     assert_int_equal(drawn.generated, drawn.segments);
@@ -376,13 +376,13 @@ static void density_is_the_share_of_followers_drawn(void** state)
 
 static void a_patch_of_no_density_draws_nothing(void** state)
 {
-    struct hair_test*         test   = *state;
+    struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.density                   = 0;
-    hair_groom*    groom             = hair_test_groom(&test->host.host, wanted);
-    hair_desc      desc              = hair_desc_default();
-    hair_instance* hair              = NULL;
-    groom->patches[1].density        = 1;
+    wanted.density = 0;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    groom->patches[1].density = 1;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (hair_path path = 0; path < PATHS; ++path) {
         struct drawn drawn = draw(test, hair, path, 64 * 32, 0);
@@ -396,31 +396,31 @@ static void a_patch_of_no_density_draws_nothing(void** state)
 // Two sets: of one the first patch grows, of the other the second, twice as thick.
 static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
 {
-    struct hair_test*         test   = *state;
+    struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.followers                 = 64;
-    wanted.each                      = 32;
-    hair_groom*    groom             = hair_test_groom(&test->host.host, wanted);
-    hair_look      look              = look_of(4);
-    hair_desc      desc              = hair_desc_default();
-    hair_instance* hair              = NULL;
-    groom->map_sets                  = 2;
-    groom->patches[0].map_density    = (hair_vec4){1, 0, 0, 0};
-    groom->patches[1].map_density    = (hair_vec4){0, 1, 1, 1};
-    groom->patches[1].map_thickness  = (hair_vec4){1, 2, 2, 2};
-    desc.look                        = &look;
+    wanted.followers = 64;
+    wanted.each = 32;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+    hair_look look = look_of(4);
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    groom->map_sets = 2;
+    groom->patches[0].map_density = (hair_vec4){1, 0, 0, 0};
+    groom->patches[1].map_density = (hair_vec4){0, 1, 1, 1};
+    groom->patches[1].map_thickness = (hair_vec4){1, 2, 2, 2};
+    desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < 7 * PATHS; ++i) {
         float set = 0.25f * (float)(i % 7), blend = fminf(set, 1); // Beyond the last set there is no other.
         look.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
         struct drawn drawn = draw(test, hair, (hair_path)(i / 7), (size_t)64 * 4, 0);
-        size_t       first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
+        size_t first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
         assert_int_equal(drawn.segments, 4 * (first + second));
         sort_strands(&drawn);
         for (size_t k = 0; k < drawn.segments; ++k) {
             double radius = (double)drawn.vertices[2 * k].radius / 0.001;
-            double own    = 1 + (double)(k / 4 < first ? k / 4 : 32 + k / 4 - first) / 65536;
+            double own = 1 + (double)(k / 4 < first ? k / 4 : 32 + k / 4 - first) / 65536;
             hair_test_near("radius", k, radius, (k / 4 < first ? 1 : 1 + (double)blend) * own, 1e-5);
         }
         free(drawn.vertices);
@@ -432,26 +432,26 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
 // Strands whose segments are no whole number of those of the look. Where there is no tessellator some have no length.
 static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
 {
-    static const float        shares[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};
-    struct hair_test*         test     = *state;
-    struct hair_test_handmade wanted   = hair_test_handmade_default();
-    wanted.followers                   = 200;
-    hair_groom*    groom               = hair_test_groom(&test->host.host, wanted);
-    hair_look      look                = look_of(32);
-    hair_desc      desc                = hair_desc_default();
-    hair_lod       lod                 = hair_lod_default();
-    hair_instance* hair                = NULL;
-    desc.look                          = &look;
-    lod.dynamic                        = 0;
+    static const float shares[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};
+    struct hair_test* test = *state;
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    wanted.followers = 200;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
+    hair_look look = look_of(32);
+    hair_desc desc = hair_desc_default();
+    hair_lod lod = hair_lod_default();
+    hair_instance* hair = NULL;
+    desc.look = &look;
+    lod.dynamic = 0;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < sizeof shares / sizeof *shares; ++i) {
-        lod.segments             = shares[i];
+        lod.segments = shares[i];
         struct drawn tessellated = draw_lod(test, hair, HAIR_PATH_TESSELLATION, 200 * 32, 0, &lod);
         assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * shares[i]));
         sort_strands(&tessellated);
         struct drawn drawn = draw_lod(test, hair, HAIR_PATH_INSTANCED, 200 * 64, 0, &lod);
-        double       worst = 0;
-        size_t       at    = 0;
+        double worst = 0;
+        size_t at = 0;
         sort_strands(&drawn);
         for (size_t k = 0; k < 2 * drawn.segments; k += 2) {
             const struct vertex *a = &drawn.vertices[k], *b = &tessellated.vertices[at];

@@ -11,8 +11,8 @@
 struct member {
     const char* owner;
     const char* name; // as GLSL's interface query says it: of an array of structs, a member of its element
-    size_t      offset, size;
-    GLenum      type;
+    size_t offset, size;
+    GLenum type;
 };
 
 // clang-format off
@@ -393,7 +393,7 @@ static const struct member members[] = {
 
 static const struct {
     const char* name;
-    size_t      size;
+    size_t size;
 } structs[] = {
 #define STRUCT(S)                                                                                            \
     {                                                                                                        \
@@ -427,9 +427,9 @@ static GLuint link_program(const hair_host* host, const char* name)
              "layout(std140, binding = 0) uniform uniform_block { %s uniforms[2]; };\n"
              "void main() { storage[0] = uniforms[1]; }\n",
              name, name);
-    const char* text[]  = {"#version 450 core\n", shared.text, blocks};
-    GLuint      program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
-    GLint       linked;
+    const char* text[] = {"#version 450 core\n", shared.text, blocks};
+    GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    GLint linked;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
     if (!linked) {
         char message[1024];
@@ -457,7 +457,7 @@ static void compare(GLuint program, GLenum interface, const char* array, size_t 
         snprintf(name, sizeof name, "%s[%zu].%s", array, i, member->name);
         GLuint index = glGetProgramResourceIndex(program, interface, name);
         // Arrays of vectors are one resource, named by its first element; the others follow at its stride.
-        char*  bracket = strrchr(name, '[');
+        char* bracket = strrchr(name, '[');
         size_t element = 0;
         if (index == GL_INVALID_INDEX && bracket && name[strlen(name) - 1] == ']') {
             element = (size_t)atoi(bracket + 1);
@@ -495,7 +495,7 @@ static void the_stride_of_every_struct_is_its_size_in_c(void** state)
     struct hair_test* test = *state;
     for (size_t s = 0; s < STRUCTS; ++s) {
         GLuint program = link_program(&test->host.host, structs[s].name);
-        GLint  count;
+        GLint count;
         glGetProgramInterfaceiv(program, GL_BUFFER_VARIABLE, GL_ACTIVE_RESOURCES, &count);
         assert_true(count > 0);
         for (GLint i = 0; i < count; ++i)
@@ -515,7 +515,7 @@ static void no_member_is_forgotten(void** state)
         for (size_t m = 0; m < MEMBERS; ++m) {
             if (strcmp(members[m].owner, structs[s].name)) continue;
             const char* bracket = strchr(members[m].name, '[');
-            int         further = strchr(members[m].name, '.') || (bracket && atoi(bracket + 1) > 0);
+            int further = strchr(members[m].name, '.') || (bracket && atoi(bracket + 1) > 0);
             if (!further && members[m].offset != end)
                 fail_msg("%s.%s begins at %zu, %zu are named before it", members[m].owner, members[m].name,
                          members[m].offset, end);
@@ -534,9 +534,9 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
     struct hair_test* test = *state;
     static const struct {
         hair_gl_pass pass;
-        GLenum       interface;
-        const char*  block;
-        GLint        binding, size;
+        GLenum interface;
+        const char* block;
+        GLint binding, size;
     } uses[] = {
 #define STEP(pass) {pass, GL_UNIFORM_BLOCK, "step_buffer", HAIR_BIND_STEP, sizeof(struct hair_step_params)}
 #define DRAW(pass)                                                                                           \
@@ -614,7 +614,7 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         hair_test_ok(test, hair_gl_need(&test->context->gl, uses[i].pass));
         GLuint program = hair_test_program(&test->context->gl, uses[i].pass);
-        GLuint block   = glGetProgramResourceIndex(program, uses[i].interface, uses[i].block);
+        GLuint block = glGetProgramResourceIndex(program, uses[i].interface, uses[i].block);
         if (block == GL_INVALID_INDEX)
             fail_msg("%s has no %s", hair_gl_row_label(uses[i].pass), uses[i].block);
         assert_int_equal(ask(program, uses[i].interface, block, GL_BUFFER_BINDING), uses[i].binding);
@@ -653,8 +653,8 @@ static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** sta
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | SOLIDS,
                                           HAIR_GL_MIXED_SOLVER | THREAD | SOLIDS};
-    static const int        most[] = {3, 3, 3, 2}; // sizes that a GPU has memory for: see lib/sim/programs.c
-    const struct hair_test* test   = *state;
+    static const int most[] = {3, 3, 3, 2}; // sizes that a GPU has memory for: see lib/sim/programs.c
+    const struct hair_test* test = *state;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (int size = 0; size < (test->context->gl.software ? 4 : most[i]); ++size)
             assert_int_equal(threads_of(*state, groups[i] | HAIR_GL_SIZE(size)), 8);

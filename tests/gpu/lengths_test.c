@@ -18,8 +18,8 @@ static const uint32_t lengths[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // All but those that would differ from one of these in nothing that is tested here.
@@ -43,20 +43,20 @@ static hair_vec3 wave(float t, uint32_t strand, const void* user)
 // Full strands, half of them with more vertices than any guide may have, the others with 8 to 13.
 static struct fixture start_in(void** state, hair_context* context, uint32_t guide_vertices, int way)
 {
-    struct fixture           f       = {.test = *state};
+    struct fixture f = {.test = *state};
     struct hair_test_strands strands = hair_test_strands_make(STRANDS, 300);
     for (uint32_t i = 0; i < STRANDS; ++i)
         hair_test_strands_add(&strands, i % 2 ? 300 : 8 + i / 10, wave, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&f.test->host, &strands);
-    desc.guide_vertices  = guide_vertices;
-    desc.guide_count     = 12;
+    desc.guide_vertices = guide_vertices;
+    desc.guide_count = 12;
     hair_test_ok(f.test, hair_groom_create(&desc, &f.groom));
     hair_test_strands_free(&strands);
 
     hair_desc instance = hair_test_way(way);
-    hair_look look     = hair_look_default();
+    hair_look look = hair_look_default();
     look.tip_strays = look.strays = 0;
-    instance.look                 = &look;
+    instance.look = &look;
     hair_test_ok(f.test, hair_create(context, f.groom, &instance, &f.hair));
     return f;
 }
@@ -88,7 +88,7 @@ static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
-        float*         p;
+        float* p;
         assert_int_equal(f.groom->most_vertices, lengths[i]);
         assert_int_equal(read(&f, HAIR_READ_SMOOTH, &p), f.groom->info.guide_count * (2 * lengths[i] - 1));
         free(p);
@@ -104,13 +104,13 @@ static void followers_at_rest_are_where_they_were_fitted(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
-        float*         p;
-        uint32_t       each  = read(&f, HAIR_READ_FOLLOWERS, &p) / STRANDS;
-        double         worst = 0;
+        float* p;
+        uint32_t each = read(&f, HAIR_READ_FOLLOWERS, &p) / STRANDS;
+        double worst = 0;
         for (uint32_t k = 0; k < STRANDS * each; ++k) {
             hair_vec3 fitted = hair_test_single(f.groom, &f.groom->followers[k / each],
                                                 (float)(k % each) / (float)(each - 1));
-            worst            = fmax(worst, (double)hair_distance(hair_load3(p + 3 * k), fitted));
+            worst = fmax(worst, (double)hair_distance(hair_load3(p + 3 * k), fitted));
         }
         print_message("    %u vertices: off by up to %.2g m\n", lengths[i], worst);
         assert_true(worst < 1e-5);
@@ -129,8 +129,8 @@ static void check_sizes(void** state, hair_context* context, int way)
                                                          HAIR_GL_MIXED_SOLVER, HAIR_GL_MIXED_SOLVER | THREAD,
                                                          HAIR_GL_FOLLOW,       HAIR_GL_FOLLOW | THREAD,
                                                          HAIR_GL_REDBLACK};
-    const struct hair_gl*     gl                      = &context->gl;
-    uint32_t                  runs[2][4] = {{0}}, smoothed[4] = {0};
+    const struct hair_gl* gl = &context->gl;
+    uint32_t runs[2][4] = {{0}}, smoothed[4] = {0};
     for (size_t i = 0; i < LENGTHS; ++i) {
         if (!is_tried(way, lengths[i])) continue;
         struct fixture f = start_in(state, context, lengths[i], way);
@@ -158,12 +158,12 @@ static void check_sizes(void** state, hair_context* context, int way)
 
 static void on_hardware_work_groups_have_the_longest_guides(void** state)
 {
-    struct hair_test* test     = *state;
-    struct hair_gl*   gl       = &test->context->gl;
-    int               software = gl->software, thread_way = 5;
+    struct hair_test* test = *state;
+    struct hair_gl* gl = &test->context->gl;
+    int software = gl->software, thread_way = 5;
     for (int hardware = 0; hardware < 2; ++hardware)
         for (uint32_t vertices = 128; vertices <= 129; ++vertices) {
-            gl->software     = !hardware;
+            gl->software = !hardware;
             struct fixture f = start(state, vertices, thread_way);
             assert_int_equal(f.hair->sim.by_thread, !hardware || vertices == 128);
             finish(&f);
@@ -175,11 +175,11 @@ static void one_size_of_work_group_runs(void** state)
 {
     struct hair_test* test = *state;
     for (size_t n = 0; n < WAYS; ++n) {
-        hair_context*     context = NULL;
-        hair_context_desc of      = hair_context_desc_default();
-        of.host                   = &test->host.host;
-        of.get_proc               = hair_egl_get_proc;
-        of.timings                = 1;
+        hair_context* context = NULL;
+        hair_context_desc of = hair_context_desc_default();
+        of.host = &test->host.host;
+        of.get_proc = hair_egl_get_proc;
+        of.timings = 1;
         hair_test_ok(test, hair_context_create(&of, &context));
         check_sizes(state, context, ways[n]);
         hair_context_destroy(context);
@@ -200,9 +200,9 @@ static double greatest_stretch(const struct fixture* f, const float* p)
     double worst = 0;
     for (uint32_t g = 0; g < f->groom->info.guide_count; ++g)
         for (uint32_t i = 0; i + 1 < f->groom->guides[g].count; ++i) {
-            uint32_t at     = f->groom->guides[g].first + i;
-            double   length = (double)hair_distance(hair_load3(p + 3 * at), hair_load3(p + 3 * at + 3));
-            worst           = fmax(worst, fabs(length / (double)f->groom->rest[at].position.w - 1));
+            uint32_t at = f->groom->guides[g].first + i;
+            double length = (double)hair_distance(hair_load3(p + 3 * at), hair_load3(p + 3 * at + 3));
+            worst = fmax(worst, fabs(length / (double)f->groom->rest[at].position.w - 1));
         }
     return worst;
 }
@@ -212,7 +212,7 @@ static double greatest_stretch(const struct fixture* f, const float* p)
 // of its length no segment of a rod is left to stretch.
 static void check_motion(struct fixture* f, uint32_t vertices)
 {
-    float *  before, *after, transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    float *before, *after, transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     uint32_t count = read(f, HAIR_READ_GUIDES, &before);
     for (int k = 30; k >= 0; --k) {
         transform[12] = 0.03f * sinf(0.2f * (float)k);
@@ -222,8 +222,8 @@ static void check_motion(struct fixture* f, uint32_t vertices)
     read(f, HAIR_READ_GUIDES, &after);
     double moved = farthest(before, after, count), stretch = greatest_stretch(f, after);
     print_message("    %u vertices: moved by up to %.2g m, stretched by %.2g\n", vertices, moved, stretch);
-    int    redblack = f->hair->sim.solver == HAIR_SOLVER_REDBLACK;
-    double most     = f->hair->sim.solver == HAIR_SOLVER_FOLLOW ? 0.8 : 0.3;
+    int redblack = f->hair->sim.solver == HAIR_SOLVER_REDBLACK;
+    double most = f->hair->sim.solver == HAIR_SOLVER_FOLLOW ? 0.8 : 0.3;
     if (vertices == 2 && redblack)
         assert_true(moved < 1e-6);
     else
@@ -259,13 +259,13 @@ static uint32_t count_lit(const float* pixels)
 
 static void strands_and_guides_of_every_length_are_drawn(void** state)
 {
-    static float           pixels[4 * SIDE * SIDE];
+    static float pixels[4 * SIDE * SIDE];
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (size_t i = 0; i < LENGTHS; ++i) {
-        struct fixture f    = start(state, lengths[i], 0);
-        hair_view      view = hair_view_default();
-        view.primitive      = HAIR_LINES;
+        struct fixture f = start(state, lengths[i], 0);
+        hair_view view = hair_view_default();
+        view.primitive = HAIR_LINES;
         // Orthographic, 0.6 m wide, around the middle of the hair.
         float to_clip[16] = {3.3f, 0, 0, 0, 0, 3.3f, 0, 0, 0, 0, -1, 0, 0, 0.5f, 0, 1};
         memcpy(view.projection, to_clip, sizeof to_clip);

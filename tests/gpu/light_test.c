@@ -13,29 +13,29 @@
 #define VALUES (4 * SIZE * SIZE)
 
 struct fixture {
-    struct hair_test*      test;
-    hair_groom*            groom;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    hair_view              view;
-    hair_light             light[16];
+    hair_view view;
+    hair_light light[16];
 };
 
 static struct fixture start(void** state, hair_shading shading)
 {
-    struct fixture            f      = {.test = *state, .view = hair_view_default()};
+    struct fixture f = {.test = *state, .view = hair_view_default()};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
     look.shading = shading, look.segments = 8, look.radius = 0.002f;
     look.roughness[0] = look.roughness[1] = 0.05f; // The sharpest lobes.
-    desc.look                             = &look;
-    f.groom                               = hair_test_groom(&f.test->host.host, wanted);
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     // Straight down -z at a square of 0.6 m.
     f.view.projection[0] = f.view.projection[5] = 1 / 0.3f;
-    f.view.projection[10]                       = -1;
+    f.view.projection[10] = -1;
     for (int i = 0; i < 16; ++i) f.light[i] = hair_light_default();
     f.view.light_count = 0;
     for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0;
@@ -51,7 +51,7 @@ static void finish(struct fixture* f)
 
 static void draw(struct fixture* f, uint32_t lights, float pixels[VALUES])
 {
-    f->view.lights      = f->light;
+    f->view.lights = f->light;
     f->view.light_count = lights;
     hair_test_frame_clear(&f->frame);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
@@ -68,8 +68,8 @@ static double sum_of(const float pixels[VALUES])
 static void without_light_hair_is_black_and_there(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
-    static float   pixels[VALUES];
-    double         covered = 0;
+    static float pixels[VALUES];
+    double covered = 0;
     draw(&f, 0, pixels);
     for (int i = 3; i < VALUES; i += 4) covered += (double)pixels[i];
     print_message("    %g pixels\n", covered);
@@ -81,12 +81,12 @@ static void without_light_hair_is_black_and_there(void** state)
 static void lights_add_up(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
-    static float   alone[3][VALUES], together[VALUES];
-    f.light[0].to[0]       = -1;
-    f.light[1].kind        = HAIR_LIGHT_POINT;
+    static float alone[3][VALUES], together[VALUES];
+    f.light[0].to[0] = -1;
+    f.light[1].kind = HAIR_LIGHT_POINT;
     f.light[1].position[1] = 0.4f, f.light[1].position[2] = 0.3f;
-    f.light[1].color[2]    = 0.5f;
-    f.light[2].kind        = HAIR_LIGHT_SPOT;
+    f.light[1].color[2] = 0.5f;
+    f.light[2].kind = HAIR_LIGHT_SPOT;
     f.light[2].position[0] = 1;
     f.light[2].to[0] = 1, f.light[2].to[1] = f.light[2].to[2] = 0;
     draw(&f, 3, together);
@@ -107,10 +107,10 @@ static void lights_add_up(void** state)
 static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
-    static float   sun[VALUES], lamp[VALUES];
+    static float sun[VALUES], lamp[VALUES];
     f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
     draw(&f, 1, sun);
-    f.light[0].kind        = HAIR_LIGHT_POINT;
+    f.light[0].kind = HAIR_LIGHT_POINT;
     f.light[0].position[2] = 1000;
     for (int i = 0; i < 3; ++i) f.light[0].color[i] = 3e6f / 4;
     draw(&f, 1, lamp);
@@ -128,12 +128,12 @@ static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
 static void a_spot_shines_into_its_cone_and_no_farther(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_LINES);
-    static float   point[VALUES], spot[VALUES];
-    uint32_t       inside = 0, outside = 0;
-    f.light[0].kind        = HAIR_LIGHT_POINT;
+    static float point[VALUES], spot[VALUES];
+    uint32_t inside = 0, outside = 0;
+    f.light[0].kind = HAIR_LIGHT_POINT;
     f.light[0].position[2] = 2;
     draw(&f, 1, point);
-    f.light[0].kind  = HAIR_LIGHT_SPOT;
+    f.light[0].kind = HAIR_LIGHT_SPOT;
     f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
     f.light[0].inner = 0.05f, f.light[0].outer = 0.06f; // 10 and 12 cm of 30.
     draw(&f, 1, spot);
@@ -156,9 +156,9 @@ static void a_spot_shines_into_its_cone_and_no_farther(void** state)
 // An even sky is the same as harmonics of order 0; what is brighter above lights what faces up more.
 static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
 {
-    struct fixture f       = start(state, HAIR_SHADING_FIBRES);
-    float          sky[27] = {0};
-    static float   even[VALUES], pixels[VALUES];
+    struct fixture f = start(state, HAIR_SHADING_FIBRES);
+    float sky[27] = {0};
+    static float even[VALUES], pixels[VALUES];
     for (int i = 0; i < 3; ++i) f.view.ambient[i] = 2;
     draw(&f, 0, even);
     for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0, sky[i] = 2 / 0.886227f; // pi times 0.282095
@@ -179,9 +179,9 @@ static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** sta
 {
     for (int shading = 0; shading < 2; ++shading) {
         struct fixture f = start(state, (hair_shading)shading);
-        static float   pixels[VALUES], vertices[3 * 4096];
-        uint32_t       count;
-        float          sky[27];
+        static float pixels[VALUES], vertices[3 * 4096];
+        uint32_t count;
+        float sky[27];
         hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
         for (int i = 0; i < 16; ++i) {
             f.light[i].kind = (hair_light_kind)(i % 3);

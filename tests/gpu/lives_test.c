@@ -25,15 +25,15 @@ static uint32_t count_objects(void)
 
 static void live_once(struct hair_test* test, const hair_groom* groom, int way, int reads)
 {
-    static float   positions[3 * MOST];
-    hair_instance* hair  = NULL;
-    hair_desc      desc  = hair_test_way(way);
-    hair_solid     solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                            {0.05f, 0},        .scale = 1,      .friction = 1};
-    hair_view      view  = hair_view_default();
-    hair_look      look  = hair_look_default();
-    hair_physics   other = hair_physics_default();
-    uint32_t       count;
+    static float positions[3 * MOST];
+    hair_instance* hair = NULL;
+    hair_desc desc = hair_test_way(way);
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                        {0.05f, 0},        .scale = 1,      .friction = 1};
+    hair_view view = hair_view_default();
+    hair_look look = hair_look_default();
+    hair_physics other = hair_physics_default();
+    uint32_t count;
     look.segments = 4;
     other.damping = 5;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
@@ -49,8 +49,8 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
 
 static void two_hundred_lives_leave_nothing(void** state)
 {
-    struct hair_test*      test  = *state;
-    hair_groom*            groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    struct hair_test* test = *state;
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
@@ -67,24 +67,24 @@ static void two_hundred_lives_leave_nothing(void** state)
 
 static hair_context* make_context(struct hair_test* test)
 {
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_egl_get_proc;
-    desc.timings              = 1;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.timings = 1;
     hair_test_ok(test, hair_context_create(&desc, &context));
     return context;
 }
 
 static void a_context_leaves_nothing_either(void** state)
 {
-    struct hair_test* test    = *state;
-    uint32_t          objects = count_objects(), blocks = hair_test_blocks(test);
+    struct hair_test* test = *state;
+    uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
     for (int life = 0; life < 5; ++life) {
-        hair_context*  context = make_context(test);
-        hair_groom*    groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
-        hair_instance* hair    = NULL;
-        hair_desc      of      = hair_desc_default();
+        hair_context* context = make_context(test);
+        hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+        hair_instance* hair = NULL;
+        hair_desc of = hair_desc_default();
         hair_test_ok(test, hair_create(context, groom, &of, &hair));
         hair_test_ok(test, hair_step(hair, 1.0f / 60));
         hair_test_ok(test, hair_context_reload(context));
@@ -98,16 +98,16 @@ static void a_context_leaves_nothing_either(void** state)
 
 static void timings_count_the_runs_of_every_pass(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = make_context(test);
-    hair_groom*       groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_instance*    hair    = NULL;
-    hair_desc         of      = hair_test_way(0);
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_instance* hair = NULL;
+    hair_desc of = hair_test_way(0);
     hair_test_ok(test, hair_create(context, groom, &of, &hair));
     for (int i = 0; i < 9; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 120));
     glFinish();
     hair_timing timings[16];
-    uint32_t    count = hair_timings(context, timings, 16), found = 0;
+    uint32_t count = hair_timings(context, timings, 16), found = 0;
     assert_int_equal(hair_timings(context, NULL, 0), count);
     assert_in_range(count, 3, 16);
     for (uint32_t i = 0; i < count; ++i) {
@@ -133,13 +133,13 @@ static uint32_t read_smooth(struct hair_test* test, hair_instance* hair, float* 
 }
 
 static const float straight[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-static const float turned[16]   = {0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 1, 0, 0.1f, 0.2f, 0.3f, 1};
+static const float turned[16] = {0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 1, 0, 0.1f, 0.2f, 0.3f, 1};
 
 // What moves guides, but for steps. The last puts them where they were.
 static void move(struct hair_test* test, hair_instance* hair, int how)
 {
     static unsigned char bytes[1 << 20];
-    size_t               size = 0;
+    size_t size = 0;
     if (how == 0) hair_test_ok(test, hair_reset(hair));
     if (how == 1) hair_test_ok(test, hair_teleport(hair, straight));
     if (how < 2) return;
@@ -151,15 +151,15 @@ static void move(struct hair_test* test, hair_instance* hair, int how)
 // One is looked at after every step, the other once: drawn, and what was drawn is read.
 static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(void** state)
 {
-    static float      often[3 * MOST], once[3 * MOST];
-    struct hair_test* test    = *state;
-    hair_context*     context = make_context(test);
-    hair_groom*       groom   = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_desc         of      = hair_test_way(1);
-    hair_instance *   a = NULL, *b = NULL;
+    static float often[3 * MOST], once[3 * MOST];
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc of = hair_test_way(1);
+    hair_instance *a = NULL, *b = NULL;
     hair_test_ok(test, hair_create(context, groom, &of, &a));
     hair_test_ok(test, hair_create(context, groom, &of, &b));
-    const hair_view        view = hair_view_default();
+    const hair_view view = hair_view_default();
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
     for (int how = 0; how < 3; ++how) {
@@ -196,7 +196,7 @@ static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(voi
 
 static uint32_t count_solvers(const hair_context* context)
 {
-    uint32_t                 count     = 0;
+    uint32_t count = 0;
     static const char* const solvers[] = {"sim/direct", "sim/accurate", "sim/mixed", "sim/follow",
                                           "sim/redblack"};
     for (uint32_t i = 0; i < context->gl.programs; ++i)
@@ -212,18 +212,18 @@ static void check_compiled(struct hair_test* test, int way)
         HAIR_GL_DIRECT, HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE, HAIR_GL_ACCURATE | THREAD,
         HAIR_GL_FOLLOW, HAIR_GL_FOLLOW | THREAD, HAIR_GL_REDBLACK};
     hair_context* context = make_context(test);
-    hair_solid    solid = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
-    hair_physics  limp  = hair_physics_default();
-    hair_gl_pass  passes[4];
-    uint32_t      compiled = 0;
-    limp.hold              = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_physics limp = hair_physics_default();
+    hair_gl_pass passes[4];
+    uint32_t compiled = 0;
+    limp.hold = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
     for (int kind = 0; kind < 4; ++kind) {
         struct hair_test_handmade wanted = hair_test_handmade_default();
-        hair_instance*            hair   = NULL;
-        hair_desc                 desc   = hair_test_way(way);
-        int                       curved = kind & 1, solids = kind / 2;
+        hair_instance* hair = NULL;
+        hair_desc desc = hair_test_way(way);
+        int curved = kind & 1, solids = kind / 2;
         if (!curved) wanted.turn = 0;
-        desc.physics      = &limp;
+        desc.physics = &limp;
         hair_groom* groom = hair_test_groom(&test->host.host, wanted);
         hair_test_ok(test, hair_create(context, groom, &desc, &hair));
         hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)solids, sizeof solid));
@@ -233,7 +233,7 @@ static void check_compiled(struct hair_test* test, int way)
             pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);
         else if (hair_sim_is_stiff(&hair->sim))
             pass += HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE;
-        pass     = hair_gl_with(pass, solids ? HAIR_GL_WITH(SOLIDS) : 0);
+        pass = hair_gl_with(pass, solids ? HAIR_GL_WITH(SOLIDS) : 0);
         int anew = 1;
         for (int k = 0; k < kind; ++k) anew = anew && passes[k] != pass;
         passes[kind] = pass;

@@ -17,15 +17,15 @@ enum { SIDE = 128, PIXELS = SIDE * SIDE, TURNS = 3 };
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // A built-in haircut of few strands, each as wide as several.
 static struct fixture start(void** state, hair_style style, uint32_t followers, float radius)
 {
     struct fixture f = {.test = *state};
-    f.hair           = hair_test_wear(f.test, style, followers, radius, &f.groom);
+    f.hair = hair_test_wear(f.test, style, followers, radius, &f.groom);
     return f;
 }
 
@@ -39,9 +39,9 @@ static void finish(struct fixture* f)
 static hair_view view_from(float distance, float turn)
 {
     static const float target[3] = {0, 1.55f, 0};
-    hair_view          view      = hair_view_default();
-    view.path                    = HAIR_PATH_TESSELLATION; // The others make segments without length.
-    float       s = sinf(turn), c = cosf(turn);
+    hair_view view = hair_view_default();
+    view.path = HAIR_PATH_TESSELLATION; // The others make segments without length.
+    float s = sinf(turn), c = cosf(turn);
     const float rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int i = 0; i < 3; ++i) {
         view.view[12 + i] = i == 2 ? -distance : 0;
@@ -57,15 +57,15 @@ static hair_view view_from(float distance, float turn)
 }
 
 struct picture {
-    float    pixels[4 * PIXELS];
+    float pixels[4 * PIXELS];
     uint64_t primitives; // triangles, two a segment
 };
 
 static void draw(struct fixture* f, const hair_view* view, const hair_view* before, struct picture* out)
 {
     struct hair_test_frame frame;
-    GLuint                 query;
-    GLuint64               count = 0;
+    GLuint query;
+    GLuint64 count = 0;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 4);
     if (before) hair_test_ok(f->test, hair_draw(f->hair, before));
     glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &query);
@@ -83,10 +83,10 @@ static void draw(struct fixture* f, const hair_view* view, const hair_view* befo
 static double coverage_of(struct fixture* f, float distance, const hair_lod* lod)
 {
     static struct picture picture;
-    double                sum = 0;
+    double sum = 0;
     for (int turn = 0; turn < TURNS; ++turn) {
         hair_view view = view_from(distance, 2.0f * (float)turn);
-        view.lod       = lod;
+        view.lod = lod;
         draw(f, &view, NULL, &picture);
         for (int i = 0; i < PIXELS; ++i) sum += (double)picture.pixels[4 * i + 3];
     }
@@ -96,15 +96,15 @@ static double coverage_of(struct fixture* f, float distance, const hair_lod* lod
 static void fewer_strands_cover_as_much(void** state)
 {
     for (hair_style style = HAIR_STYLE_LONG; style < HAIR_STYLE_COUNT; ++style) {
-        struct fixture f    = start(state, style, 18000, 1.5e-4f);
-        hair_lod       lod  = hair_lod_default();
-        double         full = coverage_of(&f, 1.4f, NULL);
+        struct fixture f = start(state, style, 18000, 1.5e-4f);
+        hair_lod lod = hair_lod_default();
+        double full = coverage_of(&f, 1.4f, NULL);
         assert_true(full > 0.03);
         lod.dynamic = 0;
         for (int k = 0; k < 4; ++k) {
             static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
-            lod.strands                 = shares[k];
-            double covered              = coverage_of(&f, 1.4f, &lod);
+            lod.strands = shares[k];
+            double covered = coverage_of(&f, 1.4f, &lod);
             print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n", hair_style_name(style),
                           100.0 * (double)shares[k], covered / full);
             hair_test_near("coverage", (size_t)k, covered / full, 1, 0.02);
@@ -137,8 +137,8 @@ static void develop(const struct picture* picture, float* rgb, unsigned char* ma
 // FLIP over what hair covers in either and 8 pixels around.
 static double flip_between(const struct picture* a, const struct picture* b)
 {
-    static float            rgb[2][3 * PIXELS / 4];
-    unsigned char           mask[PIXELS / 4] = {0};
+    static float rgb[2][3 * PIXELS / 4];
+    unsigned char mask[PIXELS / 4] = {0};
     struct hair_image_error error;
     develop(a, rgb[0], mask);
     develop(b, rgb[1], mask);
@@ -152,10 +152,10 @@ static void walking_away_shows_no_step(void** state)
 {
     enum { FRAMES = 300, EVERY = 10 };
     static struct picture full[2], low[2];
-    struct fixture        f    = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
-    hair_lod              lod  = hair_lod_default();
-    double                most = -1, far = 0;
-    uint64_t              first = 0;
+    struct fixture f = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
+    hair_lod lod = hair_lod_default();
+    double most = -1, far = 0;
+    uint64_t first = 0;
     for (int i = 0; i < FRAMES; i += EVERY) {
         for (int k = 0; k < 2; ++k) {
             hair_view view = view_from(0.9f * powf(30, (float)(i + k) / FRAMES), 0.5f);
@@ -180,11 +180,11 @@ static void walking_away_shows_no_step(void** state)
 static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
 {
     static struct picture picture[2];
-    struct fixture        f    = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
-    hair_view             view = view_from(1.2f, 0);
-    hair_lod              lod  = hair_lod_default();
-    view.lod                   = &lod;
-    lod.dynamic                = 0;
+    struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    hair_view view = view_from(1.2f, 0);
+    hair_lod lod = hair_lod_default();
+    view.lod = &lod;
+    lod.dynamic = 0;
     for (int k = 0; k < 2; ++k)
         for (int i = 0; i < 2; ++i) {
             float share = 0.5f + (i ? 1e-6f : -1e-6f);
@@ -208,18 +208,18 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
 static void nothing_pops_where_followers_need_not_be_led_round_solids(void** state)
 {
     static struct picture picture[4];
-    static const float    pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f}; // of 5 mm
-    struct fixture        f         = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
-    hair_view             view      = view_from(0.9f, 0.5f);
-    hair_lod              lod       = hair_lod_default();
-    hair_solid            solid     = hair_solid_default();
-    hair_vec4             skull     = f.groom->skull;
+    static const float pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f}; // of 5 mm
+    struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    hair_view view = view_from(0.9f, 0.5f);
+    hair_lod lod = hair_lod_default();
+    hair_solid solid = hair_solid_default();
+    hair_vec4 skull = f.groom->skull;
     solid.position[0] = skull.x, solid.position[1] = skull.y, solid.position[2] = skull.z;
     solid.size[0] = 1.3f * skull.w;
     hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
-    lod.strand_pixels  = 0.01f; // All of them,
-    lod.segment_pixels = 0.1f;  // whole.
-    view.lod           = &lod;
+    lod.strand_pixels = 0.01f; // All of them,
+    lod.segment_pixels = 0.1f; // whole.
+    view.lod = &lod;
     for (int i = 0; i < 4; ++i) {
         lod.importance = 1;
         draw(&f, &view, NULL, &picture[i]); // It says how many pixels a metre has.
@@ -249,10 +249,10 @@ static int differ(const struct picture* a, const struct picture* b)
 // As large as it appears, nothing need be left out.
 static hair_lod only_culling(void)
 {
-    hair_lod lod       = hair_lod_default();
-    lod.strand_pixels  = 0.01f;
+    hair_lod lod = hair_lod_default();
+    lod.strand_pixels = 0.01f;
     lod.segment_pixels = 0.1f;
-    lod.importance     = 1000;
+    lod.importance = 1000;
     return lod;
 }
 
@@ -261,14 +261,14 @@ static hair_lod only_culling(void)
 static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** state)
 {
     static struct picture full, plain, culled;
-    hair_physics          held = hair_physics_default(), lets_go = held;
-    lets_go.root       = HAIR_ROOT_FREE;
-    struct fixture f   = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
-    hair_lod       lod = only_culling();
-    uint64_t       all = 0, left = 0, undetailed = 0;
+    hair_physics held = hair_physics_default(), lets_go = held;
+    lets_go.root = HAIR_ROOT_FREE;
+    struct fixture f = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
+    hair_lod lod = only_culling();
+    uint64_t all = 0, left = 0, undetailed = 0;
     for (int i = -8; i <= 8; ++i) {
         hair_view view = view_from(0.7f, 0.4f);
-        float     s    = sinf(0.9f * (float)i);
+        float s = sinf(0.9f * (float)i);
         view.view[12] += 0.12f * (float)i;
         view.view[13] += 0.05f * (float)i;
         float head[16] = {cosf(s), 0, -sinf(s), 0, 0, 1, 0, 0, sinf(s), 0, cosf(s), 0, 0, 0, 0, 1};
@@ -290,12 +290,12 @@ static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** 
     assert_true(undetailed < 0.8 * all);
 
     hair_view away = view_from(-3, 0);
-    away.lod       = &lod;
+    away.lod = &lod;
     draw(&f, &away, NULL, &culled);
     assert_int_equal(culled.primitives, 0);
 
     hair_physics physics = hair_physics_default();
-    physics.root         = HAIR_ROOT_FREE; // Then there is no telling where it is.
+    physics.root = HAIR_ROOT_FREE; // Then there is no telling where it is.
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     draw(&f, &away, NULL, &culled);
     assert_int_equal(culled.primitives, full.primitives);
@@ -306,11 +306,11 @@ static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** 
 static void what_the_head_hides_is_not_drawn(void** state)
 {
     static struct picture full, culled;
-    struct fixture        f     = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
-    hair_lod              lod   = only_culling();
-    hair_solid            solid = hair_solid_default();
-    hair_vec4             skull = f.groom->skull;
-    double                least = 1;
+    struct fixture f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
+    hair_lod lod = only_culling();
+    hair_solid solid = hair_solid_default();
+    hair_vec4 skull = f.groom->skull;
+    double least = 1;
     print_message("    a skull of %.3f m at (%.3f, %.3f, %.3f)\n", (double)skull.w, (double)skull.x,
                   (double)skull.y, (double)skull.z);
     assert_true(skull.w > 0.05f && skull.w < 0.1f);
@@ -320,13 +320,13 @@ static void what_the_head_hides_is_not_drawn(void** state)
     for (int i = 0; i < 4; ++i) {
         hair_view view = view_from(0.9f, 1.5f * (float)i), before = view;
         before.pass = HAIR_PASS_SOLIDS;
-        view.lod    = &lod;
-        lod.hidden  = 1;
+        view.lod = &lod;
+        lod.hidden = 1;
         draw(&f, &view, &before, &full);
         lod.hidden = 0;
         draw(&f, &view, &before, &culled);
         double error = flip_between(&full, &culled),
-               left  = (double)culled.primitives / (double)full.primitives;
+               left = (double)culled.primitives / (double)full.primitives;
         print_message("    %.2f of the segments left, FLIP %.4f\n", left, error);
         assert_true(error < 0.01);
         if (left < least) least = left;

@@ -16,16 +16,16 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // Straight guides, so that what a look adds is across a line.
 static struct fixture start(void** state)
 {
-    struct fixture            f      = {.test = *state};
+    struct fixture f = {.test = *state};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
+    hair_desc desc = hair_desc_default();
     wanted.turn = 0, wanted.followers = FOLLOWERS, wanted.each = 64;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -40,16 +40,16 @@ static void finish(struct fixture* f)
 
 static hair_look plain_look(void)
 {
-    hair_look look  = hair_look_default();
-    look.segments   = SEGMENTS;
+    hair_look look = hair_look_default();
+    look.segments = SEGMENTS;
     look.tip_strays = look.strays = 0;
     return look;
 }
 
 static float* read_with(struct fixture* f, const hair_look* look)
 {
-    uint32_t count     = FOLLOWERS * EACH, there;
-    float*   positions = malloc(3 * sizeof *positions * count);
+    uint32_t count = FOLLOWERS * EACH, there;
+    float* positions = malloc(3 * sizeof *positions * count);
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, positions, count, &there));
     assert_int_equal(there, count);
@@ -77,15 +77,15 @@ static double share_moved(const float* a, const float* b, size_t first, size_t l
 
 static void as_many_strands_stray_as_are_asked_to(void** state)
 {
-    struct fixture f     = start(state);
-    hair_look      look  = plain_look();
-    float*         plain = read_with(&f, &look);
-    look.tip_strays      = 0.3f;
-    float* tips          = read_with(&f, &look);
+    struct fixture f = start(state);
+    hair_look look = plain_look();
+    float* plain = read_with(&f, &look);
+    look.tip_strays = 0.3f;
+    float* tips = read_with(&f, &look);
     look.tip_strays = 0, look.strays = 0.1f;
-    float* whole    = read_with(&f, &look);
+    float* whole = read_with(&f, &look);
     look.tip_strays = look.strays = 1;
-    float* all                    = read_with(&f, &look);
+    float* all = read_with(&f, &look);
     print_message("    %.3f stray at their tips, %.3f all along\n", share_moved(plain, tips, 0, SEGMENTS),
                   share_moved(plain, whole, 0, SEGMENTS));
     // Of 4,000 strands 30 % are within 2.2 % with a certainty of three standard deviations, 10 % within 1.4 %.
@@ -102,18 +102,18 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
 // All along, so that the tip gets no nearer to the root.
 static void curls_are_as_far_from_the_way_as_their_radius(void** state)
 {
-    struct fixture f     = start(state);
-    hair_look      look  = plain_look();
-    float*         plain = read_with(&f, &look);
-    look.curl_radius     = 0.004f;
+    struct fixture f = start(state);
+    hair_look look = plain_look();
+    float* plain = read_with(&f, &look);
+    look.curl_radius = 0.004f;
     look.curl_wavelength = 0.04f;
-    look.curl_profile    = hair_curve_line(1, 1);
-    look.curl_spread     = 0;
-    float* curled        = read_with(&f, &look);
+    look.curl_profile = hair_curve_line(1, 1);
+    look.curl_spread = 0;
+    float* curled = read_with(&f, &look);
     for (size_t i = 0; i < FOLLOWERS * EACH; ++i)
         hair_test_near("radius", i, distance_at(plain, curled, i), 0.004, 1e-6);
     look.curl_profile.at[0] = 0;
-    float* rooted           = read_with(&f, &look);
+    float* rooted = read_with(&f, &look);
     hair_test_near("roots", 0, share_moved(plain, rooted, 0, 0), 0, 0);
     free(plain), free(curled), free(rooted);
     finish(&f);
@@ -121,15 +121,15 @@ static void curls_are_as_far_from_the_way_as_their_radius(void** state)
 
 static void strands_are_cut_where_the_look_says(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = plain_look();
-    look.interpolation  = HAIR_INTERPOLATION_SINGLE;
-    float* whole        = read_with(&f, &look);
-    look.length         = 0.5f;
-    float* half         = read_with(&f, &look);
-    look.thinning       = 0.8f;
-    float* thinned      = read_with(&f, &look);
-    double mean         = 0;
+    struct fixture f = start(state);
+    hair_look look = plain_look();
+    look.interpolation = HAIR_INTERPOLATION_SINGLE;
+    float* whole = read_with(&f, &look);
+    look.length = 0.5f;
+    float* half = read_with(&f, &look);
+    look.thinning = 0.8f;
+    float* thinned = read_with(&f, &look);
+    double mean = 0;
     for (size_t n = 0; n < FOLLOWERS; ++n) {
         // Half a strand of as many segments: every second of its vertices is one of the whole strand.
         for (size_t k = 0; k <= SEGMENTS / 2; ++k)
@@ -152,21 +152,21 @@ static void strands_are_cut_where_the_look_says(void** state)
 
 static void single_strands_without_offsets_are_their_guide(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = plain_look();
-    look.interpolation  = HAIR_INTERPOLATION_SINGLE;
-    look.clump_width    = hair_curve_line(0, 0);
-    float*   positions  = read_with(&f, &look);
+    struct fixture f = start(state);
+    hair_look look = plain_look();
+    look.interpolation = HAIR_INTERPOLATION_SINGLE;
+    look.clump_width = hair_curve_line(0, 0);
+    float* positions = read_with(&f, &look);
     uint32_t count, each = 2 * f.groom->most_vertices - 1;
-    float*   smooth = malloc(3 * sizeof *smooth * each * f.groom->info.guide_count);
+    float* smooth = malloc(3 * sizeof *smooth * each * f.groom->info.guide_count);
     hair_test_ok(f.test,
                  hair_read(f.hair, HAIR_READ_SMOOTH, smooth, each * f.groom->info.guide_count, &count));
     for (size_t n = 0; n < FOLLOWERS; ++n)
         for (size_t k = 0; k < EACH; ++k) {
             const struct hair_follower* follower = &f.groom->followers[n];
-            double u  = (double)follower->length_ratio * (double)k / SEGMENTS * (each - 1);
+            double u = (double)follower->length_ratio * (double)k / SEGMENTS * (each - 1);
             size_t at = follower->guide0 * each + (u < each - 2 ? (size_t)u : each - 2);
-            double w  = u - floor(fmin(u, each - 2)); // Beyond its tip a straight guide goes on.
+            double w = u - floor(fmin(u, each - 2)); // Beyond its tip a straight guide goes on.
             for (size_t i = 0; i < 3; ++i) {
                 double expected = (1 - w) * smooth[3 * at + i] + w * smooth[3 * at + 3 + i];
                 hair_test_near("coordinate", n, positions[3 * (n * EACH + k) + i], expected, 1e-6);
@@ -178,14 +178,14 @@ static void single_strands_without_offsets_are_their_guide(void** state)
 
 static void modes_are_the_ends_of_the_mixture(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = plain_look();
+    struct fixture f = start(state);
+    hair_look look = plain_look();
     for (int single = 0; single < 2; ++single) {
         look.interpolation = single ? HAIR_INTERPOLATION_SINGLE : HAIR_INTERPOLATION_MULTI;
-        float* pure        = read_with(&f, &look);
+        float* pure = read_with(&f, &look);
         look.interpolation = HAIR_INTERPOLATION_MIXED;
-        look.clump         = hair_curve_line((float)single, (float)single);
-        float* mixed       = read_with(&f, &look);
+        look.clump = hair_curve_line((float)single, (float)single);
+        float* mixed = read_with(&f, &look);
         assert_memory_equal(pure, mixed, 3 * sizeof *pure * FOLLOWERS * EACH);
         free(pure), free(mixed);
     }
@@ -194,23 +194,23 @@ static void modes_are_the_ends_of_the_mixture(void** state)
 
 static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = plain_look(), off = look;
-    uint32_t       styled = hair_test_runs_of(&f.test->context->gl, "_styled");
-    size_t         size   = 3 * sizeof(float) * FOLLOWERS * EACH;
-    float*         plain  = read_with(&f, &look);
+    struct fixture f = start(state);
+    hair_look look = plain_look(), off = look;
+    uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
+    size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
+    float* plain = read_with(&f, &look);
     off.tip_stray = off.stray = hair_curve_line(0.1f, 0.2f); // Of no strand.
-    off.kink                  = 0.1f;
-    off.curl_profile          = hair_curve_line(2, 1); // Of no radius.
-    off.curl_wavelength       = 0.01f;
+    off.kink = 0.1f;
+    off.curl_profile = hair_curve_line(2, 1); // Of no radius.
+    off.curl_wavelength = 0.01f;
     off.curl_turns = 7, off.curl_flatness = 0.5f, off.curl_left = 0.5f, off.curl_phase = 1,
     off.curl_spread = 0.5f;
-    float* same     = read_with(&f, &off);
+    float* same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
     off.tip_strays = off.strays = 1;
     off.tip_stray = off.stray = hair_curve_line(0, 0); // Nowhere.
-    off.curl_radius           = 0.1f;
-    off.curl_profile          = hair_curve_line(0, 0);
+    off.curl_radius = 0.1f;
+    off.curl_profile = hair_curve_line(0, 0);
     free(same);
     same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
@@ -226,15 +226,15 @@ static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** sta
 
 static void wrong_looks_are_refused_by_name(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = plain_look();
-    look.taper.at[3]    = NAN;
+    struct fixture f = start(state);
+    hair_look look = plain_look();
+    look.taper.at[3] = NAN;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT, "hair_look.taper.at[3]");
-    look             = plain_look();
+    look = plain_look();
     look.curl_radius = -1;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
                       "hair_look.curl_radius is -1, not in [0, 0.1");
-    look            = plain_look();
+    look = plain_look();
     look.curl_x[15] = 1.5f;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
                       "hair_look.curl_x[15] is 1.5");

@@ -17,25 +17,25 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
-    uint32_t          count; // vertices of all followers
-    float *           now, *before;
+    hair_groom* groom;
+    hair_instance* hair;
+    uint32_t count; // vertices of all followers
+    float *now, *before;
 };
 
 static struct fixture start(void** state)
 {
-    struct fixture f    = {.test = *state};
-    hair_desc      desc = hair_desc_default();
-    hair_look      look = hair_look_default();
-    look.radius         = 0.003f;
-    look.segments       = SEGMENTS;
-    look.curl_radius    = 0.003f;
-    desc.look           = &look;
-    f.groom             = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
-    f.count             = f.groom->info.follower_count * (SEGMENTS + 1);
-    f.now               = malloc(3 * sizeof(float) * f.count);
-    f.before            = malloc(3 * sizeof(float) * f.count);
+    struct fixture f = {.test = *state};
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    look.radius = 0.003f;
+    look.segments = SEGMENTS;
+    look.curl_radius = 0.003f;
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    f.count = f.groom->info.follower_count * (SEGMENTS + 1);
+    f.now = malloc(3 * sizeof(float) * f.count);
+    f.before = malloc(3 * sizeof(float) * f.count);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     return f;
 }
@@ -57,14 +57,14 @@ static void set_matrix(float m[16], float x, float y, float z)
 static hair_view view_of(hair_pass pass, float moved)
 {
     hair_view view = hair_view_default();
-    view.pass      = pass;
+    view.pass = pass;
     set_matrix(view.view, 0, 0, -0.8f);
     set_matrix(view.before_view, moved, 0, -0.8f + 0.5f * moved);
     memset(view.projection, 0, sizeof view.projection);
     view.projection[0] = view.projection[5] = 2;
-    view.projection[10]                     = -1.02f;
-    view.projection[11]                     = -1;
-    view.projection[14]                     = -0.1f;
+    view.projection[10] = -1.02f;
+    view.projection[11] = -1;
+    view.projection[14] = -0.1f;
     memcpy(view.before_projection, view.projection, sizeof view.projection);
     return view;
 }
@@ -72,22 +72,22 @@ static hair_view view_of(hair_pass pass, float moved)
 static void read_now(struct fixture* f)
 {
     uint32_t count;
-    float*   swap = f->before;
-    f->before     = f->now;
-    f->now        = swap;
+    float* swap = f->before;
+    f->before = f->now;
+    f->now = swap;
     hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, f->now, f->count, &count));
     assert_int_equal(count, f->count);
 }
 
 struct picture {
-    float    motion[4 * SIDE * SIDE];
+    float motion[4 * SIDE * SIDE];
     uint32_t id[4 * SIDE * SIDE];
 };
 
 static void draw(struct fixture* f, const hair_view* view, struct picture* out)
 {
-    GLuint              framebuffer[2], target[4];
-    static const float  far_away = 1, none[4] = {9, 9, 9, 9};
+    GLuint framebuffer[2], target[4];
+    static const float far_away = 1, none[4] = {9, 9, 9, 9};
     static const GLuint nothing[4] = {0};
     glCreateFramebuffers(2, framebuffer);
     glCreateRenderbuffers(4, target);
@@ -133,11 +133,11 @@ static void project(const float view[16], const float projection[16], const doub
 
 static void strand_at(const float* positions, uint32_t strand, double t, double out[3])
 {
-    double   at = fmin(t * SEGMENTS, SEGMENTS);
-    uint32_t k  = at < SEGMENTS - 1 ? (uint32_t)at : SEGMENTS - 1;
+    double at = fmin(t * SEGMENTS, SEGMENTS);
+    uint32_t k = at < SEGMENTS - 1 ? (uint32_t)at : SEGMENTS - 1;
     for (int i = 0; i < 3; ++i) {
         const float* a = positions + 3 * (strand * (SEGMENTS + 1) + k) + i;
-        out[i]         = (double)a[0] + (at - k) * ((double)a[3] - (double)a[0]);
+        out[i] = (double)a[0] + (at - k) * ((double)a[3] - (double)a[0]);
     }
 }
 
@@ -145,7 +145,7 @@ static void strand_at(const float* positions, uint32_t strand, double t, double 
 static double check(const char* what, const hair_view* view, const struct picture* picture, const float* now,
                     const float* before)
 {
-    double   worst = 0, most = 0;
+    double worst = 0, most = 0;
     uint32_t covered = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         if (picture->motion[4 * i + 3] == 9) continue;
@@ -158,7 +158,7 @@ static double check(const char* what, const hair_view* view, const struct pictur
         strand_at(before, id[0] - 1, id[2] / 65535.0, p);
         project(view->before_view, view->before_projection, p, b);
         for (int k = 0; k < 2; ++k) {
-            off  = fmax(off, fabs((double)picture->motion[4 * i + k] - 0.5 * (a[k] - b[k])) * SIDE);
+            off = fmax(off, fabs((double)picture->motion[4 * i + k] - 0.5 * (a[k] - b[k])) * SIDE);
             most = fmax(most, fabs((double)picture->motion[4 * i + k]) * SIDE);
         }
         worst = fmax(worst, off);
@@ -183,8 +183,8 @@ static void step(struct fixture* f, float x)
 static void velocities_are_those_of_strands_and_of_the_camera(void** state)
 {
     static struct picture picture;
-    struct fixture        f    = start(state);
-    hair_view             view = view_of(HAIR_PASS_MOTION, 0);
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_MOTION, 0);
     read_now(&f);
     draw(&f, &view, &picture);
     assert_true(check("first", &view, &picture, f.now, f.now) < ROUNDED);
@@ -203,7 +203,7 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 8, 8, GL_RGBA8, 0);
     hair_view shadow = view_of(HAIR_PASS_DEPTH, 0);
-    shadow.path      = HAIR_PATH_EXPANDED;
+    shadow.path = HAIR_PATH_EXPANDED;
     for (int i = 0; i < 2; ++i) {
         step(&f, 0.02f + 0.01f * (float)i);
         hair_test_ok(f.test, hair_draw(f.hair, &shadow));
@@ -218,9 +218,9 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
 static void views_of_one_frame_share_the_frame_before(void** state)
 {
     static struct picture picture;
-    struct fixture        f    = start(state);
-    hair_view             view = view_of(HAIR_PASS_MOTION, 0);
-    view.frame                 = 1;
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_MOTION, 0);
+    view.frame = 1;
     read_now(&f);
     draw(&f, &view, &picture);
     step(&f, 0.01f);
@@ -236,9 +236,9 @@ static void views_of_one_frame_share_the_frame_before(void** state)
 static void velocities_are_right_at_any_level_of_detail(void** state)
 {
     static struct picture picture;
-    struct fixture        f    = start(state);
-    hair_view             view = view_of(HAIR_PASS_MOTION, 0.01f);
-    hair_lod              lod  = hair_lod_default();
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_MOTION, 0.01f);
+    hair_lod lod = hair_lod_default();
     lod.dynamic = 0, lod.strands = 0.6f, lod.segments = 0.33f;
     view.lod = &lod;
     read_now(&f);
@@ -247,7 +247,7 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
     lod.strands = 0.8f, lod.segments = 0.71f; // Other vertices than in the frame before.
     draw(&f, &view, &picture);
     // Its segments are chords of those that the strand has.
-    double   sum   = 0;
+    double sum = 0;
     uint32_t count = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const uint32_t* id = picture.id + 4 * i;
@@ -270,8 +270,8 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
 static void teleports_take_along_and_resets_forget(void** state)
 {
     static struct picture picture;
-    struct fixture        f    = start(state);
-    hair_view             view = view_of(HAIR_PASS_MOTION, 0);
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_MOTION, 0);
     float far[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 500, 3, -200, 1}; // A quarter turn about y.
     read_now(&f);
     draw(&f, &view, &picture);
@@ -288,7 +288,7 @@ static void teleports_take_along_and_resets_forget(void** state)
     view.view[14] = -0.8f - (seen[2] * 500 + seen[6] * 3 + seen[10] * -200);
     memcpy(view.before_view, view.view, sizeof view.view);
     draw(&f, &view, &picture);
-    double   most    = 0;
+    double most = 0;
     uint32_t covered = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         if (picture.motion[4 * i + 3] == 9) continue;
@@ -308,10 +308,10 @@ static void teleports_take_along_and_resets_forget(void** state)
 
 static void jitter_moves_the_picture_and_no_velocity(void** state)
 {
-    static float          pixels[2][4 * SIDE * SIDE];
+    static float pixels[2][4 * SIDE * SIDE];
     static struct picture picture;
-    struct fixture        f    = start(state);
-    hair_view             view = view_of(HAIR_PASS_COLOR, 0);
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_COLOR, 0);
     for (int i = 0; i < 2; ++i) {
         struct hair_test_frame frame;
         hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
@@ -346,9 +346,9 @@ static void jitter_moves_the_picture_and_no_velocity(void** state)
 
 static void hair_of_which_no_velocity_is_asked_keeps_none(void** state)
 {
-    struct fixture         f = start(state);
+    struct fixture f = start(state);
     struct hair_test_frame frame;
-    hair_view              view = view_of(HAIR_PASS_COLOR, 0);
+    hair_view view = view_of(HAIR_PASS_COLOR, 0);
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 3; ++i) {
         view.path = (hair_path)i;

@@ -19,14 +19,14 @@ enum { SIZE = 48, KEPT = 32, FLIPS = 60 };
 // A host's cache in memory ----------------------------------------------------------------------------------
 
 struct kept {
-    uint64_t       key;
+    uint64_t key;
     unsigned char* bytes;
-    size_t         size;
+    size_t size;
 };
 
 struct cache {
     struct kept kept[KEPT];
-    uint32_t    count, puts;
+    uint32_t count, puts;
 };
 
 static struct kept* find(struct cache* cache, uint64_t key)
@@ -46,7 +46,7 @@ static size_t get(uint64_t key, void* bytes, size_t capacity, void* user)
 static void put(uint64_t key, const void* bytes, size_t size, void* user)
 {
     struct cache* cache = user;
-    struct kept*  kept  = find(cache, key);
+    struct kept* kept = find(cache, key);
     if (!kept) {
         assert_true(cache->count < KEPT);
         kept = &cache->kept[cache->count++];
@@ -65,32 +65,32 @@ static void empty(struct cache* cache)
 // Hair ------------------------------------------------------------------------------------------------------
 
 struct fixture {
-    struct hair_test*      test;
-    hair_context*          context;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_context* context;
+    hair_instance* hair;
     struct hair_test_frame frame;
 };
 
 static hair_context* make_context(struct hair_test* test, struct cache* cache)
 {
-    hair_context*     context = NULL;
-    hair_cache        own     = {get, put, cache};
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_test_trace_proc;
-    desc.cache                = cache ? &own : NULL;
+    hair_context* context = NULL;
+    hair_cache own = {get, put, cache};
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.cache = cache ? &own : NULL;
     hair_test_ok(test, hair_context_create(&desc, &context));
     return context;
 }
 
 static hair_result create(struct fixture* f, hair_instance** out)
 {
-    hair_desc    desc    = hair_desc_default();
+    hair_desc desc = hair_desc_default();
     hair_physics physics = hair_physics_default();
-    hair_groom*  groom   = hair_test_groom(&f->test->host.host, hair_test_handmade_default());
-    physics.sleep        = 0;
-    desc.physics         = &physics;
-    hair_result result   = hair_create(f->context, groom, &desc, out);
+    hair_groom* groom = hair_test_groom(&f->test->host.host, hair_test_handmade_default());
+    physics.sleep = 0;
+    desc.physics = &physics;
+    hair_result result = hair_create(f->context, groom, &desc, out);
     hair_groom_destroy(groom);
     return result;
 }
@@ -98,7 +98,7 @@ static hair_result create(struct fixture* f, hair_instance** out)
 static struct fixture start(struct hair_test* test, struct cache* cache)
 {
     struct fixture f = {.test = test};
-    f.context        = make_context(test, cache);
+    f.context = make_context(test, cache);
     hair_test_ok(test, create(&f, &f.hair));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     return f;
@@ -113,8 +113,8 @@ static void finish(struct fixture* f)
 
 static hair_view view_of(hair_path path)
 {
-    hair_view view     = hair_view_default();
-    view.path          = path;
+    hair_view view = hair_view_default();
+    view.path = path;
     view.projection[0] = view.projection[5] = view.projection[10] = 3;
     return view;
 }
@@ -130,11 +130,11 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
 
 static void each_program_is_compiled_when_something_first_needs_it(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    struct fixture f        = {.test = *state};
-    hair_view      view     = view_of(HAIR_PATH_TESSELLATION);
-    const float    head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
-    f.context               = make_context(f.test, NULL);
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = {.test = *state};
+    hair_view view = view_of(HAIR_PATH_TESSELLATION);
+    const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
+    f.context = make_context(f.test, NULL);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
     hair_test_ok(f.test, create(&f, &f.hair));
     assert_int_equal(hair_test_count_programs(&f.context->gl), 3); // It is placed, solved and smoothed.
@@ -173,13 +173,13 @@ static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** st
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct cache cache = {0};
-    uint32_t     puts  = 0;
+    uint32_t puts = 0;
     if (!has_binaries()) return;
     for (int run = 0; run < 2; ++run) {
         hair_test_trace_clear();
-        double         begin = now_ms();
-        struct fixture f     = start(*state, &cache);
-        hair_view      view  = view_of(HAIR_PATH_TESSELLATION);
+        double begin = now_ms();
+        struct fixture f = start(*state, &cache);
+        hair_view view = view_of(HAIR_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
         print_message("    the first picture %s the cache after %.0f ms\n", run ? "with" : "without",
@@ -211,14 +211,14 @@ static uint32_t count_links(struct hair_gl* gl)
 
 static void what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew(void** state)
 {
-    struct cache  cache   = {0};
+    struct cache cache = {0};
     hair_context* context = make_context(*state, &cache);
-    uint32_t      random = 5, before = cache.count;
+    uint32_t random = 5, before = cache.count;
     if (has_binaries()) {
         assert_int_equal(count_links(&context->gl), 1);
         assert_int_equal(count_links(&context->gl), 0);
         struct kept* kept = &cache.kept[before];
-        size_t       size = kept->size;
+        size_t size = kept->size;
         for (uint32_t i = 0; i < FLIPS; ++i) {
             size_t at = i < 28 ? i : (size_t)(hair_random(&random) * (float)(size - 1));
             if (i >= 48) at = size - 1 - (i - 48);
@@ -243,13 +243,13 @@ static void what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew(void** 
 
 static void a_cache_without_both_functions_is_refused(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    hair_cache        cache   = {get, NULL, NULL};
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_test_trace_proc;
-    desc.cache                = &cache;
+    struct hair_test* test = *state;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    hair_cache cache = {get, NULL, NULL};
+    desc.host = &test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.cache = &cache;
     hair_test_refused(test, hair_context_create(&desc, &context), HAIR_ERROR_ARGUMENT,
                       "hair_cache.put is NULL");
     cache = (hair_cache){NULL, put, NULL};
@@ -269,7 +269,7 @@ static hair_memory memory_of(struct fixture* f)
 static uint64_t reported(struct fixture* f)
 {
     hair_report_info info = hair_report_info_default();
-    uint32_t         count;
+    uint32_t count;
     hair_test_ok(f->test, hair_report(f->hair, 0, &info, NULL, 0, 0, &count));
     return info.bytes;
 }
@@ -277,22 +277,22 @@ static uint64_t reported(struct fixture* f)
 // Everything that an instance can have is counted, once, and given back.
 static void memory_is_what_instances_report_and_all_comes_back(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    struct fixture f       = start(*state, NULL);
-    hair_view      view    = view_of(HAIR_PATH_EXPANDED);
-    hair_solid     solid   = hair_solid_default();
-    hair_wind      wind    = hair_wind_default();
-    hair_physics   physics = hair_physics_default();
-    hair_tie       tie     = hair_tie_default();
-    hair_lod       lod     = hair_lod_default();
-    uint64_t       plain, all;
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view view = view_of(HAIR_PATH_EXPANDED);
+    hair_solid solid = hair_solid_default();
+    hair_wind wind = hair_wind_default();
+    hair_physics physics = hair_physics_default();
+    hair_tie tie = hair_tie_default();
+    hair_lod lod = hair_lod_default();
+    uint64_t plain, all;
     hair_test_ok(f.test, hair_step(f.hair, 0.02f));
     assert_int_equal(memory_of(&f).bytes, reported(&f));
-    plain         = memory_of(&f).bytes;
+    plain = memory_of(&f).bytes;
     solid.size[0] = 0.05f, solid.position[1] = -0.1f;
     wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.gusts = 0.2f, wind.resolution = 16;
     physics.cohesion = physics.volume = 1;
-    tie.position[0]                   = 0.1f;
+    tie.position[0] = 0.1f;
     hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
     hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
@@ -301,9 +301,9 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
         solid.position[0] += 0.01f;
         hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
         hair_test_ok(f.test, hair_step(f.hair, 0.02f));
-        view.pass     = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
+        view.pass = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
         view.coverage = i == 2 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
-        view.path     = i == 0 ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED;
+        view.path = i == 0 ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED;
         draw(&f, &view, pixels);
         view.lod = i == 0 ? &lod : NULL;
         if (view.lod) draw(&f, &view, pixels);
@@ -323,9 +323,9 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
 
 static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes(void** state)
 {
-    static float   pixels[2][4 * SIZE * SIZE];
-    struct fixture f     = start(*state, NULL);
-    hair_view      plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
+    static float pixels[2][4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
     hair_instance* other = NULL;
     draw(&f, &plain, pixels[0]);
     uint64_t bytes = memory_of(&f).bytes, used = bytes;
@@ -353,18 +353,18 @@ static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else
 // The same picture before, meanwhile and after, on every path.
 static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
 {
-    static float   pixels[2][4 * SIZE * SIZE];
-    struct fixture f     = start(*state, NULL);
-    hair_view      plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
-    hair_look      look = f.hair->draw.look;
-    look.shading        = HAIR_SHADING_LINES;
+    static float pixels[2][4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
+    hair_look look = f.hair->draw.look;
+    look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &plain, pixels[0]);
     uint64_t least = memory_of(&f).bytes;
     for (int kind = 0; kind < 4; ++kind) {
-        view.pass     = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
+        view.pass = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
         view.coverage = kind == 1 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
-        look.shading  = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
+        look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         for (int turn = 0; turn < 2; ++turn) {
             hair_test_ok(f.test, hair_reset(f.hair));
             hair_test_ok(f.test, hair_set_look(f.hair, &look));
@@ -392,16 +392,16 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
 // Depth draws the vertices that colour wrote, and does not keep what light fell onto them.
 static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(void** state)
 {
-    static float   pixels[4 * SIZE * SIZE];
-    struct fixture f    = start(*state, NULL);
-    hair_view      view = view_of(HAIR_PATH_EXPANDED);
-    hair_look      look = f.hair->draw.look;
-    look.shading        = HAIR_SHADING_LINES;
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view view = view_of(HAIR_PATH_EXPANDED);
+    hair_look look = f.hair->draw.look;
+    look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     view.pass = HAIR_PASS_DEPTH;
     draw(&f, &view, pixels);
     uint64_t least = memory_of(&f).bytes;
-    view.pass      = HAIR_PASS_COLOR;
+    view.pass = HAIR_PASS_COLOR;
     draw(&f, &view, pixels);
     assert_true(memory_of(&f).bytes > least);
     view.pass = HAIR_PASS_DEPTH;

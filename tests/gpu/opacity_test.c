@@ -16,32 +16,32 @@
 #define MOST 1024 // texels
 
 struct fixture {
-    struct hair_test*          test;
-    hair_groom*                groom;
-    hair_instance*             hair;
-    hair_view                  view;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_view view;
     struct hair_reference_rays rays;
-    GLuint                     framebuffer, opacity, depth;
-    GLsizei                    texels;
-    float                      pixels[MOST * MOST];
+    GLuint framebuffer, opacity, depth;
+    GLsizei texels;
+    float pixels[MOST * MOST];
 };
 
 static struct fixture* start(void** state, uint32_t followers, float radius)
 {
-    struct fixture*           f      = calloc(1, sizeof *f);
+    struct fixture* f = calloc(1, sizeof *f);
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
-    wanted.followers                 = followers;
-    wanted.guides                    = 40;
-    f->test                          = *state;
-    f->view                          = hair_view_default();
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    wanted.followers = followers;
+    wanted.guides = 40;
+    f->test = *state;
+    f->view = hair_view_default();
     look.segments = 12, look.radius = radius;
-    desc.look             = &look;
-    f->groom              = hair_test_groom(&f->test->host.host, wanted);
-    f->view.pass          = HAIR_PASS_OPACITY;
+    desc.look = &look;
+    f->groom = hair_test_groom(&f->test->host.host, wanted);
+    f->view.pass = HAIR_PASS_OPACITY;
     f->view.projection[0] = f->view.projection[5] = 1 / HALF;
-    f->view.projection[10]                        = -1;
+    f->view.projection[10] = -1;
     hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
     glCreateFramebuffers(1, &f->framebuffer);
     return f;
@@ -98,14 +98,14 @@ static void count_rays(struct fixture* f, double behind)
     glGetNamedBufferSubData(f->hair->draw.expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
                             vertices);
     free(f->rays.stopped);
-    f->rays = (struct hair_reference_rays){.lower   = {-(double)HALF, -(double)HALF},
-                                           .side    = 2 * (double)HALF,
-                                           .count   = RAYS,
+    f->rays = (struct hair_reference_rays){.lower = {-(double)HALF, -(double)HALF},
+                                           .side = 2 * (double)HALF,
+                                           .count = RAYS,
                                            .stopped = calloc(RAYS, RAYS)};
     for (uint32_t v = 0; v < count; ++v) {
         if (v % each == each - 1) continue;
         const hair_vec4 *p = &vertices[v], *q = p + 1;
-        double           a[2] = {(double)p->x, (double)p->y}, b[2] = {(double)q->x, (double)q->y};
+        double a[2] = {(double)p->x, (double)p->y}, b[2] = {(double)q->x, (double)q->y};
         if (0.5 * (double)(p->z + q->z) >= behind)
             hair_reference_stop(&f->rays, a, b, (double)p->w, (double)q->w);
     }
@@ -119,8 +119,8 @@ struct found {
 static struct found compare(const struct fixture* f)
 {
     struct found found = {0};
-    double       share = 1.0 / f->texels, square = 0;
-    uint32_t     count = 0;
+    double share = 1.0 / f->texels, square = 0;
+    uint32_t count = 0;
     for (int i = 0; i < f->texels * f->texels; ++i) {
         double taken = (double)f->pixels[i];
         double expected =
@@ -140,7 +140,7 @@ static struct found compare(const struct fixture* f)
 // chance, of which clumps are not: texels of 12.5 mm are as wide as a whole lock.
 static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
 {
-    static const float   radii[]  = {4e-5f, 2e-4f, 1e-3f};
+    static const float radii[] = {4e-5f, 2e-4f, 1e-3f};
     static const GLsizei texels[] = {32, 128, 512, 1024};
     for (int r = 0; r < 3; ++r) {
         struct fixture* f = start(state, 1500, radii[r]);
@@ -149,7 +149,7 @@ static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
             make_map(f, texels[t]);
             draw(f, 1);
             struct found found = compare(f);
-            double       error = found.mean / found.expected - 1;
+            double error = found.mean / found.expected - 1;
             print_message(
                 "    strands of %g mm, texels of %.2f mm: %.4f, by rays %.4f: %+.1f %%; texels %.3f off\n",
                 2e3 * (double)radii[r], 2e3 * (double)HALF / texels[t], found.mean, found.expected,
@@ -162,22 +162,22 @@ static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
 
 static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** state)
 {
-    struct fixture* f    = start(state, 1500, 2e-4f);
-    hair_lod        part = hair_lod_default();
-    double          all  = 0;
-    part.dynamic         = 0;
+    struct fixture* f = start(state, 1500, 2e-4f);
+    hair_lod part = hair_lod_default();
+    double all = 0;
+    part.dynamic = 0;
     count_rays(f, -1);
     make_map(f, 256);
     for (int path = 0; path <= HAIR_PATH_EXPANDED; ++path)
         for (int k = 0; k < 4; ++k) {
             static const float shares[] = {1, 0.5f, 0.2f, 0.1f};
             part.strands = shares[k], part.segments = k ? 0.5f : 1.0f;
-            f->view.path      = (hair_path)path;
-            f->view.lod       = k ? &part : NULL;
+            f->view.path = (hair_path)path;
+            f->view.lod = k ? &part : NULL;
             f->view.primitive = k % 2 ? HAIR_LINES : HAIR_RIBBONS; // It has ribbons either way.
             draw(f, 1);
             struct found found = compare(f);
-            double       error = found.mean / found.expected - 1;
+            double error = found.mean / found.expected - 1;
             print_message("    path %d, %g of the strands: %+.1f %%\n", path, (double)shares[k], 100 * error);
             hair_test_near("opacity", (size_t)(4 * path + k), error, 0, k ? 0.05 : 0.01);
             if (!path && !k) all = found.mean;
@@ -199,7 +199,7 @@ static void only_hair_before_the_first_body_counts(void** state)
     make_map(f, 128);
     draw(f, 0.5f);
     struct found found = {0};
-    double       all = 0, share = 1.0 / 128;
+    double all = 0, share = 1.0 / 128;
     for (int i = 0; i < 128 * 128; ++i) {
         if (i % 128 >= 64) continue;
         found.mean += (double)f->pixels[i];
@@ -219,8 +219,8 @@ static void only_hair_before_the_first_body_counts(void** state)
 static void blending_and_depth_are_as_they_were(void** state)
 {
     static const float near = 0.7f;
-    static float       depths[64 * 64];
-    struct fixture*    f = start(state, 64, 1e-3f);
+    static float depths[64 * 64];
+    struct fixture* f = start(state, 64, 1e-3f);
     make_map(f, 64);
     hair_test_blend_begin();
     draw(f, near);
@@ -238,8 +238,8 @@ static void blending_and_depth_are_as_they_were(void** state)
 static const hair_report_row* find_row(struct fixture* f, const char* work)
 {
     static hair_report_row rows[64];
-    hair_report_info       info  = hair_report_info_default();
-    uint32_t               count = 0;
+    hair_report_info info = hair_report_info_default();
+    uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].work, work) == 0) return &rows[i];
@@ -249,8 +249,8 @@ static const hair_report_row* find_row(struct fixture* f, const char* work)
 
 static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void** state)
 {
-    struct fixture* f      = start(state, 64, 1e-3f);
-    hair_memory     before = hair_memory_default(), after = hair_memory_default();
+    struct fixture* f = start(state, 64, 1e-3f);
+    hair_memory before = hair_memory_default(), after = hair_memory_default();
     make_map(f, 64);
     f->view.pass = HAIR_PASS_DEPTH;
     hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));

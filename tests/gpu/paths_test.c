@@ -18,26 +18,26 @@ static const char* const names[PATHS] = {"tessellated", "instanced", "expanded",
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // Few strands, each as wide as several; `curly`: in curls, and a ball that many of them run into.
 static struct fixture start(void** state, int curly)
 {
-    struct fixture  f    = {.test = *state};
-    hair_style_desc of   = hair_style_desc_default();
-    hair_desc       how  = hair_desc_default();
-    hair_look       look = hair_look_default();
-    hair_solid      ball = hair_solid_default();
-    of.style             = HAIR_STYLE_CURLY;
+    struct fixture f = {.test = *state};
+    hair_style_desc of = hair_style_desc_default();
+    hair_desc how = hair_desc_default();
+    hair_look look = hair_look_default();
+    hair_solid ball = hair_solid_default();
+    of.style = HAIR_STYLE_CURLY;
     if (curly) hair_test_ok(f.test, hair_look_preset(&look, HAIR_LOOK_CURLY));
     hair_test_ok(f.test, hair_look_color(&look, HAIR_COLOR_BLOND));
     look.radius = 5e-4f;
-    how.look    = &look;
-    f.groom     = hair_test_haircut(f.test, &of, curly ? 1500 : 200);
+    how.look = &look;
+    f.groom = hair_test_haircut(f.test, &of, curly ? 1500 : 200);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
-    ball.size[0]     = 0.06f;
+    ball.size[0] = 0.06f;
     ball.position[0] = 0.1f, ball.position[1] = 1.55f, ball.position[2] = 0.05f;
     if (curly) hair_test_ok(f.test, hair_set_solids(f.hair, &ball, 1, sizeof ball));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
@@ -63,7 +63,7 @@ static hair_view front(hair_path path, hair_primitive primitive)
 }
 
 struct picture {
-    float         pixels[4 * PIXELS], shown[3 * PIXELS];
+    float pixels[4 * PIXELS], shown[3 * PIXELS];
     unsigned char mask[PIXELS]; // of what hair covers, and 8 pixels around
 };
 
@@ -77,7 +77,7 @@ static void read_depths(const struct hair_test_frame* frame, float* pixels)
 
 static void draw(struct fixture* f, const hair_view* view, struct picture* out)
 {
-    int                    shows = view->pass == HAIR_PASS_COLOR;
+    int shows = view->pass == HAIR_PASS_COLOR;
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, shows ? 4 : 0);
     hair_test_ok(f->test, hair_draw(f->hair, view));
@@ -88,7 +88,7 @@ static void draw(struct fixture* f, const hair_view* view, struct picture* out)
     hair_test_frame_free(&frame);
     for (int i = 0; i < PIXELS; ++i) {
         for (int k = 0; k < 3; ++k) {
-            float x               = fminf(fmaxf(out->pixels[4 * i + k], 0), 1);
+            float x = fminf(fmaxf(out->pixels[4 * i + k], 0), 1);
             out->shown[3 * i + k] = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
         }
         out->mask[i] = out->pixels[4 * i + 3] > 0;
@@ -100,8 +100,8 @@ static void draw(struct fixture* f, const hair_view* view, struct picture* out)
 static const char* drawn_by(struct fixture* f)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[64];
-    uint32_t         count;
+    hair_report_row rows[64];
+    uint32_t count;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].work, "color") == 0 && rows[i].pass) return rows[i].pass;
@@ -118,7 +118,7 @@ static const char* name_of(hair_path path, const hair_view* view)
 static uint32_t count_hits(struct fixture* f)
 {
     uint32_t count = 0;
-    float*   hits  = malloc(f->hair->draw.followers * sizeof *hits);
+    float* hits = malloc(f->hair->draw.followers * sizeof *hits);
     glGetNamedBufferSubData(f->hair->draw.hits.hit, 0, (GLsizeiptr)(f->hair->draw.followers * sizeof *hits),
                             hits);
     for (uint32_t i = 0; i < f->hair->draw.followers; ++i) count += hits[i] < (float)HAIR_NO_HIT;
@@ -129,11 +129,11 @@ static uint32_t count_hits(struct fixture* f)
 static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
-    struct fixture        f = start(state, 1);
+    struct fixture f = start(state, 1);
     for (hair_primitive primitive = HAIR_RIBBONS; primitive <= HAIR_LINES; ++primitive) {
         for (hair_path path = 0; (int)path < PATHS; ++path) {
             struct hair_image_error error;
-            hair_view               view = front(path, primitive);
+            hair_view view = front(path, primitive);
             draw(&f, &view, &picture[path]);
             assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
             assert_true(
@@ -152,18 +152,18 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
 static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
-    struct fixture        f       = start(state, 1);
-    hair_lod              lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
+    struct fixture f = start(state, 1);
+    hair_lod lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
     lods[0].strands = 0.37f, lods[0].segments = 0.3f, lods[0].dynamic = 0;
     lods[1].strands = 0.1f, lods[1].dynamic = 0;
     lods[2].strand_pixels = 3, lods[2].segment_pixels = 20;
     for (int i = 0; i < 12; ++i)
         for (hair_path path = 0; (int)path < PATHS; ++path) {
             struct hair_image_error error;
-            hair_view               view  = front(path, (hair_primitive)(i / 3 % 2));
-            int                     shown = i < 6;
-            view.pass                     = shown ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
-            view.lod                      = &lods[i % 3];
+            hair_view view = front(path, (hair_primitive)(i / 3 % 2));
+            int shown = i < 6;
+            view.pass = shown ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
+            view.lod = &lods[i % 3];
             draw(&f, &view, &picture[path]);
             if (shown) assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
             assert_true(shown || picture[path].pixels[4 * (PIXELS / 2 + SIDE / 2)] > 0);
@@ -180,10 +180,10 @@ static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
 static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
 {
     static struct picture picture[PATHS + 2];
-    struct fixture        f     = start(state, 0);
-    hair_look             look  = f.hair->draw.look;
-    uint32_t              count = f.groom->info.follower_count;
-    hair_view             view  = front(HAIR_PATH_TESSELLATION, HAIR_RIBBONS);
+    struct fixture f = start(state, 0);
+    hair_look look = f.hair->draw.look;
+    uint32_t count = f.groom->info.follower_count;
+    hair_view view = front(HAIR_PATH_TESSELLATION, HAIR_RIBBONS);
     draw(&f, &view, &picture[PATHS]);
     f.groom->paint = hair_alloc(&f.test->host.host, count, 8 * 4 * sizeof *f.groom->paint);
     for (uint32_t i = 0; i < count; ++i)
@@ -193,12 +193,12 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
         }
     hair_destroy(f.hair);
     hair_desc how = hair_desc_default();
-    how.look      = &look;
+    how.look = &look;
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     for (hair_path path = 0; (int)path < PATHS; ++path) {
         double sum[2][2] = {{0}};
-        view.path        = path;
+        view.path = path;
         draw(&f, &view, &picture[path]);
         for (int i = 0; i < PIXELS; ++i)
             for (int c = 0; c < 2; ++c)
@@ -208,7 +208,7 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
         assert_true(sum[0][0] > 2 * sum[0][1] && sum[1][1] > 2 * sum[1][0]);
     }
     look.groom_colors = 0;
-    view.path         = HAIR_PATH_TESSELLATION;
+    view.path = HAIR_PATH_TESSELLATION;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &view, &picture[PATHS + 1]);
     assert_memory_equal(picture[PATHS].pixels, picture[PATHS + 1].pixels, sizeof picture[0].pixels);
@@ -218,11 +218,11 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
 static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
 {
     static struct picture own, same;
-    struct fixture        f   = start(state, 0);
-    hair_lod              lod = hair_lod_default();
+    struct fixture f = start(state, 0);
+    hair_lod lod = hair_lod_default();
     for (int i = 0; i < 4; ++i) {
-        hair_view view  = front(HAIR_PATH_AUTO, (hair_primitive)(i % 2));
-        view.lod        = i / 2 ? &lod : NULL;
+        hair_view view = front(HAIR_PATH_AUTO, (hair_primitive)(i % 2));
+        view.lod = i / 2 ? &lod : NULL;
         hair_path taken = hair_draw_path(&f.hair->draw, &view);
         draw(&f, &view, &own);
         assert_non_null(strstr(drawn_by(&f), name_of(taken, &view)));
@@ -236,10 +236,10 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
 // What would take too much memory is not chosen for being fast.
 static void auto_does_not_expand_more_than_fits(void** state)
 {
-    struct fixture   f    = start(state, 0);
-    hair_view        view = front(HAIR_PATH_AUTO, HAIR_RIBBONS);
+    struct fixture f = start(state, 0);
+    hair_view view = front(HAIR_PATH_AUTO, HAIR_RIBBONS);
     struct hair_draw many = f.hair->draw;
-    many.followers        = 4000000;
+    many.followers = 4000000;
     assert_int_not_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);
     view.path = HAIR_PATH_EXPANDED;
     assert_int_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);

@@ -21,7 +21,7 @@
 static void begin(struct hair_test* test, uint32_t cells, int ball, double density, struct hair_test_fluid* f)
 {
     struct hair_fluid_desc desc = hair_test_fluid_desc(cells);
-    double                 node = (double)HAIR_TEST_FLUID_SIDE / (cells < 32 ? cells : 32);
+    double node = (double)HAIR_TEST_FLUID_SIDE / (cells < 32 ? cells : 32);
     hair_test_fluid_begin(test, &desc, ball, f);
     hair_test_ok(test, hair_fluid_need_hair(&f->fluid, 1));
     f->now.strands = (struct hair_fluid_strands){density * node * node * node / 1048576,
@@ -43,12 +43,12 @@ static void put_hair(struct hair_test_fluid* f, const int32_t* grid)
 // A share of the density where the shape is.
 static void fill(struct hair_test_fluid* f, double (*shape)(const double place[3]))
 {
-    size_t   n    = hair_fluid_nodes(&f->fluid);
+    size_t n = hair_fluid_nodes(&f->fluid);
     int32_t* grid = calloc(4 * n * n * n, sizeof *grid);
     for (size_t i = 0; i < n * n * n; ++i) { // Of places in the box from 0 to 1.
         double place[3] = {((double)(i % n) + 0.5) / (double)n, ((double)(i / n % n) + 0.5) / (double)n,
                            ((double)(i / n / n) + 0.5) / (double)n};
-        grid[4 * i]     = (int32_t)(shape(place) * 1048576);
+        grid[4 * i] = (int32_t)(shape(place) * 1048576);
     }
     put_hair(f, grid);
     free(grid);
@@ -66,22 +66,22 @@ static void advance(struct hair_test_fluid* f, int steps)
 static void faces_are_as_open_as_hair_leaves_them(void** state)
 {
     struct hair_test_fluid f;
-    uint32_t               random = 3;
+    uint32_t random = 3;
     begin(*state, 16, 1, 5e5, &f);
     advance(&f, 3);
-    size_t   nodes = node_count(&f);
-    float*   texel = malloc(4 * f.count * sizeof *texel);
-    int32_t* grid  = calloc(4 * nodes, sizeof *grid);
-    double * air = malloc(3 * f.count * sizeof *air), *density = calloc(nodes, sizeof *density);
-    double*  flux = calloc(3 * nodes, sizeof *flux);
+    size_t nodes = node_count(&f);
+    float* texel = malloc(4 * f.count * sizeof *texel);
+    int32_t* grid = calloc(4 * nodes, sizeof *grid);
+    double *air = malloc(3 * f.count * sizeof *air), *density = calloc(nodes, sizeof *density);
+    double* flux = calloc(3 * nodes, sizeof *flux);
     glGetTextureImage(f.fluid.air, 0, GL_RGBA, GL_FLOAT, (GLsizei)(4 * f.count * sizeof *texel), texel);
     for (size_t i = 0; i < 3 * f.count; ++i) air[i] = (double)texel[4 * (i / 3) + i % 3];
     for (size_t i = 0; i < nodes; ++i) {
         grid[4 * i] = i % 5 < 2 ? 0 : (int32_t)(1048576 * hair_random(&random));
-        density[i]  = grid[4 * i] * (5e5 / 1048576);
+        density[i] = grid[4 * i] * (5e5 / 1048576);
         for (int k = 0; k < 3; ++k) {
             grid[4 * i + 1 + k] = (int32_t)((hair_random(&random) - 0.5f) * (float)grid[4 * i]);
-            flux[3 * i + k]     = (double)HAIR_CROWD_SPEED * grid[4 * i + 1 + k] * (5e5 / 1048576);
+            flux[3 * i + k] = (double)HAIR_CROWD_SPEED * grid[4 * i + 1 + k] * (5e5 / 1048576);
         }
     }
     put_hair(&f, grid);
@@ -90,22 +90,22 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
     double *open = hair_test_fluid_open(&f, 0), *wall = hair_test_floats(f.fluid.wall.buffer, f.faces);
     hair_fluid_bind(&f.fluid);
     hair_fluid_let_through(&f.fluid);
-    struct hair_reference_flow    flow = {.cells     = 16,
-                                          .shift     = {2, 0, 0},
-                                          .cells_per = 16 / (60 * (double)HAIR_TEST_FLUID_SIDE),
-                                          .wind      = {WIND, 0, 0},
-                                          .air       = air};
+    struct hair_reference_flow flow = {.cells = 16,
+                                       .shift = {2, 0, 0},
+                                       .cells_per = 16 / (60 * (double)HAIR_TEST_FLUID_SIDE),
+                                       .wind = {WIND, 0, 0},
+                                       .air = air};
     struct hair_reference_thicket hair = {16, density, flux, DIAMETER / NU, NU / 60};
     hair_reference_hold(&flow, &hair, open, wall);
     struct hair_fluid_buffer bare = f.fluid.open;
-    f.fluid.open                  = f.fluid.hair.open;
+    f.fluid.open = f.fluid.hair.open;
     double *got = hair_test_fluid_open(&f, 0), least = 1;
     double* closing = hair_test_floats(f.fluid.hair.wall.buffer, f.faces);
-    f.fluid.open    = bare;
+    f.fluid.open = bare;
     for (uint32_t i = 0; i < f.faces; ++i) {
         uint32_t slot = i % (uint32_t)(f.faces / 3), axis = i / (uint32_t)(f.faces / 3);
         uint32_t at[3] = {slot % 17, slot / 17 % 17, slot / 289};
-        int      there = 1;
+        int there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < 16 || k == axis;
         if (!there) continue;
         // A share is one of 1023; what closes a face that is nearly open is not known to that.
@@ -144,7 +144,7 @@ static void air_in_a_slab_along_the_wind_decays_as_drag_says(void** state)
 {
     enum { STEPS = 12 };
     struct hair_test_fluid f;
-    const double           density = 1e5, dt = 1.0 / 240, place[3] = {24, 16, 16}, outside[3] = {24, 25, 16};
+    const double density = 1e5, dt = 1.0 / 240, place[3] = {24, 16, 16}, outside[3] = {24, 25, 16};
     begin(*state, 32, 0, density, &f);
     f.now.dt = dt;
     fill(&f, nowhere);
@@ -180,17 +180,17 @@ static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(voi
     static const double densities[] = {2e5, 1e6, 1e7};
     for (int i = 0; i < 3; ++i) {
         struct hair_test_fluid f;
-        const double           place[3] = {16, 16, 16};
+        const double place[3] = {16, 16, 16};
         begin(*state, 32, 0, densities[i], &f);
         fill(&f, nowhere);
         advance(&f, 1);
         fill(&f, ball);
         advance(&f, 1);
         double* velocity = hair_test_fluid_velocity(&f);
-        double  through = 1 / (1 + densities[i] * rate(WIND) / 60), expected = 3 * through / (2 + through);
-        double  in    = hair_test_fluid_at(&f, velocity, 0, place) / WIND;
+        double through = 1 / (1 + densities[i] * rate(WIND) / 60), expected = 3 * through / (2 + through);
+        double in = hair_test_fluid_at(&f, velocity, 0, place) / WIND;
         double* right = hair_test_floats(f.fluid.right.buffer, f.count);
-        double  left  = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
+        double left = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
         print_message(
             "    %.3f let through: %.3f of the wind inside, %.3f expected; %.1e of divergence left\n",
             through, in, expected, left);
@@ -206,23 +206,23 @@ static void air_is_sound_in_hair_of_any_density(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, 16, 1, 1e30, &f);
-    size_t   nodes = node_count(&f);
-    int32_t* grid  = calloc(4 * nodes, sizeof *grid);
+    size_t nodes = node_count(&f);
+    int32_t* grid = calloc(4 * nodes, sizeof *grid);
     for (size_t i = 0; i < nodes; ++i) {
         size_t x = i % 16, y = i / 16 % 16, z = i / 256;
-        int    in   = x > 3 && x < 12 && y > 3 && y < 12 && z > 3 && z < 12;
+        int in = x > 3 && x < 12 && y > 3 && y < 12 && z > 3 && z < 12;
         grid[4 * i] = in ? INT32_MAX / 2 : 0, grid[4 * i + 2] = grid[4 * i] / 16; // 1 m/s up
     }
     put_hair(&f, grid);
     for (int i = 0; i < 12; ++i) {
-        f.now.dt   = i % 3 ? 1.0 / 60 : 0.1;
+        f.now.dt = i % 3 ? 1.0 / 60 : 0.1;
         f.now.wind = i % 4 == 1 ? hair_v3(1000, -1000, 1000) : hair_v3(5, 0, 0);
         advance(&f, 1);
         double* velocity = hair_test_fluid_velocity(&f);
         for (size_t k = 0; k < f.faces; ++k) assert_true(isfinite(velocity[k]) && fabs(velocity[k]) <= 1e4);
         free(velocity);
     }
-    f.now.dt   = 1.0 / 60;
+    f.now.dt = 1.0 / 60;
     f.now.wind = hair_v3(5, 0, 0);
     advance(&f, 20);
     double *velocity = hair_test_fluid_velocity(&f), place[3] = {5, 8, 8};
@@ -235,18 +235,18 @@ static void air_is_sound_in_hair_of_any_density(void** state)
 // Of a head of a few guides, which stand for many strands.
 static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(void** state)
 {
-    struct hair_test_living  living;
+    struct hair_test_living living;
     struct hair_test_strands strands = hair_test_strands_make(65, 8);
-    hair_physics             physics = hair_test_loose(0);
-    hair_wind                wind    = hair_wind_default();
-    double                   way[2];
+    hair_physics physics = hair_test_loose(0);
+    hair_wind wind = hair_wind_default();
+    double way[2];
     physics.drag = 0.3f;
     for (int i = 0; i < 64; ++i) // A curtain across the wind, and one behind it.
         hair_test_add_straight(
             &strands, 8, hair_v3(-0.06f + 0.02f * (float)(i / 16), 0.05f, -0.15f + 0.02f * (float)(i % 16)),
             hair_v3(0, -1, 0), 0.15f);
     hair_test_add_straight(&strands, 8, hair_v3(0.12f, 0.05f, 0), hair_v3(0, -1, 0), 0.1f);
-    wind.model       = HAIR_WIND_FLUID;
+    wind.model = HAIR_WIND_FLUID;
     wind.velocity[0] = 2;
     for (int k = 0; k < 2; ++k) {
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);

@@ -8,21 +8,21 @@
 #define MOST_CALLS 200
 
 struct fixture {
-    struct hair_test*      test;
-    hair_context*          context;
-    hair_groom*            groom;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_context* context;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    GLuint                 depth; // what a view may lend
+    GLuint depth; // what a view may lend
 };
 
 static struct fixture start(struct hair_test* test)
 {
-    struct fixture    f       = {.test = test};
+    struct fixture f = {.test = test};
     hair_context_desc context = hair_context_desc_default();
-    hair_desc         desc    = hair_desc_default();
-    context.host              = &test->host.host;
-    context.get_proc          = hair_egl_get_proc;
+    hair_desc desc = hair_desc_default();
+    context.host = &test->host.host;
+    context.get_proc = hair_egl_get_proc;
     hair_test_ok(test, hair_context_create(&context, &f.context));
     f.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_test_ok(test, hair_create(f.context, f.groom, &desc, &f.hair));
@@ -45,8 +45,8 @@ static void finish(struct fixture* f)
 
 static hair_view view_of(hair_path path)
 {
-    hair_view view     = hair_view_default();
-    view.path          = path;
+    hair_view view = hair_view_default();
+    view.path = path;
     view.projection[0] = view.projection[5] = view.projection[10] = 3;
     return view;
 }
@@ -90,11 +90,11 @@ static void put_boxes_into(struct fixture* f, hair_view* view)
 static void blow_at(struct fixture* f, hair_view* view)
 {
     (void)view;
-    hair_wind wind   = hair_wind_default();
-    wind.model       = HAIR_WIND_FLUID;
+    hair_wind wind = hair_wind_default();
+    wind.model = HAIR_WIND_FLUID;
     wind.velocity[0] = 3;
-    wind.strands     = 1;
-    wind.resolution  = 16;
+    wind.strands = 1;
+    wind.resolution = 16;
     hair_test_ok(f->test, hair_set_wind(f->hair, &wind));
 }
 
@@ -102,15 +102,15 @@ static void crowd(struct fixture* f, hair_view* view)
 {
     (void)view;
     hair_physics physics = f->hair->sim.physics;
-    physics.cohesion     = 5;
+    physics.cohesion = 5;
     hair_test_ok(f->test, hair_set_physics(f->hair, &physics));
 }
 
 static void shade_strands(struct fixture* f, hair_view* view)
 {
     hair_look look = f->hair->draw.look;
-    look.shadow    = HAIR_SHADOW_STRANDS;
-    look.shading   = HAIR_SHADING_FIBRES;
+    look.shadow = HAIR_SHADOW_STRANDS;
+    look.shading = HAIR_SHADING_FIBRES;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
     put_a_ball_into(f, view);
 }
@@ -123,7 +123,7 @@ static void share_pixels(struct fixture* f, hair_view* view)
 
 static void curl(struct fixture* f, hair_view* view)
 {
-    hair_look look   = f->hair->draw.look;
+    hair_look look = f->hair->draw.look;
     look.curl_radius = 0.01f;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
     put_a_ball_into(f, view);
@@ -143,22 +143,22 @@ static void show_motion(struct fixture* f, hair_view* view)
 static void leave_out(struct fixture* f, hair_view* view)
 {
     static hair_lod lod;
-    lod         = hair_lod_default();
+    lod = hair_lod_default();
     lod.strands = 0.5f;
-    view->lod   = &lod;
+    view->lod = &lod;
     put_a_ball_into(f, view);
 }
 
 static void show_solids(struct fixture* f, hair_view* view)
 {
     put_a_ball_into(f, view);
-    view->pass  = HAIR_PASS_SOLIDS;
+    view->pass = HAIR_PASS_SOLIDS;
     view->slice = HAIR_SLICE_X;
 }
 
 static const struct {
     const char* name;
-    hair_path   path;
+    hair_path path;
     void (*set)(struct fixture* f, hair_view* view);
 } ways[] = {
     {"a ball", HAIR_PATH_TESSELLATION, put_a_ball_into},
@@ -183,8 +183,8 @@ static const struct {
 static void frames_compile_nothing_once_they_are_prepared(void** state)
 {
     for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
-        struct fixture f    = start(*state);
-        hair_view      view = view_of(ways[i].path);
+        struct fixture f = start(*state);
+        hair_view view = view_of(ways[i].path);
         ways[i].set(&f, &view);
         prepare(&f, &view);
         uint32_t before = hair_test_count_programs(&f.context->gl);
@@ -198,8 +198,8 @@ static void frames_compile_nothing_once_they_are_prepared(void** state)
 
 static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(void** state)
 {
-    struct fixture f       = start(*state);
-    hair_view      view    = view_of(HAIR_PATH_INSTANCED);
+    struct fixture f = start(*state);
+    hair_view view = view_of(HAIR_PATH_INSTANCED);
     f.context->gl.parallel = 0;
     uint32_t before = hair_test_count_programs(&f.context->gl), ready = 0;
     put_a_ball_into(&f, &view);
@@ -217,9 +217,9 @@ static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(vo
 static void a_frame_may_come_before_all_is_ready(void** state)
 {
     for (int lives = 0; lives < 2; ++lives) {
-        struct fixture f       = start(*state);
-        hair_view      view    = view_of(HAIR_PATH_TESSELLATION);
-        uint32_t       ready   = 0;
+        struct fixture f = start(*state);
+        hair_view view = view_of(HAIR_PATH_TESSELLATION);
+        uint32_t ready = 0;
         f.context->gl.parallel = 1;
         put_a_ball_into(&f, &view);
         hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
@@ -230,9 +230,9 @@ static void a_frame_may_come_before_all_is_ready(void** state)
 
 static void nulls_and_wrong_views_are_refused(void** state)
 {
-    struct fixture f     = start(*state);
-    hair_view      view  = view_of(HAIR_PATH_TESSELLATION);
-    uint32_t       ready = 7;
+    struct fixture f = start(*state);
+    hair_view view = view_of(HAIR_PATH_TESSELLATION);
+    uint32_t ready = 7;
     assert_int_equal(hair_prepare(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_prepare(f.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
     view.opacity = 2;

@@ -12,15 +12,15 @@ enum { WIDTH = 203, HEIGHT = 157, PIXELS = WIDTH * HEIGHT, LONG_UNUSED = 242 };
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 // Wavy hair of that radius, m.
 static struct fixture start(void** state, uint32_t followers, float radius)
 {
     struct fixture f = {.test = *state};
-    f.hair           = hair_test_wear(f.test, HAIR_STYLE_CURLY, followers, radius, &f.groom);
+    f.hair = hair_test_wear(f.test, HAIR_STYLE_CURLY, followers, radius, &f.groom);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     return f;
 }
@@ -35,7 +35,7 @@ static void finish(struct fixture* f)
 static hair_view front(hair_path path, float away)
 {
     hair_view view = hair_view_default();
-    view.path      = path;
+    view.path = path;
     view.view[13] = -1.6f, view.view[14] = -away;
     view.projection[0] = 2.4f, view.projection[5] = 3;
     view.projection[10] = -1, view.projection[14] = -0.02f; // 1 cm away -1, far away 1
@@ -125,9 +125,9 @@ static void draw_lod(struct fixture* f, hair_path path, hair_pass pass, float aw
                      const hair_lod* lod, struct picture* out)
 {
     struct hair_test_frame frame;
-    hair_view              view = front(path, away);
-    view.pass                   = pass;
-    view.lod                    = lod;
+    hair_view view = front(path, away);
+    view.pass = pass;
+    view.lod = lod;
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
     set(&view);
     hair_test_ok(f->test, hair_draw(f->hair, &view));
@@ -152,7 +152,7 @@ static struct difference compare(const struct picture* a, const struct picture* 
 {
     struct difference d = {0};
     for (int i = 0; i < PIXELS; ++i) {
-        int   by_a = a->pixels[4 * i + 3] > 0, by_b = b->pixels[4 * i + 3] > 0;
+        int by_a = a->pixels[4 * i + 3] > 0, by_b = b->pixels[4 * i + 3] > 0;
         float most = 0;
         d.covered += (uint32_t)(by_a && by_b);
         d.alone += (uint32_t)(by_a != by_b);
@@ -192,8 +192,8 @@ static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_ha
 static void depth_made_by_compute_is_that_which_is_drawn(void** state)
 {
     static struct picture drawn, made;
-    struct fixture        f     = start(state, 400, 3e-4f);
-    uint32_t              there = 0, apart = 0;
+    struct fixture f = start(state, 400, 3e-4f);
+    uint32_t there = 0, apart = 0;
     draw(&f, HAIR_PATH_EXPANDED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &drawn);
     draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &made);
     for (int i = 0; i < PIXELS; ++i) {
@@ -209,11 +209,11 @@ static void depth_made_by_compute_is_that_which_is_drawn(void** state)
 static void levels_of_detail_are_those_that_are_drawn(void** state)
 {
     static struct picture drawn, made;
-    struct fixture        f = start(state, 600, 3e-4f);
+    struct fixture f = start(state, 600, 3e-4f);
     for (int i = 0; i < 4; ++i) {
-        hair_lod lod  = hair_lod_default();
-        float    away = i == 3 ? 3 : 0.8f;
-        lod.dynamic   = i >= 2;
+        hair_lod lod = hair_lod_default();
+        float away = i == 3 ? 3 : 0.8f;
+        lod.dynamic = i >= 2;
         if (i == 0) lod.strands = 0.37f;
         if (i == 1) lod.segments = 0.4f;
         if (i >= 2) lod.strand_pixels = 2, lod.segment_pixels = 6;
@@ -236,7 +236,7 @@ static void levels_of_detail_are_those_that_are_drawn(void** state)
 static void the_same_hair_is_made_the_same_bits(void** state)
 {
     static struct picture first, second;
-    struct fixture        f = start(state, 1500, 3e-4f);
+    struct fixture f = start(state, 1500, 3e-4f);
     draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &first);
     for (int i = 0; i < 5; ++i) {
         draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &second);
@@ -248,18 +248,18 @@ static void the_same_hair_is_made_the_same_bits(void** state)
 // Each sample of a pixel sees what a pixel there would; also in front of what the host has drawn into some of them.
 static void samples_cover_as_much_as_those_that_are_drawn(void** state)
 {
-    static float   pixels[2][4 * PIXELS];
+    static float pixels[2][4 * PIXELS];
     struct fixture f = start(state, 400, 3e-4f);
     for (int made = 0; made < 2; ++made) {
         struct hair_test_frame frame;
-        hair_view              view = front(made ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED, 0.8f);
+        hair_view view = front(made ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED, 0.8f);
         hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 4);
         hair_test_ok(f.test, hair_draw(f.hair, &view));
         hair_test_frame_read(&frame, pixels[made]);
         hair_test_frame_free(&frame);
     }
     uint32_t some = 0, apart = 0;
-    double   sum[2] = {0}, color[2] = {0};
+    double sum[2] = {0}, color[2] = {0};
     for (int i = 0; i < PIXELS; ++i) {
         some += pixels[0][4 * i + 3] > 0 && pixels[0][4 * i + 3] < 1;
         apart += fabsf(pixels[0][4 * i + 3] - pixels[1][4 * i + 3]) > 0.01f;
@@ -278,25 +278,25 @@ static void samples_cover_as_much_as_those_that_are_drawn(void** state)
 
 static void what_compute_does_not_make_is_drawn(void** state)
 {
-    struct fixture f    = start(state, 50, 3e-4f);
-    hair_lod       lod  = hair_lod_default();
-    hair_view      view = front(HAIR_PATH_COMPUTED, 0.8f);
+    struct fixture f = start(state, 50, 3e-4f);
+    hair_lod lod = hair_lod_default();
+    hair_view view = front(HAIR_PATH_COMPUTED, 0.8f);
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_COMPUTED);
-    view.lod       = &lod;
+    view.lod = &lod;
     view.primitive = HAIR_LINES;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
     view.pass = HAIR_PASS_ID; // More than levels of detail write of a vertex.
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
     view.pass = HAIR_PASS_COLOR;
-    view.lod  = NULL;
+    view.lod = NULL;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
     view.primitive = HAIR_RIBBONS;
-    view.coverage  = HAIR_COVERAGE_SHARES;
+    view.coverage = HAIR_COVERAGE_SHARES;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
     view.coverage = HAIR_COVERAGE_SAMPLES;
     for (hair_pass pass = HAIR_PASS_COLOR; pass <= HAIR_PASS_OPACITY; ++pass) {
         view.pass = pass;
-        int is    = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
+        int is = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
         assert_int_equal(hair_draw_path(&f.hair->draw, &view), is ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED);
     }
     finish(&f);
@@ -305,9 +305,9 @@ static void what_compute_does_not_make_is_drawn(void** state)
 // In the host's own shader pixels are made where they are drawn.
 static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
 {
-    struct fixture         f    = start(state, 50, 3e-4f);
-    hair_view              view = front(HAIR_PATH_COMPUTED, 0.8f);
-    hair_shader_desc       desc = hair_shader_desc_default();
+    struct fixture f = start(state, 50, 3e-4f);
+    hair_view view = front(HAIR_PATH_COMPUTED, 0.8f);
+    hair_shader_desc desc = hair_shader_desc_default();
     struct hair_test_frame frame;
     desc.glsl = "vec4 hair_shade(hair_fragment f) { return vec4(f.t, 0.5, 0.0, 1.0); }";
     for (int pixels = 0; pixels < 2; ++pixels) {
@@ -330,14 +330,14 @@ static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
 
 static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(void** state)
 {
-    struct fixture         f   = start(state, 50, 3e-4f);
-    struct hair_raster*    own = &f.hair->draw.raster;
+    struct fixture f = start(state, 50, 3e-4f);
+    struct hair_raster* own = &f.hair->draw.raster;
     struct hair_test_frame frame;
-    hair_view              view = front(HAIR_PATH_EXPANDED, 0.8f);
+    hair_view view = front(HAIR_PATH_EXPANDED, 0.8f);
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     assert_int_equal(own->nearest, 0);
-    view.path     = HAIR_PATH_COMPUTED;
+    view.path = HAIR_PATH_COMPUTED;
     view.view[14] = -40; // where it is a few pixels
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     print_message("    %zu numbers of %d pixels\n", own->room, PIXELS);

@@ -15,26 +15,26 @@ enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MOST = 1024 };
 // Where the tips are drawn in every frame, seen from the head.
 struct run {
     hair_vec3 tip[FRAMES][GUIDES];
-    uint32_t  runs; // of the solver
+    uint32_t runs; // of the solver
 };
 
 struct fixture {
     struct hair_test* test;
-    hair_context*     context;
-    hair_groom*       groom;
+    hair_context* context;
+    hair_groom* groom;
 };
 
 static struct fixture start(void** state)
 {
-    struct fixture            f      = {.test = *state};
-    hair_context_desc         desc   = hair_context_desc_default();
+    struct fixture f = {.test = *state};
+    hair_context_desc desc = hair_context_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    desc.host                        = &f.test->host.host;
-    desc.get_proc                    = hair_egl_get_proc;
-    desc.timings                     = 1;
-    wanted.guides                    = GUIDES;
-    wanted.turn                      = 0.1f;
-    f.groom                          = hair_test_groom(desc.host, wanted);
+    desc.host = &f.test->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.timings = 1;
+    wanted.guides = GUIDES;
+    wanted.turn = 0.1f;
+    f.groom = hair_test_groom(desc.host, wanted);
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
     return f;
 }
@@ -55,7 +55,7 @@ static float angle_at(uint32_t frame)
 static uint32_t count_runs(hair_context* context)
 {
     hair_timing timings[1024];
-    uint32_t    count = hair_timings(context, timings, 1024), runs = 0;
+    uint32_t count = hair_timings(context, timings, 1024), runs = 0;
     for (uint32_t i = 0; i < count && i < 1024; ++i)
         if (!strncmp(timings[i].pass, "sim/mixed", 9)) runs += timings[i].runs;
     return runs;
@@ -63,7 +63,7 @@ static uint32_t count_runs(hair_context* context)
 
 static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUIDES])
 {
-    float    at[3 * MOST];
+    float at[3 * MOST];
     uint32_t count = 0, each = hair->sim.smooth_vertices;
     hair_test_ok(f->test, hair_read(hair, HAIR_READ_SMOOTH, at, MOST, &count));
     assert_int_equal(count, GUIDES * each);
@@ -72,22 +72,22 @@ static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUID
 
 // `rate_at`: of a frame. `is_seen`: in a frame; where it is not, a quarter is enough. NULL: always.
 static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_seen)(uint32_t frame),
-                struct run*     out)
+                struct run* out)
 {
-    hair_physics   physics = hair_physics_default();
-    hair_desc      desc    = hair_desc_default();
-    hair_instance* hair    = NULL;
-    physics.sleep          = 0; // It would leave out runs of its own.
-    physics.rate           = rate_at(0);
-    physics.unseen_rate    = is_seen ? 0.25f : 1;
-    desc.physics           = &physics;
+    hair_physics physics = hair_physics_default();
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    physics.sleep = 0; // It would leave out runs of its own.
+    physics.rate = rate_at(0);
+    physics.unseen_rate = is_seen ? 0.25f : 1;
+    desc.physics = &physics;
     hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &hair));
     uint32_t before = count_runs(f->context);
     for (uint32_t i = 0; i < FRAMES; ++i) {
-        float angle    = angle_at(i);
+        float angle = angle_at(i);
         float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
                           sinf(angle), 0, cosf(angle),  0, 0, 0, 0, 1};
-        physics.rate   = rate_at(i);
+        physics.rate = rate_at(i);
         hair_test_ok(f->test, hair_set_physics(hair, &physics));
         hair_test_ok(f->test, hair_set_transform(hair, head));
         hair_test_ok(f->test, hair_step(hair, 1.0f / PER_SECOND));
@@ -100,7 +100,7 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
                 hair_v3(cosf(angle) * t.x - sinf(angle) * t.z, t.y, sinf(angle) * t.x + cosf(angle) * t.z);
         }
     }
-    out->runs          = count_runs(f->context) - before;
+    out->runs = count_runs(f->context) - before;
     hair_health health = hair_health_default();
     hair_test_ok(f->test, hair_get_health(hair, &health));
     assert_int_equal(health.euler, 0);
@@ -155,9 +155,9 @@ static double jerk_of(const struct run* run)
     double most = 0;
     for (uint32_t i = 2; i < FRAMES; ++i)
         for (int g = 0; g < GUIDES; ++g) {
-            hair_vec3 step   = hair_sub(run->tip[i][g], run->tip[i - 1][g]);
+            hair_vec3 step = hair_sub(run->tip[i][g], run->tip[i - 1][g]);
             hair_vec3 before = hair_sub(run->tip[i - 1][g], run->tip[i - 2][g]);
-            most             = fmax(most, (double)hair_distance(step, before));
+            most = fmax(most, (double)hair_distance(step, before));
         }
     return most;
 }
@@ -173,18 +173,18 @@ static double fastest_of(const struct run* run)
 
 // How far off a run at a lower rate may be.
 struct bounds {
-    double swing;      // share
+    double swing; // share
     double mean, last; // m, of tips on average and at the end
-    double step;       // share of the longest step of a frame that a step may differ from the one before
+    double step; // share of the longest step of a frame that a step may differ from the one before
 };
 
 static void compare(const char* name, const struct run* full, const struct run* low, struct bounds bounds)
 {
     hair_vec3 mean[2][GUIDES];
-    double    swing[2] = {swing_of(full, mean[0]), swing_of(low, mean[1])}, off = 0, last = 0;
-    double    step = jerk_of(low) / fastest_of(full);
+    double swing[2] = {swing_of(full, mean[0]), swing_of(low, mean[1])}, off = 0, last = 0;
+    double step = jerk_of(low) / fastest_of(full);
     for (int g = 0; g < GUIDES; ++g) {
-        off  = fmax(off, (double)hair_distance(mean[0][g], mean[1][g]));
+        off = fmax(off, (double)hair_distance(mean[0][g], mean[1][g]));
         last = fmax(last, (double)hair_distance(full->tip[FRAMES - 1][g], low->tip[FRAMES - 1][g]));
     }
     print_message(
@@ -201,7 +201,7 @@ static void compare(const char* name, const struct run* full, const struct run* 
 static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
 {
     static struct run full, low;
-    struct fixture    f = start(state);
+    struct fixture f = start(state);
     run(&f, at_one, NULL, &full);
     assert_int_equal(full.runs, FRAMES);
     run(&f, at_half, NULL, &low);
@@ -217,7 +217,7 @@ static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
 static void nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again(void** state)
 {
     static struct run full, low;
-    struct fixture    f = start(state);
+    struct fixture f = start(state);
     run(&f, at_one, NULL, &full);
     run(&f, at_any, NULL, &low);
     compare("changing", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});

@@ -16,12 +16,12 @@
 
 // A groom in a state of which every part is switched on or off by the params.
 struct fixture {
-    struct hair_test*       test;
-    hair_groom*             groom;
-    hair_instance*          hair;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_step_params params;
-    struct hair_state       state[STATES];
-    uint32_t                random;
+    struct hair_state state[STATES];
+    uint32_t random;
 };
 
 static hair_quat turn_about(hair_vec3 axis, float angle)
@@ -43,14 +43,14 @@ static void scatter(struct fixture* f, float away, float moved)
 // All of the solver off: nothing moves but pinned vertices.
 static struct fixture start_with(void** state, struct hair_test_handmade wanted)
 {
-    struct fixture f    = {.test = *state, .random = 12345};
-    hair_desc      desc = hair_desc_default();
-    desc.solver         = HAIR_SOLVER_REDBLACK;
-    f.groom             = hair_test_groom(&f.test->host.host, wanted);
+    struct fixture f = {.test = *state, .random = 12345};
+    hair_desc desc = hair_desc_default();
+    desc.solver = HAIR_SOLVER_REDBLACK;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     f.params.gravity.w = 1.0f / 120;
-    f.params.substeps  = 1;
-    f.params.guides    = f.groom->info.guide_count;
+    f.params.substeps = 1;
+    f.params.guides = f.groom->info.guide_count;
     for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
         f.params.substep[i] =
             (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1) / HAIR_STEP_SUBSTEPS}};
@@ -80,7 +80,7 @@ static void finish(struct fixture* f)
 static void move_head(struct fixture* f)
 {
     for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i) {
-        float share          = (float)(i + 1) / 5;
+        float share = (float)(i + 1) / 5;
         f->params.substep[i] = (struct hair_substep){vec4_of_quat(turn_about(hair_v3(1, 2, 3), 0.2f * share)),
                                                      {0.005f, -0.002f, 0.003f, share}};
     }
@@ -88,26 +88,26 @@ static void move_head(struct fixture* f)
 
 static void put_solids(struct fixture* f)
 {
-    f->params.margin   = 0.001f;
-    f->params.solids   = 3;
+    f->params.margin = 0.001f;
+    f->params.solids = 3;
     f->params.solid[0] = (struct hair_capsule){.start = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}},
-                                               .end   = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
+                                               .end = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
     f->params.solid[1] =
         (struct hair_capsule){.start = {{-0.2f, 0.2f, 0, 0.05f}, {0.2f, 0.25f, 0, 0.05f}},
-                              .end   = {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
+                              .end = {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
     f->params.solid[2] =
         (struct hair_capsule){.start = {{0.1f, 0.3f, 0.1f, 0.04f}, {0.1f, 0.3f, 0.1f, 0.04f}},
-                              .end   = {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
+                              .end = {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
 }
 
 static void switch_all_on(struct fixture* f)
 {
-    f->params.gravity    = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
-    f->params.keep       = 0.97f;
-    f->params.pull_root  = 25;
-    f->params.pull_tip   = 3;
-    f->params.angular    = 150;
-    f->params.bend       = 0.1f;
+    f->params.gravity = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
+    f->params.keep = 0.97f;
+    f->params.pull_root = 25;
+    f->params.pull_tip = 3;
+    f->params.angular = 150;
+    f->params.bend = 0.1f;
     f->params.iterations = 20;
     move_head(f);
     put_solids(f);
@@ -126,15 +126,15 @@ static double tolerance(const struct fixture* f)
 {
     const struct hair_step_params* params = &f->params;
 
-    double substep   = 4 + (params->angular > 0 ? 4 : 0);
+    double substep = 4 + (params->angular > 0 ? 4 : 0);
     double iteration = (params->bend > 0 ? 4 : 2) + 2 * params->solids;
     return 2 * 6 * sqrt(params->substeps * (substep + params->iterations * iteration)) / 16777216;
 }
 
 static void run_pass(struct fixture* f, hair_gl_pass pass)
 {
-    struct hair_gl* gl   = &f->test->context->gl;
-    size_t          size = f->groom->info.guide_vertex_count * sizeof *f->state;
+    struct hair_gl* gl = &f->test->context->gl;
+    size_t size = f->groom->info.guide_vertex_count * sizeof *f->state;
     hair_test_ok(f->test, hair_gl_need(gl, pass));
     glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
     glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
@@ -167,8 +167,8 @@ static struct hair_reference_vertex in_double(const struct hair_state* state)
 static void compare(struct fixture* f, const char* what)
 {
     static struct hair_reference_vertex expected[STATES];
-    uint32_t                            vertices = f->groom->info.guide_vertex_count;
-    double                              limit = tolerance(f), worst = 0, moved = 0;
+    uint32_t vertices = f->groom->info.guide_vertex_count;
+    double limit = tolerance(f), worst = 0, moved = 0;
     for (uint32_t i = 0; i < vertices; ++i) expected[i] = in_double(&f->state[i]);
     for (uint32_t g = 0; g < f->params.guides; ++g) {
         const struct hair_guide* guide = &f->groom->guides[g];
@@ -182,7 +182,7 @@ static void compare(struct fixture* f, const char* what)
     for (uint32_t i = 0; i < vertices; ++i) {
         double error = fmax(largest(&f->state[i].position, expected[i].position),
                             largest(&f->state[i].displacement, expected[i].displacement));
-        worst        = fmax(worst, error);
+        worst = fmax(worst, error);
         if (!(error <= limit)) {
             print_message("    %s: vertex %u\n", what, i);
             hair_test_near("x", i, f->state[i].position.x, expected[i].position[0], limit);
@@ -196,11 +196,11 @@ static void compare(struct fixture* f, const char* what)
 
 static void integration_is_as_the_reference_has_it(void** state)
 {
-    struct fixture f   = start(state);
-    f.params.gravity   = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
-    f.params.keep      = 0.97f;
+    struct fixture f = start(state);
+    f.params.gravity = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
+    f.params.keep = 0.97f;
     f.params.pull_root = 25;
-    f.params.pull_tip  = 3;
+    f.params.pull_tip = 3;
     move_head(&f);
     compare(&f, "integrate");
     finish(&f);
@@ -217,7 +217,7 @@ static void angular_forces_are_as_the_reference_has_them(void** state)
 
 static void distance_constraints_are_as_the_reference_has_them(void** state)
 {
-    struct fixture f    = start(state);
+    struct fixture f = start(state);
     f.params.iterations = 1;
     scatter(&f, 0.002f, 0);
     compare(&f, "1 iteration");
@@ -235,7 +235,7 @@ static void angular_constraints_are_as_the_reference_has_them(void** state)
     for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) f.groom->rest[i].direction.w *= 1.1f;
     glNamedBufferSubData(f.hair->sim.rest, 0, f.groom->info.guide_vertex_count * sizeof *f.groom->rest,
                          f.groom->rest);
-    f.params.bend       = 0.5f;
+    f.params.bend = 0.5f;
     f.params.iterations = 1;
     scatter(&f, 0, 0);
     compare(&f, "bend");
@@ -244,7 +244,7 @@ static void angular_constraints_are_as_the_reference_has_them(void** state)
 
 static void collisions_are_as_the_reference_has_them(void** state)
 {
-    struct fixture f    = start(state);
+    struct fixture f = start(state);
     f.params.iterations = 1;
     put_solids(&f);
     scatter(&f, 0, 0);
@@ -256,7 +256,7 @@ static void no_vertex_is_left_inside_a_solid(void** state)
 {
     struct fixture f = start(state);
     switch_all_on(&f);
-    f.params.solids   = 1;
+    f.params.solids = 1;
     f.params.substeps = 5;
     run(&f);
     for (uint32_t g = 0; g < f.params.guides; ++g)
@@ -294,8 +294,8 @@ static void switch_off(struct fixture* f, int off)
 static void each_stage_does_its_part_among_the_others(void** state)
 {
     for (int i = 0; i < 10; ++i) {
-        struct fixture f   = start(state);
-        int            bit = 1 << (i % 5), off = i < 5 ? bit : 31 - bit;
+        struct fixture f = start(state);
+        int bit = 1 << (i % 5), off = i < 5 ? bit : 31 - bit;
         switch_all_on(&f);
         f.params.substeps = 3;
         switch_off(&f, off);
@@ -311,8 +311,8 @@ static void each_stage_does_its_part_among_the_others(void** state)
 // in a step of four substeps.
 static void a_step_is_what_the_application_asked_for(void** state)
 {
-    struct fixture f       = start(state);
-    hair_physics   physics = hair_physics_default();
+    struct fixture f = start(state);
+    hair_physics physics = hair_physics_default();
     // None at its default, which may change.
     physics.damping = 3, physics.pull_root = 5, physics.pull_tip = 0.75f, physics.angular = 1.5f;
     physics.bend = 0.15f, physics.iterations = 19, physics.margin = 0.002f, physics.gravity[0] = 1;
@@ -322,40 +322,40 @@ static void a_step_is_what_the_application_asked_for(void** state)
     hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
     hair_test_ok(f.test, hair_reset(f.hair));
     double angle = 0.3, to[3] = {0.04, -0.01, 0.02};
-    float  transform[16] = {(float)cos(angle),
-                            0,
-                            (float)-sin(angle),
-                            0,
-                            0,
-                            1,
-                            0,
-                            0,
-                            (float)sin(angle),
-                            0,
-                            (float)cos(angle),
-                            0,
-                            (float)to[0],
-                            (float)to[1],
-                            (float)to[2],
-                            1};
+    float transform[16] = {(float)cos(angle),
+                           0,
+                           (float)-sin(angle),
+                           0,
+                           0,
+                           1,
+                           0,
+                           0,
+                           (float)sin(angle),
+                           0,
+                           (float)cos(angle),
+                           0,
+                           (float)to[0],
+                           (float)to[1],
+                           (float)to[2],
+                           1};
     hair_test_ok(f.test, hair_set_transform(f.hair, transform));
     hair_solid there = solid;
     there.position[1] += 0.03f;
     hair_test_ok(f.test, hair_set_solids(f.hair, &there, 1, sizeof there));
     hair_test_ok(f.test, hair_step(f.hair, 4.0f / 120));
 
-    struct hair_step_params* p  = &f.params;
-    double                   dt = (double)(float)(1.0 / 120), tau = 6.283185307179586;
-    p->gravity    = (hair_vec4){1, physics.gravity[1], physics.gravity[2], (float)dt};
-    p->keep       = (float)exp(-3 * dt);
-    p->pull_root  = (float)(tau * 5);
-    p->pull_tip   = (float)(tau * 0.75);
-    p->angular    = (float)(tau * tau * 1.5 * 1.5);
-    p->bend       = 0.15f;
-    p->margin     = 0.002f;
+    struct hair_step_params* p = &f.params;
+    double dt = (double)(float)(1.0 / 120), tau = 6.283185307179586;
+    p->gravity = (hair_vec4){1, physics.gravity[1], physics.gravity[2], (float)dt};
+    p->keep = (float)exp(-3 * dt);
+    p->pull_root = (float)(tau * 5);
+    p->pull_tip = (float)(tau * 0.75);
+    p->angular = (float)(tau * tau * 1.5 * 1.5);
+    p->bend = 0.15f;
+    p->margin = 0.002f;
     p->iterations = 19;
-    p->substeps   = 4;
-    p->solids     = 1;
+    p->substeps = 4;
+    p->solids = 1;
     for (int i = 0; i < 4; ++i) {
         float share = (float)(i + 1) / 4;
         p->substep[i] =
@@ -369,8 +369,8 @@ static void a_step_is_what_the_application_asked_for(void** state)
             (hair_vec4){(float)(0.1 + x - to[0]), (float)(0.28 + y - to[1]), (float)-to[2], 0.05f};
     }
     static struct hair_reference_vertex expected[STATES];
-    static float                        got[3 * STATES];
-    uint32_t                            count;
+    static float got[3 * STATES];
+    uint32_t count;
     scatter(&f, 0, 0);
     for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) expected[i] = in_double(&f.state[i]);
     for (uint32_t g = 0; g < p->guides; ++g) {
@@ -390,7 +390,7 @@ static void a_step_is_what_the_application_asked_for(void** state)
 static void guides_move_the_same_in_a_larger_work_group(void** state)
 {
     static struct hair_state smallest[STATES];
-    struct fixture           f = start_up_to(state, 32);
+    struct fixture f = start_up_to(state, 32);
     switch_all_on(&f);
     f.params.substeps = 5;
     for (int larger = 0; larger < 4; ++larger) {
@@ -409,10 +409,10 @@ static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** sta
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
-        uint32_t                  most   = vertices[guides - 1];
+        uint32_t most = vertices[guides - 1];
         struct hair_test_handmade wanted = hair_test_handmade_default();
         wanted.guides = guides, wanted.vertices = vertices;
-        wanted.segment   = most > 64 ? 0.64f / (float)most : 0.01f;
+        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f;
         struct fixture f = start_with(state, wanted);
         switch_all_on(&f);
         f.params.substeps = 3;
@@ -428,7 +428,7 @@ static void a_guide_of_two_vertices_is_rigid(void** state)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.fewest = wanted.most = 2;
-    struct fixture f            = start_with(state, wanted);
+    struct fixture f = start_with(state, wanted);
     switch_all_on(&f);
     f.params.substeps = 4;
     run(&f);
@@ -448,7 +448,7 @@ static void a_guide_of_two_vertices_is_rigid(void** state)
 // notice.
 static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 {
-    static const float       bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};
     static struct hair_state sound[STATES];
     for (size_t n = 0; n < sizeof bad / sizeof *bad; ++n) {
         struct fixture f = start(state);

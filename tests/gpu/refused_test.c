@@ -55,7 +55,7 @@ static void* find(const char* name, void* user)
 {
 #define REPLACE(gl_name, type, own)                                                                          \
     if (strcmp(name, gl_name) == 0) {                                                                        \
-        type  function = own;                                                                                \
+        type function = own;                                                                                 \
         void* address;                                                                                       \
         memcpy(&address, &function, sizeof address);                                                         \
         return address;                                                                                      \
@@ -75,11 +75,11 @@ static void* find(const char* name, void* user)
 
 struct user {
     struct hair_test* test;
-    hair_context*     context;
-    hair_groom*       groom;
-    hair_instance*    hair;
-    hair_desc         desc;
-    float             damping;
+    hair_context* context;
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_desc desc;
+    float damping;
 };
 
 // Objects of OpenGL that are alive, by trying names.
@@ -96,17 +96,17 @@ static uint32_t count_objects(void)
 static hair_result make_context(struct user* user, hair_context** out)
 {
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &user->test->host.host;
-    desc.get_proc          = find;
-    desc.glsl_dir          = "glsl";
+    desc.host = &user->test->host.host;
+    desc.get_proc = find;
+    desc.glsl_dir = "glsl";
     return hair_context_create(&desc, out);
 }
 
 static hair_result create_context(struct user* user)
 {
-    hair_context*  context = NULL;
-    hair_instance* hair    = NULL;
-    hair_result    result  = make_context(user, &context);
+    hair_context* context = NULL;
+    hair_instance* hair = NULL;
+    hair_result result = make_context(user, &context);
     assert_true((result == HAIR_OK) == (context != NULL));
     if (!result) // Compiles what it is the first to need.
         result = hair_create(context, user->groom, &user->desc, &hair);
@@ -118,8 +118,8 @@ static hair_result create_context(struct user* user)
 
 static hair_result create_instance(struct user* user)
 {
-    hair_instance* hair   = NULL;
-    hair_result    result = hair_create(user->context, user->groom, &user->desc, &hair);
+    hair_instance* hair = NULL;
+    hair_result result = hair_create(user->context, user->groom, &user->desc, &hair);
     assert_true((result == HAIR_OK) == (hair != NULL));
     hair_destroy(hair);
     return result;
@@ -132,7 +132,7 @@ static hair_result step_with_other_physics(struct user* user)
     physics.damping = user->damping = user->damping < 9 ? user->damping + 0.5f : 1;
     hair_test_ok(user->test, hair_set_physics(user->hair, &physics));
     hair_instance as_it_was = *user->hair;
-    hair_result   result    = hair_step(user->hair, 1.0f / 60);
+    hair_result result = hair_step(user->hair, 1.0f / 60);
     if (result) assert_memory_equal(user->hair, &as_it_was, sizeof as_it_was);
     return result;
 }
@@ -141,7 +141,7 @@ static hair_result read_all(struct user* user)
 {
     hair_result result = HAIR_OK;
     for (int what = 0; what < 3 && !result; ++what) {
-        float    positions[30];
+        float positions[30];
         uint32_t count;
         result = hair_read(user->hair, (hair_read_what)what, positions, 10, &count);
     }
@@ -151,31 +151,31 @@ static hair_result read_all(struct user* user)
 static hair_result save_and_load(struct user* user)
 {
     static unsigned char bytes[65536];
-    size_t               size   = 0;
-    hair_result          result = hair_save(user->hair, bytes, sizeof bytes, &size);
+    size_t size = 0;
+    hair_result result = hair_save(user->hair, bytes, sizeof bytes, &size);
     return result ? result : hair_load(user->hair, bytes, size);
 }
 
 // Refusing --------------------------------------------------------------------------------------------------
 
 struct refusal {
-    uint32_t*   done;   // so far
-    uint32_t*   refuse; // which of them, from 1
+    uint32_t* done; // so far
+    uint32_t* refuse; // which of them, from 1
     const char* what;
-    uint32_t    least; // there are of them, or this tests nothing
+    uint32_t least; // there are of them, or this tests nothing
 };
 
 // Refuse the first, then the second, … until there are no more: each time the call fails, leaks nothing, and works
 // when it is made again. After the first 32 only every `stride`-th: shaders are many and read alike.
 static void torture(struct user* user, hair_result (*call)(struct user*), struct refusal of, uint32_t stride)
 {
-    struct hair_test* test    = user->test;
-    uint32_t          objects = count_objects(), blocks = hair_test_blocks(test);
+    struct hair_test* test = user->test;
+    uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
     for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
-        *of.done           = 0;
-        *of.refuse         = n;
+        *of.done = 0;
+        *of.refuse = n;
         hair_result result = call(user);
-        *of.refuse         = 0;
+        *of.refuse = 0;
         assert_int_equal(hair_test_blocks(test), blocks);
         assert_int_equal(count_objects(), objects);
         if (*of.done < n) {
@@ -208,7 +208,7 @@ static struct refusal of_objects(uint32_t least)
 static struct user start(void** state, int way)
 {
     struct user user = {.test = *state, .desc = hair_test_way(way)};
-    user.groom       = hair_test_groom(&user.test->host.host, hair_test_handmade_default());
+    user.groom = hair_test_groom(&user.test->host.host, hair_test_handmade_default());
     print_message("    %s\n", hair_test_way_name(way));
     return user;
 }
@@ -217,7 +217,7 @@ static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** stat
 {
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         struct user user = start(state, way);
-        uint32_t    rods = user.desc.solver != HAIR_SOLVER_REDBLACK;
+        uint32_t rods = user.desc.solver != HAIR_SOLVER_REDBLACK;
         hair_test_ok(user.test, make_context(&user, &user.context));
         hair_test_ok(user.test, hair_create(user.context, user.groom, &user.desc, &user.hair));
         hair_test_ok(user.test, read_all(&user)); // What compiles programs has compiled them.

@@ -12,26 +12,26 @@
 enum { MOST = 64 };
 
 struct fixture {
-    struct hair_test*      test;
-    hair_context*          context;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_context* context;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    hair_view              view;
-    hair_report_info       info;
-    hair_report_row        row[MOST];
-    uint32_t               rows;
+    hair_view view;
+    hair_report_info info;
+    hair_report_row row[MOST];
+    uint32_t rows;
 };
 
 static struct fixture start(void** state, const hair_physics* physics)
 {
-    struct fixture            f      = {.test = *state, .view = hair_view_default()};
-    hair_context_desc         desc   = hair_context_desc_default();
-    hair_desc                 of     = hair_desc_default();
+    struct fixture f = {.test = *state, .view = hair_view_default()};
+    hair_context_desc desc = hair_context_desc_default();
+    hair_desc of = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    desc.host                        = &f.test->host.host;
-    desc.get_proc                    = hair_test_trace_proc;
-    desc.timings                     = 1;
-    of.physics                       = physics;
+    desc.host = &f.test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.timings = 1;
+    of.physics = physics;
     f.view.projection[0] = f.view.projection[5] = f.view.projection[10] = 2;
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
     hair_groom* groom = hair_test_groom(desc.host, wanted);
@@ -87,7 +87,7 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 {
     static const char* const none[] = {"scalp",  "ride",  "wind", "crowd",   "seat",
                                        "expand", "count", "list", "diagnose"};
-    struct fixture           f      = start(state, NULL);
+    struct fixture f = start(state, NULL);
     hair_test_trace_clear();
     run_frame(&f);
     for (size_t i = 0; i < sizeof none / sizeof *none; ++i) check(&f, none[i], HAIR_WHY_NOT_WANTED, 0);
@@ -110,9 +110,9 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 // And what has come is let go again when it is gone.
 static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
 {
-    struct fixture f       = start(state, NULL);
-    hair_solid     solid   = hair_solid_default();
-    hair_physics   physics = hair_physics_default();
+    struct fixture f = start(state, NULL);
+    hair_solid solid = hair_solid_default();
+    hair_physics physics = hair_physics_default();
     run_frame(&f);
     uint64_t before = f.info.bytes;
     solid.size[0] = 0.12f, physics.cohesion = 3;
@@ -140,9 +140,9 @@ static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
 static void an_idle_head_and_one_out_of_view_say_so(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0.01f;
-    struct fixture f     = start(state, &physics);
-    f.view.path          = HAIR_PATH_EXPANDED;
+    physics.sleep = 0.01f;
+    struct fixture f = start(state, &physics);
+    f.view.path = HAIR_PATH_EXPANDED;
     for (int i = 0; i < 600 && !f.hair->sim.sleep.asleep; ++i) run_frame(&f);
     run_frame(&f);
     run_frame(&f);
@@ -165,10 +165,10 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
 static void reports_come_without_waiting_and_are_of_one_instance(void** state)
 {
     struct fixture f = start(state, NULL), other = {0};
-    uint32_t       last = 0;
-    f.info              = hair_report_info_default();
+    uint32_t last = 0;
+    f.info = hair_report_info_default();
     other.test = f.test, other.context = f.context;
-    hair_desc   of    = hair_desc_default();
+    hair_desc of = hair_desc_default();
     hair_groom* groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.context, groom, &of, &other.hair));
     hair_groom_destroy(groom);
@@ -196,10 +196,10 @@ static void reports_come_without_waiting_and_are_of_one_instance(void** state)
 
 static void wrong_arguments_are_refused(void** state)
 {
-    struct fixture   f    = start(state, NULL);
+    struct fixture f = start(state, NULL);
     hair_report_info info = hair_report_info_default();
-    uint32_t         count;
-    size_t           stride = sizeof *f.row;
+    uint32_t count;
+    size_t stride = sizeof *f.row;
     assert_int_equal(hair_report(NULL, 0, &info, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT);
     hair_test_refused(f.test, hair_report(f.hair, 0, NULL, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT,
                       "hair_report_info is NULL");

@@ -11,10 +11,10 @@ static struct bench_rest hang(struct hair_test* test, const hair_physics* physic
     struct hair_test_strands strands = hair_test_strands_make(2, 8);
     hair_test_add_straight(&strands, 8, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.1f);
     hair_test_add_straight(&strands, 8, hair_v3(0.1f, 0, 0), hair_v3(0, -1, 0), 0.1f);
-    hair_desc               desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, physics);
     struct hair_test_living living;
-    struct bench_rest       rest;
-    struct bench_rest_desc  wait = {.seconds = 4, .window = 0.5, .patience = 8};
+    struct bench_rest rest;
+    struct bench_rest_desc wait = {.seconds = 4, .window = 0.5, .patience = 8};
     hair_test_live(test, &strands, &desc, &living);
     assert_true(bench_measure_rest(living.hair, 2, 8, &wait, &rest));
     hair_test_die(&living);
@@ -24,11 +24,11 @@ static struct bench_rest hang(struct hair_test* test, const hair_physics* physic
 
 static void falling_hair_is_measured_at_its_speed(void** state)
 {
-    hair_physics physics     = hair_test_loose(0);
-    physics.root             = HAIR_ROOT_FREE;
-    physics.damping          = 0;
-    struct bench_rest rest   = hang(*state, &physics);
-    double            fallen = 9.81 * 4; // m/s
+    hair_physics physics = hair_test_loose(0);
+    physics.root = HAIR_ROOT_FREE;
+    physics.damping = 0;
+    struct bench_rest rest = hang(*state, &physics);
+    double fallen = 9.81 * 4; // m/s
     print_message("    %.2f m/s of %.2f\n", rest.max_speed, fallen);
     assert_true(fabs(rest.max_speed / fallen - 1) < 0.01);
     assert_true(rest.moving_fraction == 1 && rest.finite && !isfinite(rest.seconds_asleep));
@@ -36,8 +36,8 @@ static void falling_hair_is_measured_at_its_speed(void** state)
 
 static void hanging_hair_sleeps_and_is_still(void** state)
 {
-    hair_physics      physics = hair_test_loose(0);
-    struct bench_rest rest    = hang(*state, &physics);
+    hair_physics physics = hair_test_loose(0);
+    struct bench_rest rest = hang(*state, &physics);
     print_message("    asleep after %.2f s\n", rest.seconds_asleep);
     assert_true(rest.max_speed == 0 && rest.moving_fraction == 0 && rest.finite);
     assert_true(rest.seconds_asleep < 2);
@@ -45,8 +45,8 @@ static void hanging_hair_sleeps_and_is_still(void** state)
 
 static void hair_that_may_not_sleep_is_measured(void** state)
 {
-    hair_physics physics   = hair_test_loose(0);
-    physics.sleep          = 0;
+    hair_physics physics = hair_test_loose(0);
+    physics.sleep = 0;
     struct bench_rest rest = hang(*state, &physics);
     assert_true(rest.max_speed < 1e-3 && !isfinite(rest.seconds_asleep));
 }

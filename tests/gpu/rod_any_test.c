@@ -13,14 +13,14 @@
 
 static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
 {
-    hair_form*     form = NULL;
+    hair_form* form = NULL;
     hair_form_desc desc = hair_form_desc_default();
-    desc.host           = &test->host.host;
-    desc.positions      = mesh.positions;
-    desc.triangles      = mesh.triangles;
-    desc.vertex_count   = mesh.vertex_count;
+    desc.host = &test->host.host;
+    desc.positions = mesh.positions;
+    desc.triangles = mesh.triangles;
+    desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
-    desc.resolution     = resolution;
+    desc.resolution = resolution;
     hair_test_ok(test, hair_form_create(&desc, &form));
     hair_test_mesh_free(&mesh);
     return form;
@@ -30,9 +30,9 @@ static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, ui
 static hair_solid box_of(struct hair_test* test, int is_form, float x, float y, float z)
 {
     const float half[] = {x / 2, y / 2, z / 2};
-    hair_solid  solid  = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
+    hair_solid solid = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
     if (is_form) {
-        solid.form  = form_of(test, hair_test_box_mesh(half), 48);
+        solid.form = form_of(test, hair_test_box_mesh(half), 48);
         solid.scale = 2;
     } else
         solid.size[0] = x, solid.size[1] = y, solid.size[2] = z;
@@ -58,7 +58,7 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
                  struct hair_test_living* out)
 {
     struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
-    hair_desc                desc    = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
 }
@@ -82,12 +82,12 @@ static void live_row(struct hair_test* test, int solver, const hair_physics* phy
 static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
-    physics.damping      = 10;
+    physics.damping = 10;
     for (int n = 0; n < 4; ++n) {
-        int                     solver = n == 3 ? HAIR_SOLVER_FOLLOW : HAIR_SOLVER_DIRECT;
+        int solver = n == 3 ? HAIR_SOLVER_FOLLOW : HAIR_SOLVER_DIRECT;
         struct hair_test_living living;
-        hair_solid solid   = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
-        double     deepest = -INFINITY;
+        hair_solid solid = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
+        double deepest = -INFINITY;
         at(&solid, 0.08, n % 2 ? -0.08 : -0.05, 0);
         if (n == 2) hair_test_turn(&solid, 2, 0.3);
         live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &living);
@@ -121,10 +121,10 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
 static void a_form_has_friction(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
-    hair_physics       physics   = hair_test_loose(0.3f);
-    physics.root                 = HAIR_ROOT_FREE;
-    physics.damping              = 0;
-    hair_solid slope             = box_of(*state, 1, 1, 0.1f, 0.5f);
+    hair_physics physics = hair_test_loose(0.3f);
+    physics.root = HAIR_ROOT_FREE;
+    physics.damping = 0;
+    hair_solid slope = box_of(*state, 1, 1, 0.1f, 0.5f);
     hair_test_turn(&slope, 2, 0.4);
     at(&slope, (0.1 + MARGIN) * sin(0.4), -(0.1 + MARGIN) * cos(0.4), 0);
     for (int n = 0; n < 3; ++n) {
@@ -148,14 +148,14 @@ static void a_form_has_friction(void** state)
 static void forms_that_move_and_spin_carry_hair_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.8f);
-    physics.root         = HAIR_ROOT_FREE;
-    physics.damping      = 0;
+    physics.root = HAIR_ROOT_FREE;
+    physics.damping = 0;
     for (int spins = 0; spins < 2; ++spins) {
         struct hair_test_living living;
         hair_solid solid = spins ? ball_of(*state, 1, 0.5f) : box_of(*state, 1, 0.5f, 0.1f, 0.5f);
-        double     below = spins ? 0.5 : 0.1, way = 0;
+        double below = spins ? 0.5 : 0.1, way = 0;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
-        hair_desc                desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         at(&solid, 0, -below - MARGIN, 0);
         hair_test_set_solids(&living, &solid, 1);
@@ -170,7 +170,7 @@ static void forms_that_move_and_spin_carry_hair_along(void** state)
             hair_test_wait(&living, 1);
         }
         hair_test_read_guides(&living);
-        double carried  = (double)hair_test_at(&living, 0, 2).x,
+        double carried = (double)hair_test_at(&living, 0, 2).x,
                expected = spins ? below * sin(way / below) : way;
         print_message("    carried %.5f m of %.5f m\n", carried, expected);
         assert_true(fabs(carried / expected - 1) < 0.03);
@@ -188,7 +188,7 @@ static void check_after(struct hair_test_living* living, const hair_solid* solid
 {
     hair_test_wait(living, 6);
     hair_test_read_guides(living);
-    double      left = hair_test_depth(living, solid), stretch = hair_test_stretch(living);
+    double left = hair_test_depth(living, solid), stretch = hair_test_stretch(living);
     hair_health health = hair_test_health(living);
     hair_test_set_solids(living, NULL, 0);
     hair_test_wait(living, 60);
@@ -210,9 +210,9 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
     for (int n = 0; n < 8; ++n)
         for (int solver = 0; solver < (n == 1 ? SOLVERS : 1); ++solver) {
             static const char* const names[] = {"swept", "spun", "begun inside", "came upon"};
-            struct hair_test_living  living;
-            int                      is_form = n % 2, what = n / 2;
-            hair_solid               solid =
+            struct hair_test_living living;
+            int is_form = n % 2, what = n / 2;
+            hair_solid solid =
                 what == 1 ? box_of(*state, is_form, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_form, 0.05f);
             live_row(*state, solver, &physics, &living);
             if (what == 0) // 5 m/s, and there it stops.
@@ -253,7 +253,7 @@ static void place_many(hair_solid* solids, const hair_form* form)
         float p[3];
         for (int k = 0; k < 3; ++k) {
             random = random * 1664525u + 1013904223u;
-            p[k]   = (float)(random >> 8) / 16777216.0f - 0.5f;
+            p[k] = (float)(random >> 8) / 16777216.0f - 0.5f;
         }
         solids[i] = hair_test_body(i % 50 == 7 ? HAIR_SHAPE_FORM
                                    : i % 3     ? HAIR_SHAPE_SPHERE
@@ -270,12 +270,12 @@ static void place_many(hair_solid* solids, const hair_form* form)
 static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded(void** state)
 {
     static hair_solid solids[MANY];
-    hair_physics      physics = hair_test_loose(0.3f);
-    hair_form*        form    = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
+    hair_physics physics = hair_test_loose(0.3f);
+    hair_form* form = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
     place_many(solids, form);
     struct hair_test_living living[2];
-    size_t                  size = 0;
-    void*                   bytes;
+    size_t size = 0;
+    void* bytes;
     for (int run = 0; run < 2; ++run) {
         struct hair_test_strands strands = hair_test_strands_make(8, 32);
         for (int k = 0; k < 8; ++k)
@@ -313,7 +313,7 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
 static void live_in_post(struct hair_test* test, hair_mapping mapping, const hair_solid* solids,
                          uint32_t count, struct hair_test_living* out)
 {
-    hair_physics             physics = hair_test_loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     struct hair_test_strands strands = hair_test_strands_make(8, 32);
     for (int k = 0; k < 8; ++k)
         hair_test_add_straight(&strands, 32, hair_v3(-0.0175f + 0.005f * (float)k, 0, 0.003f),
@@ -328,12 +328,12 @@ static void live_in_post(struct hair_test* test, hair_mapping mapping, const hai
 static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void** state)
 {
     static const char* const names[] = {"post", "balls", "balls, a work group per guide"};
-    static hair_solid        balls[POST_BALLS];
-    hair_solid               post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
+    static hair_solid balls[POST_BALLS];
+    hair_solid post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
     post.size[0] = 0.02f, post.size[1] = 0.09f;
     for (int i = 0; i < POST_BALLS; ++i) {
-        float share      = (float)i / (POST_BALLS - 1);
-        balls[i]         = hair_test_body(HAIR_SHAPE_SPHERE, 0, -0.24f + 0.18f * share, 0);
+        float share = (float)i / (POST_BALLS - 1);
+        balls[i] = hair_test_body(HAIR_SHAPE_SPHERE, 0, -0.24f + 0.18f * share, 0);
         balls[i].size[0] = 0.02f;
     }
     uint32_t fallbacks[3];
@@ -343,7 +343,7 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
                      kind ? POST_BALLS : 1, &living);
         hair_test_wait(&living, 6);
         hair_test_read_guides(&living);
-        double      soon = hair_test_depth(&living, &post);
+        double soon = hair_test_depth(&living, &post);
         hair_health then = hair_test_health(&living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);

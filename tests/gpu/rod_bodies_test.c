@@ -17,7 +17,7 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
                  struct hair_test_strands* strands, struct hair_test_living* out)
 {
     hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_AUTO, 0, physics);
-    *strands       = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
+    *strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
     hair_test_live(test, strands, &desc, out);
 }
 
@@ -29,7 +29,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
         hair_test_body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
         hair_test_body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0), hair_test_body(HAIR_SHAPE_PLANE, 0, -0.1f, 0)};
     bodies[0].size[0] = 0.06f, bodies[0].size[1] = 0.03f, bodies[0].size[2] = 0.2f;
-    bodies[1]          = bodies[0];
+    bodies[1] = bodies[0];
     bodies[1].rounding = 0.01f;
     bodies[2].size[0] = 0.05f, bodies[2].size[1] = 0.2f;
     bodies[3].size[0] = 0.1f, bodies[3].size[1] = 0.1f;
@@ -38,9 +38,9 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
     hair_physics physics = hair_test_loose(0.3f);
     for (size_t n = 0; n < sizeof bodies / sizeof *bodies; ++n)
         for (int solver = 0; solver < (n % 3 ? 1 : SOLVERS); ++solver) {
-            struct hair_test_living  living;
+            struct hair_test_living living;
             struct hair_test_strands strands;
-            double                   deepest = -INFINITY;
+            double deepest = -INFINITY;
             live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &strands, &living);
             hair_test_set_solids(&living, &bodies[n], 1);
             for (int k = 0; k < 150; ++k) {
@@ -71,9 +71,9 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands;
-        double                   deepest = -INFINITY;
+        double deepest = -INFINITY;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
             hair_solid plate = hair_test_body(HAIR_SHAPE_BOX, (float)x, -0.2f, 0);
@@ -101,10 +101,10 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands;
-        double                   deepest = -INFINITY;
-        hair_solid               box     = hair_test_body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
+        double deepest = -INFINITY;
+        hair_solid box = hair_test_body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
         box.size[0] = 0.08f, box.size[1] = 0.02f, box.size[2] = 0.05f;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (int k = 0; k < 90; ++k) {
@@ -127,13 +127,13 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 static void a_solid_has_friction_of_its_own(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
-    hair_physics       physics   = hair_test_loose(0.3f);
-    physics.root                 = HAIR_ROOT_FREE;
-    physics.damping              = 0;
+    hair_physics physics = hair_test_loose(0.3f);
+    physics.root = HAIR_ROOT_FREE;
+    physics.damping = 0;
     for (int n = 0; n < 3; ++n) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands;
-        hair_solid               slope = hair_test_body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
+        hair_solid slope = hair_test_body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
         double a = 9.81 * (sin(0.4) - 0.3 * (double)factors[n] * cos(0.4)), far = fmax(a, 0) * 0.125;
         hair_test_turn(&slope, 2, 0.4);
         slope.friction = factors[n];

@@ -19,12 +19,12 @@ static hair_solid sphere(double x, double y, double z, double radius)
 // Its axis along z, turned by `angle` about it.
 static hair_solid capsule(double x, double y, double radius, double angle)
 {
-    double     h = sqrt(0.5), c = cos(angle / 2), s = sin(angle / 2);
+    double h = sqrt(0.5), c = cos(angle / 2), s = sin(angle / 2);
     hair_solid solid = {HAIR_SHAPE_CAPSULE,
                         {(float)x, (float)y, 0},
                         {(float)(h * c), (float)(h * s), (float)(h * s), (float)(h * c)},
                         {(float)radius, 0.5f},
-                        .scale    = 1,
+                        .scale = 1,
                         .friction = 1};
     return solid;
 }
@@ -38,8 +38,8 @@ static double depth(const struct hair_test_living* living, const hair_solid* sol
         for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
              ++i) {
             hair_vec3 p = hair_test_at(living, g, i);
-            double    x = (double)(p.x - solid->position[0]), y = (double)(p.y - solid->position[1]);
-            double    z = (double)(p.z - solid->position[2]);
+            double x = (double)(p.x - solid->position[0]), y = (double)(p.y - solid->position[1]);
+            double z = (double)(p.z - solid->position[2]);
             if (solid->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)solid->size[1], 0);
             most = fmax(most, (double)solid->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
         }
@@ -67,10 +67,10 @@ static void lay(struct hair_test* test, hair_solver solver, const hair_physics* 
 static void a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
-    physics.damping      = 10;
+    physics.damping = 10;
     for (int kind = 0; kind < 2; ++kind)
         for (int solver = 0; solver < 2; ++solver) {
-            hair_solid              solid = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
+            hair_solid solid = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
             struct hair_test_living living;
             lay(*state, (hair_solver)solver, &physics, &solid, 8, &living);
             assert_true(hair_test_tip(&living, 0).x > 0.06f); // Over the top.
@@ -89,7 +89,7 @@ static void without_friction_it_slides_off(void** state)
 {
     hair_physics physics = hair_test_loose(0);
     for (int solver = 0; solver < 2; ++solver) {
-        hair_solid              solid = sphere(0.02, 0, 0, 0.05);
+        hair_solid solid = sphere(0.02, 0, 0, 0.05);
         struct hair_test_living living;
         lay(*state, (hair_solver)solver, &physics, &solid, 4, &living);
         assert_true(hair_test_tip(&living, 0).x < 0);
@@ -103,15 +103,15 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
 {
     static const double mu[] = {0, 0.3, 0.5, 0.6}; // tan 0.5 = 0.546
     for (int kind = 0; kind < 4 * SOLVERS; ++kind) {
-        double       friction = mu[kind % 4], radius = friction > 0.55 ? 1 : 5, start = 0.5, a = start, w = 0;
-        int          solver              = kind / 4;
-        hair_physics physics             = hair_test_loose((float)friction);
-        physics.root                     = HAIR_ROOT_FREE;
-        physics.damping                  = 0;
+        double friction = mu[kind % 4], radius = friction > 0.55 ? 1 : 5, start = 0.5, a = start, w = 0;
+        int solver = kind / 4;
+        hair_physics physics = hair_test_loose((float)friction);
+        physics.root = HAIR_ROOT_FREE;
+        physics.damping = 0;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
-        struct hair_test_living  living;
-        hair_desc                desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid               solid =
+        struct hair_test_living living;
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid solid =
             capsule(-(radius + MARGIN) * sin(start), -(radius + MARGIN) * cos(start), radius, 0);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_set_solids(&living, &solid, 1);
@@ -121,8 +121,8 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
             w += 1e-5 * (9.81 * (sin(a) - friction * cos(a)) / radius + friction * w * w);
             a += 1e-5 * w;
         }
-        hair_vec3 p    = hair_test_at(&living, 0, 2);
-        double    slid = atan2((double)(p.x - solid.position[0]), (double)(p.y - solid.position[1])) - start;
+        hair_vec3 p = hair_test_at(&living, 0, 2);
+        double slid = atan2((double)(p.x - solid.position[0]), (double)(p.y - solid.position[1])) - start;
         print_message("    solver %d, friction %g: slides %.4f m of %.4f m\n", solver, friction,
                       radius * slid, radius * (a - start));
         if (friction > 0.55)
@@ -138,15 +138,15 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
 static void solids_that_move_and_spin_carry_hair_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.8f);
-    physics.root         = HAIR_ROOT_FREE;
-    physics.damping      = 0;
+    physics.root = HAIR_ROOT_FREE;
+    physics.damping = 0;
     for (int kind = 0; kind < 2 * SOLVERS; ++kind) {
-        int                      spins = kind % 2, solver = kind / 2;
+        int spins = kind % 2, solver = kind / 2;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
-        struct hair_test_living  living;
-        hair_desc                desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid               solid = capsule(0, -1 - MARGIN, 1, 0);
-        double                   way   = 0;
+        struct hair_test_living living;
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid solid = capsule(0, -1 - MARGIN, 1, 0);
+        double way = 0;
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 10);
@@ -171,7 +171,7 @@ static double winding(const struct hair_test_living* living, double x, double y)
     double sum = 0;
     for (uint32_t i = 0; i + 1 < living->vertices; ++i) {
         hair_vec3 p = hair_test_at(living, 0, i), q = hair_test_at(living, 0, i + 1);
-        double    a = (double)p.x - x, b = (double)p.y - y, c = (double)q.x - x, d = (double)q.y - y;
+        double a = (double)p.x - x, b = (double)p.y - y, c = (double)q.x - x, d = (double)q.y - y;
         sum += atan2(a * d - b * c, a * c + b * d);
     }
     return sum;
@@ -182,8 +182,8 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
 {
     static const struct {
         double radius, speed;
-        int    is_capsule, solvers;
-    } cases[]            = {{0.05, 2, 0, 3}, {0.05, 5, 0, 3}, {0.02, 2, 1, 2}};
+        int is_capsule, solvers;
+    } cases[] = {{0.05, 2, 0, 3}, {0.05, 5, 0, 3}, {0.02, 2, 1, 2}};
     hair_physics physics = hair_test_loose(0.3f);
     for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
         for (int solver = 0; solver < cases[n].solvers; ++solver) {
@@ -191,7 +191,7 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
                 hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
             struct hair_test_living living;
             hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-            double    r = cases[n].radius, x = -0.3, deepest = -INFINITY;
+            double r = cases[n].radius, x = -0.3, deepest = -INFINITY;
             hair_test_live(*state, &strands, &desc, &living);
             for (; x < 0.2; x += cases[n].speed / 60) {
                 hair_solid solid = cases[n].is_capsule ? capsule(x, -0.15, r, 0) : sphere(x, -0.15, 0, r);
@@ -216,9 +216,9 @@ static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
         struct hair_test_strands strands =
             hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0.05f), 0.3f);
         struct hair_test_living living;
-        hair_desc               desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid              solid = sphere(0.01, -0.15, 0, 0.06);
-        double                  speed = 0;
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid solid = sphere(0.01, -0.15, 0, 0.06);
+        double speed = 0;
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
@@ -240,12 +240,12 @@ static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
 static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
-    physics.root         = HAIR_ROOT_FREE;
+    physics.root = HAIR_ROOT_FREE;
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0.1f), 0.1f);
-        struct hair_test_living  living;
-        hair_desc                desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid               solid = sphere(0, -12, 0, 10);
+        struct hair_test_living living;
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_solid solid = sphere(0, -12, 0, 10);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_set_solids(&living, &solid, 1);
         hair_test_wait(&living, 180);
@@ -259,12 +259,12 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
 
 static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
 {
-    hair_solid   solids[HAIR_STEP_SOLIDS];
+    hair_solid solids[HAIR_STEP_SOLIDS];
     hair_physics physics = hair_test_loose(0.3f);
     for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) {
         double row = i / 8;
-        solids[i]  = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
-                            0.015 + 0.004 * (i % 4));
+        solids[i] = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
+                           0.015 + 0.004 * (i % 4));
     }
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living[2];
@@ -294,9 +294,9 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
 // Eight strands fall on a bar, each at another place, and where they are after each frame of so many substeps is written down.
 static void fall_over_bar(struct hair_test* test, int substeps, float* track, struct hair_test_living* out)
 {
-    hair_physics             physics = hair_test_loose(0.3f);
+    hair_physics physics = hair_test_loose(0.3f);
     struct hair_test_strands strands = hair_test_strands_make(STRIKING, 32);
-    hair_solid               bar     = capsule(-0.05, -0.22, 0.05, 0);
+    hair_solid bar = capsule(-0.05, -0.22, 0.05, 0);
     for (int k = 0; k < STRIKING; ++k)
         hair_test_add_straight(&strands, 32, hair_v3(0.008f * (float)k - 0.1f, 0, 0.01f * (float)k),
                                hair_v3(1, -0.1f, 0.1f), 0.3f);
@@ -314,9 +314,9 @@ static void fall_over_bar(struct hair_test* test, int substeps, float* track, st
 static void what_strikes_a_solid_at_few_substeps_goes_on_as_at_many(void** state)
 {
     enum { FLOATS = 3 * 32 * STRIKING * STRIKING_FRAMES };
-    static float            track[2][FLOATS];
+    static float track[2][FLOATS];
     struct hair_test_living living[2];
-    double                  sum = 0;
+    double sum = 0;
     fall_over_bar(*state, 4, track[0], &living[0]);
     fall_over_bar(*state, 64, track[1], &living[1]);
     for (int i = 0; i < FLOATS; ++i) sum += pow((double)track[0][i] - (double)track[1][i], 2);
@@ -330,13 +330,13 @@ static void what_strikes_a_solid_at_few_substeps_goes_on_as_at_many(void** state
 // Of 25 mm, that stand at 20 degrees from a head whose margin their roots are in, or whose inside.
 static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
 {
-    hair_solid   head    = sphere(0, 0, 0, 0.1);
+    hair_solid head = sphere(0, 0, 0, 0.1);
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0;
+    physics.sleep = 0;
     for (int any = 0; any < 2; ++any) // Of so many solids there is a grid.
         for (int solver = 0; solver < 2; ++solver) {
-            hair_solid               solids[HAIR_FEW_SOLIDS + 1];
-            struct hair_test_living  living;
+            hair_solid solids[HAIR_FEW_SOLIDS + 1];
+            struct hair_test_living living;
             struct hair_test_strands strands = hair_test_strands_make(6, 32);
             for (int k = 0; k < 6; ++k)
                 hair_test_add_straight(&strands, 32, hair_v3(0, 0.1f - 0.0002f * (float)k, 0),

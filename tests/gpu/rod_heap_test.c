@@ -22,11 +22,11 @@ static void place_heap(hair_solid* heap, int frame)
         float p[4], way = 0.0025f * (float)(frame % 40 < 20 ? frame % 20 : 20 - frame % 20);
         for (int k = 0; k < 4; ++k) {
             random = random * 1664525u + 1013904223u;
-            p[k]   = (float)(random >> 8) / 16777216.0f;
+            p[k] = (float)(random >> 8) / 16777216.0f;
         }
-        heap[i]          = hair_test_body(HAIR_SHAPE_SPHERE, 0.05f * p[0] - 0.025f, 0.15f * p[1] - 0.25f,
-                                          0.05f * p[2] - 0.025f);
-        heap[i].size[0]  = 0.006f + 0.019f * p[3];
+        heap[i] = hair_test_body(HAIR_SHAPE_SPHERE, 0.05f * p[0] - 0.025f, 0.15f * p[1] - 0.25f,
+                                 0.05f * p[2] - 0.025f);
+        heap[i].size[0] = 0.006f + 0.019f * p[3];
         heap[i].friction = p[0];
         hair_test_turn(&heap[i], 1, 0.02 * frame);
         heap[i].position[1] += 10.0f / 60 * fmaxf((float)frame - HEAP_RISES, 0);
@@ -38,11 +38,11 @@ static void place_heap(hair_solid* heap, int frame)
 static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_shape shape, int balls,
                            int inside, int guides, int frames, float* track)
 {
-    static hair_solid        heap[HEAP];
-    hair_physics             physics = hair_test_loose(0.3f);
+    static hair_solid heap[HEAP];
+    hair_physics physics = hair_test_loose(0.3f);
     struct hair_test_strands strands = hair_test_strands_make((uint32_t)guides, 32);
-    struct hair_test_living  living;
-    double                   deepest = -INFINITY;
+    struct hair_test_living living;
+    double deepest = -INFINITY;
     for (int k = 0; k < guides; ++k)
         hair_test_add_straight(&strands, 32,
                                hair_v3(-0.12f, -0.09f, 0.01f * (float)(k % HEAP_GUIDES) - 0.035f),
@@ -74,7 +74,7 @@ static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
     for (int n = 0; n < 4; ++n) {
         hair_mapping mapping = n % 2 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
-        int          balls   = n == 2 ? FEWER : HEAP; // Of which a thread may look at all.
+        int balls = n == 2 ? FEWER : HEAP; // Of which a thread may look at all.
         fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[0]);
         fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[1]);
         if (((struct hair_test*)*state)->context->gl.software) // Which makes one arithmetic of both.
@@ -86,7 +86,7 @@ static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_
 static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_group_does(void** state)
 {
     static float track[3 * HEAP_VERTICES * HEAP_FRAMES];
-    double       deepest[2];
+    double deepest[2];
     for (int n = 0; n < 2; ++n)
         deepest[n] = fall_on_heap(*state, n ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD, HAIR_SHAPE_SPHERE,
                                   HEAP, 1, HEAP_GUIDES, HEAP_FRAMES, track);

@@ -10,8 +10,8 @@
 static void add_uneven(struct hair_test_strands* strands, uint32_t kind)
 {
     static const uint32_t vertices[] = {5, 32, 12, 31, 4, 20};
-    float                 fold = (float)kind, length = 0.1f + 0.05f * fold;
-    hair_vec3             way = hair_normalize(hair_v3(1, -0.3f * fold, 0.2f), hair_v3(0, 1, 0));
+    float fold = (float)kind, length = 0.1f + 0.05f * fold;
+    hair_vec3 way = hair_normalize(hair_v3(1, -0.3f * fold, 0.2f), hair_v3(0, 1, 0));
     for (uint32_t i = 0; i < vertices[kind]; ++i) {
         float t = (float)i / (float)(vertices[kind] - 1);
         t += kind % 2 ? 0.1f * sinf(3.14159f * t) : 0; // Longer segments first.
@@ -57,7 +57,7 @@ static void guides_of_one_instance_do_not_notice_each_other(void** state)
     hair_physics physics = hair_test_bare();
     for (int kind = 0; kind < 4; ++kind) {
         int solver = kind % 3, mapping = kind < 3 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
-        struct hair_test_living  together, alone;
+        struct hair_test_living together, alone;
         struct hair_test_strands all = uneven(0, KINDS);
         hair_desc desc = hair_test_rods((hair_solver)solver, (hair_mapping)mapping, 1.0 / 480, &physics);
         shake(*state, &all, &desc, &together);
@@ -79,8 +79,8 @@ static void a_thread_per_guide_does_what_a_work_group_does(void** state)
         struct hair_test_living living[2];
         for (int m = 0; m < 2; ++m) {
             struct hair_test_strands strands = uneven(0, KINDS);
-            hair_mapping             mapping = m ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
-            hair_desc                desc = hair_test_rods((hair_solver)solver, mapping, 1.0 / 480, &physics);
+            hair_mapping mapping = m ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+            hair_desc desc = hair_test_rods((hair_solver)solver, mapping, 1.0 / 480, &physics);
             shake(*state, &strands, &desc, &living[m]);
         }
         double most = 0;
@@ -98,11 +98,11 @@ static void motion_does_not_depend_on_how_time_is_cut(void** state)
     hair_physics physics = hair_test_bare();
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (int moves = 0; moves < 2; ++moves) {
-            struct hair_test_living  living[2];
+            struct hair_test_living living[2];
             struct hair_test_strands strands = hair_test_slanting(32);
             for (int cut = 0; cut < 2; ++cut) {
                 hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 1.0 / 960, &physics);
-                int       each = cut ? 4 : 1;
+                int each = cut ? 4 : 1;
                 hair_test_live(*state, &strands, &desc, &living[cut]);
                 for (int k = 1; k <= 30 * each; ++k) {
                     hair_vec3 at = hair_v3(moves ? 0.01f * (float)k / (float)each : 0, 0, 0);
@@ -124,7 +124,7 @@ static void motion_does_not_depend_on_how_time_is_cut(void** state)
 static void the_same_steps_give_the_same_bits(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.flatness     = 0.5f;
+    physics.flatness = 0.5f;
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver) {
         struct hair_test_living living[2];
         for (int m = 0; m < 2; ++m) {
@@ -143,30 +143,30 @@ static void the_same_steps_give_the_same_bits(void** state)
 static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
 {
     hair_physics physics = hair_test_bare();
-    hair_wind    wind    = hair_wind_default();
-    physics.drag         = 0;
-    physics.root         = HAIR_ROOT_FREE;
+    hair_wind wind = hair_wind_default();
+    physics.drag = 0;
+    physics.root = HAIR_ROOT_FREE;
     wind.velocity[0] = 3, wind.velocity[2] = -1;
     for (int kind = 0; kind < 4; ++kind) {
-        int                      drag = kind / 2, solver = kind % 2;
+        int drag = kind / 2, solver = kind % 2;
         struct hair_test_strands strands = hair_test_slanting(16);
-        struct hair_test_living  living;
-        double                   c = drag ? 5 : 0, worst = 0, t = 0;
+        struct hair_test_living living;
+        double c = drag ? 5 : 0, worst = 0, t = 0;
         physics.damping = (float)c;
-        hair_desc desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_blow(&living, &wind);
         for (int k = 0; k < 60; ++k) {
             hair_test_advance(&living, NULL, FRAME);
             hair_test_read_guides(&living);
             t += (double)(float)FRAME;
-            double lag  = drag ? t - (1 - exp(-c * t)) / c : 0,
+            double lag = drag ? t - (1 - exp(-c * t)) / c : 0,
                    fall = drag ? 9.81 / c * lag : 9.81 / 2 * t * t;
             for (uint32_t i = 0; i < 16; ++i) {
                 hair_vec3 moved =
                     hair_sub(hair_test_at(&living, 0, i), hair_load3(&living.groom->rest[i].position.x));
                 double side = hypot((double)moved.x - 3 * lag, (double)moved.z + lag);
-                worst       = fmax(worst, hypot(side, (double)moved.y + fall));
+                worst = fmax(worst, hypot(side, (double)moved.y + fall));
             }
         }
         print_message("    damping %g, solver %d: off by up to %.2g m\n", c, solver, worst);
@@ -196,21 +196,21 @@ static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
 {
     static const hair_mapping mappings[] = {HAIR_MAPPING_GROUP, HAIR_MAPPING_THREAD};
     for (int kind = 0; kind < 4; ++kind) {
-        struct hair_test_living  living;
-        hair_physics             physics = hair_test_bare();
+        struct hair_test_living living;
+        hair_physics physics = hair_test_bare();
         struct hair_test_strands strands = hair_test_strands_make(1, 8);
-        double                   worst   = 0;
-        physics.young                    = 1e12f;
-        physics.fiber_radius             = 1e-3f;
-        physics.damping                  = 0;
-        physics.root                     = HAIR_ROOT_FREE;
+        double worst = 0;
+        physics.young = 1e12f;
+        physics.fiber_radius = 1e-3f;
+        physics.damping = 0;
+        physics.root = HAIR_ROOT_FREE;
         hair_test_strands_add(&strands, 8, kinked, NULL);
         hair_desc desc = hair_test_rods((hair_solver)(kind % 2), mappings[kind / 2], 1.0 / 240, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
         for (uint32_t i = 0; i < 8; ++i) {
-            hair_vec3 rest  = hair_load3(&living.groom->rest[i].position.x);
+            hair_vec3 rest = hair_load3(&living.groom->rest[i].position.x);
             hair_vec3 moved = hair_sub(hair_test_at(&living, 0, i), rest);
             worst = fmax(worst, hypot((double)moved.y + 9.81 / 2, hypot((double)moved.x, (double)moved.z)));
         }
@@ -229,12 +229,12 @@ struct motion {
 // Of the substep between what was read last and what was before.
 static struct motion motion_of(const struct hair_test_living* living, double h, double gravity)
 {
-    struct motion m     = {{0}, {0}, 0};
-    double        total = 0, centre[3] = {0}, x[3], v[3];
+    struct motion m = {{0}, {0}, 0};
+    double total = 0, centre[3] = {0}, x[3], v[3];
     for (uint32_t k = 0; k < 2 * living->vertices; ++k) { // First for the centre, then about it.
         uint32_t i = k % living->vertices, again = k / living->vertices;
-        double   after = (double)living->groom->rest[i].position.w;
-        double   mass  = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
+        double after = (double)living->groom->rest[i].position.w;
+        double mass = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
         for (int d = 0; d < 3; ++d) {
             double a = (double)living->before[3 * i + d], b = (double)living->positions[3 * i + d];
             x[d] = (a + b) / 2 - (again ? centre[d] / total : 0), v[d] = (b - a) / h;
@@ -262,15 +262,15 @@ static double change(const double a[3], const double b[3])
 static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        hair_physics             physics = hair_test_bare();
+        hair_physics physics = hair_test_bare();
         struct hair_test_strands strands = hair_test_slanting(16);
-        struct hair_test_living  living;
-        struct motion            first = {{0}, {0}, 0}, now = first;
-        const double             h    = 1.0 / 960;
-        hair_desc                desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, h, &physics);
+        struct hair_test_living living;
+        struct motion first = {{0}, {0}, 0}, now = first;
+        const double h = 1.0 / 960;
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, h, &physics);
         shake(*state, &strands, &desc, &living);
-        physics.root       = HAIR_ROOT_FREE;
-        physics.damping    = 0;
+        physics.root = HAIR_ROOT_FREE;
+        physics.damping = 0;
         physics.gravity[1] = 0;
         hair_test_ok(*state, hair_set_physics(living.hair, &physics));
         for (int k = 0; k < 960; ++k) {
@@ -290,13 +290,13 @@ static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** sta
 // Of m g L / 2, in ten seconds of a chaotic chain; a solver that damps loses all of it.
 static void accurate_keeps_the_energy_of_what_swings(void** state)
 {
-    hair_physics physics             = hair_test_bare();
-    physics.damping                  = 0;
-    physics.young                    = 0;
+    hair_physics physics = hair_test_bare();
+    physics.damping = 0;
+    physics.young = 0;
     struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.3f);
-    struct hair_test_living  living;
-    const double             h = 1.0 / 960, scale = 9.81 * 0.3 * 0.15;
-    hair_desc                desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, h, &physics);
+    struct hair_test_living living;
+    const double h = 1.0 / 960, scale = 9.81 * 0.3 * 0.15;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, h, &physics);
     hair_test_live(*state, &strands, &desc, &living);
     for (int k = 0; k < 9600; ++k) {
         hair_test_advance(&living, NULL, h);
@@ -311,7 +311,7 @@ static void accurate_keeps_the_energy_of_what_swings(void** state)
 static void what_hangs_straight_down_stays_where_it_is(void** state)
 {
     static const uint32_t vertices[] = {2, 3, 8, 32, 100};
-    hair_physics          physics    = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (int k = 0; k < 5; ++k) {
             struct hair_test_strands strands =

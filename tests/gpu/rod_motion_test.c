@@ -16,13 +16,13 @@ struct error {
 // not to matter: 1e-6 of the length.
 static struct error follow(struct hair_test_living* living, uint32_t guide, uint32_t frames, int shakes)
 {
-    struct hair_reference_rod* rod   = hair_test_reference(living, guide, NULL);
-    double                     needs = 2 * FRAME / hair_reference_rod_longest_substep(rod), sum = 0;
-    uint32_t     substeps = (uint32_t)fmax(256, needs), count = hair_reference_rod_vertices(rod);
+    struct hair_reference_rod* rod = hair_test_reference(living, guide, NULL);
+    double needs = 2 * FRAME / hair_reference_rod_longest_substep(rod), sum = 0;
+    uint32_t substeps = (uint32_t)fmax(256, needs), count = hair_reference_rod_vertices(rod);
     struct error error = {0, 0};
     for (uint32_t k = 0; k < frames; ++k) {
         struct hair_reference_rod_pose head = hair_test_shaken(shakes ? (k + 1) * FRAME : 0);
-        double                         x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES];
+        double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES];
         hair_test_advance(living, &head, FRAME);
         hair_test_read_guides(living);
         error.stretch = fmax(error.stretch, hair_test_stretch(living));
@@ -41,11 +41,11 @@ static struct error follow(struct hair_test_living* living, uint32_t guide, uint
 
 static struct error shake(struct hair_test* test, uint32_t vertices, const hair_desc* desc, uint32_t frames)
 {
-    struct hair_test_living  living;
+    struct hair_test_living living;
     struct hair_test_strands strands = hair_test_slanting(vertices);
     hair_test_live(test, &strands, desc, &living);
-    struct error error  = follow(&living, 0, frames, 1);
-    hair_health  health = hair_test_health(&living);
+    struct error error = follow(&living, 0, frames, 1);
+    hair_health health = hair_test_health(&living);
     print_message("    %u vertices, %s, 1/%.0f s: rms %.2g of the length, stretch %.2g, %u by Euler\n",
                   vertices, desc->solver == HAIR_SOLVER_DIRECT ? "direct" : "accurate",
                   1 / (double)health.substep, error.rms, error.stretch, health.euler);
@@ -59,17 +59,17 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 {
     static const struct {
         uint32_t vertices, frames;
-        double   accurate;
-    } cases[]            = {{2, 60, 1e-5},  {3, 60, 1e-5},  {4, 60, 1e-5},  {16, 60, 1e-4},
-                            {31, 30, 1e-4}, {32, 60, 1e-4}, {33, 20, 1e-4}, {64, 8, 4e-4},
-                            {65, 6, 4e-4},  {128, 6, 4e-4}, {255, 3, 4e-4}, {256, 3, 4e-4}};
+        double accurate;
+    } cases[] = {{2, 60, 1e-5},  {3, 60, 1e-5},  {4, 60, 1e-5},  {16, 60, 1e-4},
+                 {31, 30, 1e-4}, {32, 60, 1e-4}, {33, 20, 1e-4}, {64, 8, 4e-4},
+                 {65, 6, 4e-4},  {128, 6, 4e-4}, {255, 3, 4e-4}, {256, 3, 4e-4}};
     hair_physics physics = hair_test_bare();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        uint32_t     n        = cases[i].vertices;
-        hair_desc    direct   = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_desc    accurate = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, 0, &physics);
-        struct error a        = shake(*state, n, &direct, cases[i].frames),
-                     b        = shake(*state, n, &accurate, cases[i].frames);
+        uint32_t n = cases[i].vertices;
+        hair_desc direct = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc accurate = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, 0, &physics);
+        struct error a = shake(*state, n, &direct, cases[i].frames),
+                     b = shake(*state, n, &accurate, cases[i].frames);
         assert_true(a.rms < 5e-3 && a.stretch < 1e-3);
         assert_true(b.rms < cases[i].accurate && b.stretch < (n < 128 ? 5e-4 : 1e-2));
     }
@@ -79,11 +79,11 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 static void the_error_is_of_second_order_in_the_substep(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.young        = 3e7f;
+    physics.young = 3e7f;
     for (int solver = 0; solver < 2; ++solver) {
         double before = 0, substep = 1.0 / 240;
         for (int k = 0; k < 3; ++k, substep /= 2) {
-            hair_desc    desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, substep, &physics);
+            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, substep, &physics);
             struct error error = shake(*state, 12, &desc, 20);
             if (k > 0) print_message("    order %.2f\n", log2(before / error.rms));
             if (k > 0) assert_true(log2(before / error.rms) > 1.8);
@@ -96,13 +96,13 @@ static void the_error_is_of_second_order_in_the_substep(void** state)
 static void a_chain_released_from_the_horizontal_is_as_near_as_stated(void** state)
 {
     static const double limit[] = {3.5e-3, 6e-4}; // m
-    hair_physics        physics = hair_test_bare();
-    physics.young               = 0;
-    physics.damping             = 0;
+    hair_physics physics = hair_test_bare();
+    physics.young = 0;
+    physics.damping = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
-        struct hair_test_living  living;
-        hair_desc                desc =
+        struct hair_test_living living;
+        hair_desc desc =
             hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, solver ? 1.0 / 1080 : 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         struct error error = follow(&living, 0, 24, 0);
@@ -119,7 +119,7 @@ static void shake_both(struct hair_test* test, uint32_t vertices, const hair_phy
                        double accurate)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        hair_desc    desc  = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
         struct error error = shake(test, vertices, &desc, 30);
         assert_true(error.rms < (solver == HAIR_SOLVER_DIRECT ? direct : accurate));
         assert_true(error.stretch < 1e-3);
@@ -129,14 +129,14 @@ static void shake_both(struct hair_test* test, uint32_t vertices, const hair_phy
 static void a_hinged_root_turns_as_the_reference_has_it(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.root         = HAIR_ROOT_HINGED;
+    physics.root = HAIR_ROOT_HINGED;
     shake_both(*state, 16, &physics, 2e-3, 5e-5);
 }
 
 static void a_heavy_tip_swings_as_the_reference_has_it(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.tip_mass     = 1;
+    physics.tip_mass = 1;
     shake_both(*state, 16, &physics, 4e-3, 1e-4);
     physics.tip_mass = 10;
     shake_both(*state, 16, &physics, 5e-3, 2e-4);
@@ -153,13 +153,13 @@ static void pull_is_a_spring_to_the_rest_pose_under_the_head(void** state)
 static void wind_carries_hair_as_the_reference_has_it(void** state)
 {
     hair_physics physics = hair_test_bare();
-    hair_wind    wind    = hair_wind_default();
-    physics.damping      = 6;
+    hair_wind wind = hair_wind_default();
+    physics.damping = 6;
     wind.velocity[0] = -2, wind.velocity[2] = 3;
     for (int solver = 0; solver < 2; ++solver) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands = hair_test_slanting(16);
-        hair_desc                desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_blow(&living, &wind);
         struct error error = follow(&living, 0, 30, 1);
@@ -174,7 +174,7 @@ static void wind_carries_hair_as_the_reference_has_it(void** state)
 
 static void stiffness_goes_from_root_to_tip(void** state)
 {
-    hair_physics physics   = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     physics.stiffness_root = 8, physics.stiffness_tip = 0.5f;
     shake_both(*state, 16, &physics, 4e-3, 1e-4);
     physics.stiffness_root = 0.2f, physics.stiffness_tip = 8;

@@ -37,7 +37,7 @@ static void live(struct hair_test* test, struct hair_test_strands strands, hair_
 static void without_loads_a_groom_is_at_rest(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.gravity[1]   = 0;
+    physics.gravity[1] = 0;
     for (int solver = 0; solver < 2; ++solver)
         for (int flat = 0; flat < 2; ++flat) {
             struct hair_test_living living;
@@ -56,7 +56,7 @@ static void without_loads_a_groom_is_at_rest(void** state)
 static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** state)
 {
     static const float lengths[] = {0.05f, 0.14f};
-    hair_physics       physics   = hair_physics_default();
+    hair_physics physics = hair_physics_default();
     physics.pull_root = physics.pull_tip = 0;
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (int k = 0; k < 2; ++k) {
@@ -81,7 +81,7 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
 static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0;
+    physics.sleep = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         live(*state, hair_test_straight(16, origin, hair_v3(1, 0.2f, 0), 0.25f), (hair_solver)solver,
@@ -134,9 +134,9 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0;
+    physics.sleep = 0;
     for (int solver = 0; solver < 2; ++solver) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands = hair_test_strands_make(4, 32);
         for (uint32_t k = 0; k < 4; ++k) hair_test_strands_add(&strands, 32, kinked, NULL);
         live(*state, strands, (hair_solver)solver, &physics, &living);
@@ -152,7 +152,7 @@ static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** stat
 // Farthest of any guide from the reference while the head is shaken, in lengths.
 static double shake(struct hair_test_living* living, uint32_t frames)
 {
-    double                     most = 0;
+    double most = 0;
     struct hair_reference_rod* rods[SHAPES];
     for (uint32_t g = 0; g < SHAPES; ++g) rods[g] = hair_test_reference(living, g, NULL);
     for (uint32_t k = 1; k <= frames; ++k) {
@@ -177,9 +177,9 @@ static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
     for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
         for (int solver = 0; solver < 2; ++solver) {
             struct hair_test_living living;
-            hair_physics            physics = hair_test_bare();
-            physics.gravity[1]              = (float)-cases[n].gravity;
-            physics.flatness                = (float)cases[n].flatness;
+            hair_physics physics = hair_test_bare();
+            physics.gravity[1] = (float)-cases[n].gravity;
+            physics.flatness = (float)cases[n].flatness;
             live(*state, shapes(20, 0.25f), (hair_solver)solver, &physics, &living);
             double off = shake(&living, 15);
             print_message("    gravity %g, flatness %g, solver %d: off by %.2g of the length\n",
@@ -193,15 +193,15 @@ static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
 // the strand so; three seconds later every strand is in its rest shape under it.
 static void a_head_that_turns_takes_shapes_with_it(void** state)
 {
-    const hair_vec3 axes[]  = {{0.3f, 0.5f, -0.8f}, {0, 0, 0}};
-    hair_physics    physics = hair_test_bare();
-    physics.gravity[1]      = 0;
-    physics.damping         = 8;
+    const hair_vec3 axes[] = {{0.3f, 0.5f, -0.8f}, {0, 0, 0}};
+    hair_physics physics = hair_test_bare();
+    physics.gravity[1] = 0;
+    physics.damping = 8;
     for (int solver = 0; solver < 2; ++solver)
         for (int k = 0; k < 2; ++k)
             for (uint32_t g = 0; g < SHAPES; ++g) {
                 struct hair_test_strands one = hair_test_strands_make(1, 20), all = shapes(20, 0.12f);
-                struct hair_test_living  living;
+                struct hair_test_living living;
                 for (int i = 0; i < 60; ++i) one.positions[i] = all.positions[60 * g + (uint32_t)i];
                 one.vertices[one.count++] = one.vertex_count = 20;
                 hair_vec3 first = hair_sub(hair_load3(one.positions + 3), hair_load3(one.positions));
@@ -213,12 +213,12 @@ static void a_head_that_turns_takes_shapes_with_it(void** state)
                     hair_test_advance(&living, &head, FRAME);
                 }
                 hair_test_read_guides(&living);
-                double    most = 0;
+                double most = 0;
                 hair_quat turn = {(float)head.rotation[0], (float)head.rotation[1], (float)head.rotation[2],
                                   (float)head.rotation[3]};
                 for (uint32_t i = 0; i < 20; ++i) {
                     hair_vec3 aim = hair_rotate(turn, hair_load3(&living.groom->rest[i].position.x));
-                    most          = fmax(most, (double)hair_distance(hair_test_at(&living, 0, i), aim));
+                    most = fmax(most, (double)hair_distance(hair_test_at(&living, 0, i), aim));
                 }
                 print_message("    solver %d, shape %u, %s: %.2g m away\n", solver, g,
                               k ? "along the root" : "about some axis", most);
@@ -247,11 +247,11 @@ static void compare_at_rest(struct hair_test* test, const char* what, const hair
                             float length, double direct, double accurate)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        struct hair_test_living  living;
+        struct hair_test_living living;
         struct hair_test_strands strands =
             length > 0 ? hair_test_straight(24, origin, hair_v3(1, 0, 0), length) : coarse_curl();
         live(test, strands, (hair_solver)solver, physics, &living);
-        struct hair_reference_rod*       rod    = hair_test_reference(&living, 0, NULL);
+        struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
         struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
         assert_true(rested.converged);
         hair_test_wait(&living, 300);
@@ -269,10 +269,10 @@ static void compare_at_rest(struct hair_test* test, const char* what, const hair
 static void a_cantilever_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0; // Nothing stops before it is where it goes.
+    physics.sleep = 0; // Nothing stops before it is where it goes.
     physics.pull_root = physics.pull_tip = 0;
-    physics.hold                         = 0;
-    physics.damping                      = 8;
+    physics.hold = 0;
+    physics.damping = 8;
     compare_at_rest(*state, "5 cm", &physics, 0.05f, 5e-4, 1e-4);
     compare_at_rest(*state, "10 cm", &physics, 0.1f, 1e-2, 5e-6);
     compare_at_rest(*state, "30 cm", &physics, 0.3f, 1e-2, 5e-6);
@@ -281,7 +281,7 @@ static void a_cantilever_hangs_as_the_reference_does(void** state)
     physics.stiffness_root = 0.3f, physics.stiffness_tip = 6;
     compare_at_rest(*state, "stiff at the tip", &physics, 0.1f, 2e-2, 5e-3);
     physics.stiffness_root = physics.stiffness_tip = 1;
-    physics.tip_mass                               = 2;
+    physics.tip_mass = 2;
     compare_at_rest(*state, "heavy at the tip", &physics, 0.05f, 2e-2, 5e-3);
 }
 
@@ -290,11 +290,11 @@ static void a_cantilever_hangs_as_the_reference_does(void** state)
 static void a_coarse_curl_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep        = 0;
+    physics.sleep = 0;
     physics.pull_root = physics.pull_tip = 0;
-    physics.hold                         = 0;
-    physics.young                        = 4e10f;
-    physics.damping                      = 8;
+    physics.hold = 0;
+    physics.young = 4e10f;
+    physics.damping = 8;
     compare_at_rest(*state, "coarse curl", &physics, 0, 2e-3, 2e-3);
     physics.flatness = 0.5f;
     compare_at_rest(*state, "flat coarse curl", &physics, 0, 2e-3, 2e-3);
@@ -306,9 +306,9 @@ static void a_flat_section_bends_about_its_long_axis(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.pull_root = physics.pull_tip = 0;
-    physics.hold                         = 0;
-    physics.damping                      = 8;
-    physics.flatness                     = 0.4f;
+    physics.hold = 0;
+    physics.damping = 8;
+    physics.flatness = 0.4f;
     physics.gravity[1] = 0, physics.gravity[2] = -9.81f;
     double bent[2];
     for (int side = 0; side < 2; ++side) {

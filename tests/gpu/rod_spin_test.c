@@ -5,8 +5,8 @@
 
 #define FRAME (1.0 / 240)
 #define LENGTH 0.3f // m
-#define ROOT 0.1f   // m, from the axis
-#define RISE 2.0    // s, until the head turns evenly
+#define ROOT 0.1f // m, from the axis
+#define RISE 2.0 // s, until the head turns evenly
 #define FRAMES 960
 
 // Return the head's pose at a time, turned about the vertical axis.
@@ -19,16 +19,16 @@ static struct hair_reference_rod_pose turned(double rate, double time)
 // The root is bent where the strand leaves the scalp's direction, and the bend turns with the head.
 static void spin(struct hair_test* test, double rate)
 {
-    hair_physics physics             = hair_test_bare();
-    physics.damping                  = 4;
+    hair_physics physics = hair_test_bare();
+    physics.damping = 4;
     struct hair_test_strands strands = hair_test_straight(32, hair_v3(ROOT, 0, 0), hair_v3(1, 0, 0), LENGTH);
-    hair_desc                desc    = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
     struct hair_reference_rod_pose head = turned(rate, 0);
-    struct hair_test_living        living;
-    double                         x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;
+    struct hair_test_living living;
+    double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;
     hair_test_live(test, &strands, &desc, &living);
-    struct hair_reference_rod* rod   = hair_test_reference(&living, 0, &head);
-    double                     needs = 2 * FRAME / hair_reference_rod_longest_substep(rod);
+    struct hair_reference_rod* rod = hair_test_reference(&living, 0, &head);
+    double needs = 2 * FRAME / hair_reference_rod_longest_substep(rod);
     for (int k = 1; k <= FRAMES; ++k) {
         head = turned(rate, k * FRAME);
         hair_test_advance(&living, &head, FRAME);
@@ -38,8 +38,8 @@ static void spin(struct hair_test* test, double rate)
     hair_reference_rod_positions(rod, x);
     for (uint32_t i = 0; i < 32; ++i) {
         hair_vec3 p = hair_test_at(&living, 0, i);
-        most        = fmax(most, hypot(hypot((double)p.x - x[3 * i], (double)p.y - x[3 * i + 1]),
-                                       (double)p.z - x[3 * i + 2]));
+        most = fmax(most, hypot(hypot((double)p.x - x[3 * i], (double)p.y - x[3 * i + 1]),
+                                (double)p.z - x[3 * i + 2]));
     }
     print_message("    %g Hz: %.4f of the length\n", rate, most / (double)LENGTH);
     assert_true(most < 0.005 * (double)LENGTH);

@@ -14,7 +14,7 @@ struct stress {
     void (*change)(hair_physics* physics);
     int lasting;
     int returns; // to the rest shape
-    int blows;   // wind of 1000 m/s along two axes
+    int blows; // wind of 1000 m/s along two axes
 };
 
 static const hair_vec3 up = {0, 1, 0};
@@ -62,7 +62,7 @@ static double jump(uint32_t i, struct hair_reference_rod_pose* head)
 static double spin(uint32_t i, struct hair_reference_rod_pose* head)
 {
     double time = (i + 1) / 60.0;
-    *head       = hair_test_pose_of(hair_v3(0, 0, 0), up, TURN * 10 * time * fmin(2 * time, 1));
+    *head = hair_test_pose_of(hair_v3(0, 0, 0), up, TURN * 10 * time * fmin(2 * time, 1));
     return i < 60 ? 1.0 / 60 : 0;
 }
 
@@ -127,10 +127,10 @@ static struct hair_test_strands strands(void)
 static double suffer(struct hair_test_living* living, const struct stress* stress)
 {
     struct hair_reference_rod_pose head, home = hair_test_pose_of(hair_v3(0, 0, 0), up, 0);
-    hair_physics                   calm = living->physics, changed = calm;
-    double                         dt, most                        = 0;
+    hair_physics calm = living->physics, changed = calm;
+    double dt, most = 0;
     if (stress->change && !stress->lasting) stress->change(&changed);
-    hair_wind wind   = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = 1000, wind.velocity[2] = -1000;
     hair_test_ok(living->test, hair_set_physics(living->hair, &changed));
     hair_test_blow(living, stress->blows ? &wind : NULL);
@@ -152,12 +152,12 @@ static double suffer(struct hair_test_living* living, const struct stress* stres
 static struct hair_test_living start(struct hair_test* test, hair_solver solver, hair_mapping mapping,
                                      const struct stress* stress)
 {
-    struct hair_test_living  living;
-    hair_physics             physics = hair_physics_default();
-    struct hair_test_strands s       = strands();
+    struct hair_test_living living;
+    hair_physics physics = hair_physics_default();
+    struct hair_test_strands s = strands();
     if (stress && stress->lasting) stress->change(&physics);
     hair_desc desc = hair_test_rods(solver, mapping, 0, &physics);
-    desc.max_dt    = 1;
+    desc.max_dt = 1;
     hair_test_live(test, &s, &desc, &living);
     hair_test_strands_free(&s);
     return living;
@@ -170,8 +170,8 @@ static double from_rest(const struct hair_test_living* living)
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
         for (uint32_t i = 0; i < living->groom->guides[g].count; ++i) {
             hair_vec3 rest = hair_load3(&living->groom->rest[living->groom->guides[g].first + i].position.x);
-            double    off  = (double)hair_distance(hair_test_at(living, g, i), rest);
-            most           = fmax(most, off / hair_test_length(living, g));
+            double off = (double)hair_distance(hair_test_at(living, g, i), rest);
+            most = fmax(most, off / hair_test_length(living, g));
         }
     return most;
 }
@@ -181,8 +181,8 @@ static void try_all(struct hair_test* test, hair_mapping mapping, int solvers)
     for (size_t n = 0; n < sizeof stresses / sizeof *stresses; ++n)
         for (int solver = 0; solver < solvers; ++solver) {
             struct hair_test_living living = start(test, (hair_solver)solver, mapping, &stresses[n]);
-            double                  most = suffer(&living, &stresses[n]), off = from_rest(&living);
-            hair_health             health = hair_test_health(&living);
+            double most = suffer(&living, &stresses[n]), off = from_rest(&living);
+            hair_health health = hair_test_health(&living);
             print_message("    %s, solver %d: stretch %.2g, then %.2g of the length from rest; %u by Euler, "
                           "%u follow, %u reset\n",
                           stresses[n].name, solver, most, off, health.euler, health.follow, health.reset);
@@ -213,11 +213,11 @@ static hair_vec3 jagged(float t, uint32_t strand, const void* user)
 
 static double jump_as_many(struct hair_test* test, hair_solver solver, float tip_mass)
 {
-    struct hair_test_living  living;
-    struct hair_test_strands s       = hair_test_strands_make(8, HAIR_MAX_GUIDE_VERTICES);
-    hair_physics             physics = hair_physics_default();
-    double                   most = 0, dt = 0.01;
-    physics.young    = 1e12f;
+    struct hair_test_living living;
+    struct hair_test_strands s = hair_test_strands_make(8, HAIR_MAX_GUIDE_VERTICES);
+    hair_physics physics = hair_physics_default();
+    double most = 0, dt = 0.01;
+    physics.young = 1e12f;
     physics.flatness = 0.5f;
     physics.tip_mass = tip_mass;
     for (int k = 0; k < 8; ++k) hair_test_strands_add(&s, HAIR_MAX_GUIDE_VERTICES, jagged, NULL);
@@ -249,15 +249,15 @@ static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
 static void a_head_100_km_out_is_a_head_like_any_other(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        static const float      home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        struct hair_test_living far      = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
-        struct hair_test_living near     = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
-        float                   away[16];
+        static const float home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        struct hair_test_living far = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        struct hair_test_living near = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        float away[16];
         for (int k = 0; k < 16; ++k) away[k] = home[k];
         away[12] = 1e5f, away[14] = -1e5f;
         hair_test_ok(*state, hair_teleport(far.hair, away));
         for (int k = 0; k < 60; ++k) {
-            double                         y  = 0.03 * sin(0.2 * k);
+            double y = 0.03 * sin(0.2 * k);
             struct hair_reference_rod_pose at = hair_test_pose_of(hair_v3(1e5f, (float)y, -1e5f), up, 0);
             struct hair_reference_rod_pose by = hair_test_pose_of(hair_v3(0, (float)y, 0), up, 0);
             hair_test_advance(&far, &at, 1.0 / 60);
@@ -282,7 +282,7 @@ static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
-        uint32_t                frames = (uint32_t)(20000 * 60 * (double)hair_test_health(&living).substep);
+        uint32_t frames = (uint32_t)(20000 * 60 * (double)hair_test_health(&living).substep);
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
         hair_test_wait(&living, frames);

@@ -9,8 +9,8 @@
 
 #define FRAME (1.0 / 60)
 #define LENGTH 0.3f // m
-#define WAYS 6      // in which rods are solved
-#define SOLVERS 3   // of them, in turn by a work group and by a thread: 0, 3, 4
+#define WAYS 6 // in which rods are solved
+#define SOLVERS 3 // of them, in turn by a work group and by a thread: 0, 3, 4
 
 static hair_desc way_of(int way, const hair_physics* physics)
 {
@@ -26,9 +26,9 @@ static int each(int solver)
 static hair_tie tie_of(uint32_t guide, uint32_t vertex, hair_tie_to to, hair_vec3 position)
 {
     hair_tie tie = hair_tie_default();
-    tie.guide    = guide;
-    tie.vertex   = vertex;
-    tie.to       = to;
+    tie.guide = guide;
+    tie.vertex = vertex;
+    tie.to = to;
     hair_store3(tie.position, position);
     return tie;
 }
@@ -51,7 +51,7 @@ static double apart(hair_vec3 a, hair_vec3 b)
 static hair_vec3 in_world(const struct hair_reference_rod_pose* head, hair_vec3 at)
 {
     const double *q = head->rotation, *p = head->position;
-    hair_quat     turn = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+    hair_quat turn = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
     return hair_add(hair_v3((float)p[0], (float)p[1], (float)p[2]), hair_rotate(turn, at));
 }
 
@@ -68,18 +68,18 @@ static void live(struct hair_test* test, uint32_t count, uint32_t vertices, hair
 // A second on a head that is shaken: the tip held by the head, then by a hand that moves.
 static void hold_tip(struct hair_test_living* living)
 {
-    hair_vec3 at      = hair_v3(0.2f, -0.05f, 0.02f);
-    double    of_head = 0, of_world = 0, stretch = 0;
+    hair_vec3 at = hair_v3(0.2f, -0.05f, 0.02f);
+    double of_head = 0, of_world = 0, stretch = 0;
     for (int k = 0; k < 60; ++k) {
         struct hair_reference_rod_pose head = hair_test_shaken(k * FRAME);
-        float                          time = (float)(k * FRAME);
-        hair_vec3                      hand = hair_v3(0.1f + 0.1f * sinf(6 * time), 0.1f * time, -0.1f), tip;
-        head.position[1]                    = 0.05 * sin(5 * k * FRAME);
+        float time = (float)(k * FRAME);
+        hair_vec3 hand = hair_v3(0.1f + 0.1f * sinf(6 * time), 0.1f * time, -0.1f), tip;
+        head.position[1] = 0.05 * sin(5 * k * FRAME);
         if (k == 0) tie_tip(living, HAIR_TIE_HEAD, at);
         if (k >= 30) tie_tip(living, HAIR_TIE_WORLD, hand);
         hair_test_advance(living, &head, FRAME);
         hair_test_read_guides(living);
-        tip     = hair_test_tip(living, 0);
+        tip = hair_test_tip(living, 0);
         stretch = fmax(stretch, hair_test_stretch(living));
         if (k < 30)
             of_head = fmax(of_head, apart(tip, in_world(&head, at)));
@@ -95,8 +95,8 @@ static void a_tied_tip_is_where_its_tie_has_it(void** state)
 {
     for (int way = 0; way < WAYS; ++way) {
         struct hair_test_living living;
-        hair_physics            physics = hair_test_bare();
-        hair_desc               desc    = way_of(way, &physics);
+        hair_physics physics = hair_test_bare();
+        hair_desc desc = way_of(way, &physics);
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
         hold_tip(&living);
         assert_int_equal(hair_test_health(&living).reset, 0);
@@ -109,13 +109,13 @@ static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_a
 {
     for (int way = 0; way < 2; ++way) {
         struct hair_test_living living;
-        hair_physics            physics = hair_physics_default();
-        hair_desc               desc    = way_of(way, &physics);
-        hair_solid              sphere  = hair_solid_default();
-        physics.flatness                = 0.5f;
-        physics.cohesion                = 5;
-        sphere.size[0]                  = 0.03f;
-        sphere.position[0]              = 0.1f;
+        hair_physics physics = hair_physics_default();
+        hair_desc desc = way_of(way, &physics);
+        hair_solid sphere = hair_solid_default();
+        physics.flatness = 0.5f;
+        physics.cohesion = 5;
+        sphere.size[0] = 0.03f;
+        sphere.position[0] = 0.1f;
         live(*state, 1, 20, hair_v3(1, -1, 0), &desc, &living);
         hair_test_ok(*state, hair_set_solids(living.hair, &sphere, 1, sizeof sphere));
         hold_tip(&living);
@@ -127,12 +127,12 @@ static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_a
 static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
 {
     static const double rows[][2] = {{0.5, 0.3981941779}, {0.8, 0.2654375091}};
-    hair_physics        physics   = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     physics.young = 0, physics.damping = 6, physics.root = HAIR_ROOT_HINGED;
     for (int i = 0; i < 2 * SOLVERS; ++i) {
         struct hair_test_living living;
-        hair_desc               desc = way_of(each(i / 2), &physics);
-        double                  sag = 0, span = rows[i % 2][0], expected = rows[i % 2][1];
+        hair_desc desc = way_of(each(i / 2), &physics);
+        double sag = 0, span = rows[i % 2][0], expected = rows[i % 2][1];
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
         tie_tip(&living, HAIR_TIE_HEAD, hair_v3((float)span * LENGTH, 0, 0));
         hair_test_wait(&living, 180);
@@ -152,11 +152,11 @@ static void a_guide_can_be_tied_at_several_vertices(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living;
-        hair_physics            physics = hair_test_bare();
-        hair_desc               desc    = way_of(each(solver), &physics);
-        hair_tie                ties[]  = {tie_of(0, 20, HAIR_TIE_WORLD, hair_v3(0.15f, 0, 0)),
-                                           tie_of(0, 10, HAIR_TIE_HEAD, hair_v3(0.07f, 0.03f, 0))};
-        physics.damping                 = 6;
+        hair_physics physics = hair_test_bare();
+        hair_desc desc = way_of(each(solver), &physics);
+        hair_tie ties[] = {tie_of(0, 20, HAIR_TIE_WORLD, hair_v3(0.15f, 0, 0)),
+                           tie_of(0, 10, HAIR_TIE_HEAD, hair_v3(0.07f, 0.03f, 0))};
+        physics.damping = 6;
         live(*state, 2, 32, hair_v3(1, -1, 0), &desc, &living);
         hair_test_ok(*state, hair_set_ties(living.hair, ties, 2, sizeof *ties));
         hair_test_wait(&living, 180);
@@ -177,10 +177,10 @@ static void ties_that_are_too_far_apart_pull_a_guide_straight(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living;
-        hair_physics            physics = hair_test_bare();
-        hair_desc               desc    = way_of(each(solver), &physics);
-        hair_vec3               far     = hair_v3(0.45f, 0, 0);
-        double                  astray  = 0;
+        hair_physics physics = hair_test_bare();
+        hair_desc desc = way_of(each(solver), &physics);
+        hair_vec3 far = hair_v3(0.45f, 0, 0);
+        double astray = 0;
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
         tie_tip(&living, HAIR_TIE_HEAD, far);
         hair_test_wait(&living, 30);
@@ -210,9 +210,9 @@ static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied(
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
-        hair_physics            physics = hair_test_bare();
-        hair_desc               desc    = way_of(each(solver), &physics);
-        physics.damping                 = 6;
+        hair_physics physics = hair_test_bare();
+        hair_desc desc = way_of(each(solver), &physics);
+        physics.damping = 6;
         live(*state, 1, 24, hair_v3(1, -1, 0), &desc, &living);
         tie_tip(&living, HAIR_TIE_WORLD, hair_v3(0.1f, 0.2f, 0));
         hair_test_wait(&living, 60);
@@ -236,9 +236,9 @@ static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied(
 
 static void a_teleport_takes_ties_along(void** state)
 {
-    struct hair_test_living        living;
-    hair_physics                   physics = hair_test_bare();
-    hair_desc                      desc    = way_of(0, &physics);
+    struct hair_test_living living;
+    hair_physics physics = hair_test_bare();
+    hair_desc desc = way_of(0, &physics);
     struct hair_reference_rod_pose far =
         hair_test_pose_of(hair_v3(100, 0, 0), hair_v3(0, 1, 0), 1.5707963267948966);
     const float turned[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 100, 0, 0, 1};
@@ -257,11 +257,11 @@ static void a_teleport_takes_ties_along(void** state)
 static void a_state_with_ties_goes_on_as_if_it_had_not_been_saved(void** state)
 {
     static struct hair_test_seen seen[2];
-    hair_physics                 physics = hair_physics_default();
-    hair_desc                    desc    = way_of(0, &physics);
-    struct hair_test_living      living[2];
-    hair_tie                     ties[] = {tie_of(1, UINT32_MAX, HAIR_TIE_WORLD, hair_v3(0.1f, 0.1f, 0)),
-                                           tie_of(0, 7, HAIR_TIE_HEAD, hair_v3(0.1f, 0, 0))};
+    hair_physics physics = hair_physics_default();
+    hair_desc desc = way_of(0, &physics);
+    struct hair_test_living living[2];
+    hair_tie ties[] = {tie_of(1, UINT32_MAX, HAIR_TIE_WORLD, hair_v3(0.1f, 0.1f, 0)),
+                       tie_of(0, 7, HAIR_TIE_HEAD, hair_v3(0.1f, 0, 0))};
     for (int i = 0; i < 2; ++i) live(*state, 3, 16, hair_v3(1, -1, 0), &desc, &living[i]);
     hair_test_ok(*state, hair_set_ties(living[0].hair, ties, 2, sizeof *ties));
     for (int k = 0; k < 20; ++k) hair_test_advance(&living[0], NULL, 0.011);
@@ -285,14 +285,14 @@ static void a_state_with_ties_goes_on_as_if_it_had_not_been_saved(void** state)
 
 static void ties_that_cannot_be_are_refused_and_leave_those_there_are(void** state)
 {
-    const float             inf     = INFINITY;
-    struct hair_test*       test    = *state;
-    hair_physics            physics = hair_test_bare();
-    hair_desc               desc    = way_of(0, &physics);
+    const float inf = INFINITY;
+    struct hair_test* test = *state;
+    hair_physics physics = hair_test_bare();
+    hair_desc desc = way_of(0, &physics);
     struct hair_test_living living;
-    hair_vec3               at = hair_v3(0.1f, 0.1f, 0.1f);
+    hair_vec3 at = hair_v3(0.1f, 0.1f, 0.1f);
     const struct {
-        hair_tie    tie;
+        hair_tie tie;
         const char* words;
     } wrong[] = {
         {tie_of(2, 3, HAIR_TIE_HEAD, at), "ties[1].guide is 2, not in [0, 1]"},

@@ -15,27 +15,27 @@
 // back.
 static void run(struct hair_test* test, int units, float* track, hair_health* health)
 {
-    struct hair_gl*          gl      = &test->context->gl;
-    GLint                    was     = gl->units;
+    struct hair_gl* gl = &test->context->gl;
+    GLint was = gl->units;
     struct hair_test_strands strands = hair_test_strands_make(GUIDES, VERTICES);
-    struct hair_test_living  living;
-    hair_physics             physics = hair_test_loose(0.3f);
-    hair_wind                wind    = hair_wind_default();
-    wind.velocity[2]                 = 1;
+    struct hair_test_living living;
+    hair_physics physics = hair_test_loose(0.3f);
+    hair_wind wind = hair_wind_default();
+    wind.velocity[2] = 1;
     for (int k = 0; k < GUIDES; ++k) {
         float across = 0.2f * (float)k / GUIDES;
         hair_test_add_straight(&strands, VERTICES, hair_v3(0.02f, 0.1f, across - 0.1f), hair_v3(1, 0.1f, 0),
                                0.05f + across);
     }
-    hair_desc  desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 1.0 / 240, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 1.0 / 240, &physics);
     hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0.1f, 0, 0);
-    ball.size[0]    = 0.08f;
-    gl->units       = units;
+    ball.size[0] = 0.08f;
+    gl->units = units;
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     hair_test_set_solids(&living, &ball, 1);
     for (int frame = 0; frame < FRAMES; ++frame) {
-        float                          aside = frame < 12 ? 0 : frame == 20 ? 6e4f : 1;
+        float aside = frame < 12 ? 0 : frame == 20 ? 6e4f : 1;
         struct hair_reference_rod_pose head =
             hair_test_pose_of(hair_v3(aside, 0.001f * (float)frame, 0), hair_v3(0, 1, 0), 0.01 * frame);
         hair_test_blow(&living, frame == 14 ? &wind : NULL); // Then all go through one.
@@ -52,7 +52,7 @@ static void run(struct hair_test* test, int units, float* track, hair_health* he
 static void in_two_programs_guides_go_as_in_one(void** state)
 {
     static float track[2][3 * GUIDES * VERTICES * FRAMES];
-    hair_health  health[2];
+    hair_health health[2];
     for (int two = 0; two < 2; ++two) run(*state, two * UNITS, track[two], &health[two]);
     print_message("    of %d guides %u substeps by Euler, %u led, %u reset\n", GUIDES, health[1].euler,
                   health[1].follow, health[1].reset);

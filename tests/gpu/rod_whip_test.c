@@ -12,16 +12,16 @@
 static double energy_of(const struct hair_test_living* living)
 {
     const struct hair_sim* sim = &living->hair->sim;
-    uint32_t               n   = living->vertices;
-    struct hair_state*     at  = hair_test_buffer(sim->state, n * sizeof *at);
-    struct hair_rod*       rod = hair_test_buffer(sim->rod, n * sizeof *rod);
-    double                 sum = 0, last[2][3] = {{0}};
-    double                 part = fmin((double)at[0].position.w, 1); // of the substep, the last leap
+    uint32_t n = living->vertices;
+    struct hair_state* at = hair_test_buffer(sim->state, n * sizeof *at);
+    struct hair_rod* rod = hair_test_buffer(sim->rod, n * sizeof *rod);
+    double sum = 0, last[2][3] = {{0}};
+    double part = fmin((double)at[0].position.w, 1); // of the substep, the last leap
     for (uint32_t i = 0; i < n; ++i) {
         double mass = rod[i].segment.y > 0 ? 1 / (double)rod[i].segment.y : 0;
         for (int start = 0; start < 2; ++start) {
             const float *p = &at[i].position.x, *d = &at[i].displacement.x;
-            double       edge[3], l = 0, bend = 0;
+            double edge[3], l = 0, bend = 0;
             for (int a = 0; a < 3; ++a) {
                 sum += mass * pow((double)d[a] / sim->substep, 2) / 4;
                 if (a == 1) sum += mass * GRAVITY * ((double)p[a] - start * part * (double)d[a]) / 2;
@@ -47,30 +47,30 @@ static double energy_of(const struct hair_test_living* living)
 }
 
 struct whip {
-    uint32_t     vertices;
-    double       degrees; // from down
-    hair_root    root;
+    uint32_t vertices;
+    double degrees; // from down
+    hair_root root;
     hair_mapping mapping;
-    double       substep; // s; 0 leaves it to the solver
-    int          beside;  // 1 puts a ball beside the plane of the whip, nearer to the root than 2 cm
+    double substep; // s; 0 leaves it to the solver
+    int beside; // 1 puts a ball beside the plane of the whip, nearer to the root than 2 cm
 };
 
 // Let a strand go and compare its energy after five seconds, counted from where it would hang straight down. Short waves
 // that a substep samples coarsely make the energy vary in between.
 static void keep_energy(struct hair_test* test, const struct whip* whip)
 {
-    hair_physics            physics = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     struct hair_test_living living;
-    double                  angle = whip->degrees * 3.14159265358979 / 180, first = 0, most = 0, now = 0;
-    physics.damping                  = 0;
-    physics.root                     = whip->root;
-    hair_vec3                way     = hair_v3((float)sin(angle), (float)-cos(angle), 0);
+    double angle = whip->degrees * 3.14159265358979 / 180, first = 0, most = 0, now = 0;
+    physics.damping = 0;
+    physics.root = whip->root;
+    hair_vec3 way = hair_v3((float)sin(angle), (float)-cos(angle), 0);
     struct hair_test_strands strands = hair_test_straight(whip->vertices, hair_v3(0, 0, 0), way, LENGTH);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, whip->mapping, whip->substep, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0.09f);
-    ball.size[0]    = 0.08f;
+    ball.size[0] = 0.08f;
     if (whip->beside) hair_test_set_solids(&living, &ball, 1);
     double h = living.hair->sim.substep, lowest = -GRAVITY * (double)LENGTH * (double)LENGTH / 2;
     for (int i = 0; i < (int)(5 / h); ++i) {
@@ -110,11 +110,11 @@ static void a_whip_keeps_its_energy(void** state)
 // Move a strand for two seconds, so many substeps in a step, and return its state.
 static struct hair_state* whip_in_steps(struct hair_test* test, hair_mapping mapping, int substeps)
 {
-    hair_physics            physics = hair_test_bare();
+    hair_physics physics = hair_test_bare();
     struct hair_test_living living;
-    physics.damping                  = 0;
+    physics.damping = 0;
     struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
-    hair_desc                desc    = hair_test_rods(HAIR_SOLVER_ACCURATE, mapping, 1.0 / 1024, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, mapping, 1.0 / 1024, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     for (int i = 0; i < 2048; i += substeps) hair_test_advance(&living, NULL, substeps / 1024.0);
@@ -128,9 +128,9 @@ static void a_whip_is_the_same_in_longer_steps(void** state)
 {
     if (!((struct hair_test*)*state)->context->gl.software) return; // Two programs round in two ways.
     for (int by_thread = 0; by_thread < 2; ++by_thread) {
-        hair_mapping       mapping = by_thread ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
-        struct hair_state* one     = whip_in_steps(*state, mapping, 1);
-        struct hair_state* many    = whip_in_steps(*state, mapping, 16);
+        hair_mapping mapping = by_thread ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+        struct hair_state* one = whip_in_steps(*state, mapping, 1);
+        struct hair_state* many = whip_in_steps(*state, mapping, 16);
         assert_true(one[0].position.w < 1); // in parts
         assert_memory_equal(one, many, 32 * sizeof *one);
         free(one), free(many);

@@ -11,18 +11,18 @@
 
 // Where the fields are: lib/sim/save.c.
 enum {
-    VERSION     = 8,
-    WHOLE       = 12,
-    SUBSTEP     = 32,
-    LEFT        = 64,
-    LAST        = 72,
-    STRUCK      = 80,
-    POSES       = 84,
-    HEAD        = POSES + 3 * 40,
-    SOLIDS      = POSES + 4 * 40 + 3 * 8, // after the way of gusts
+    VERSION = 8,
+    WHOLE = 12,
+    SUBSTEP = 32,
+    LEFT = 64,
+    LAST = 72,
+    STRUCK = 80,
+    POSES = 84,
+    HEAD = POSES + 3 * 40,
+    SOLIDS = POSES + 4 * 40 + 3 * 8, // after the way of gusts
     SOLID_BYTES = 72,
-    TIE_BYTES   = 36,
-    SLEEP       = 144 // bytes, of hair that is looked at by nobody, and of air that is no fluid
+    TIE_BYTES = 36,
+    SLEEP = 144 // bytes, of hair that is looked at by nobody, and of air that is no fluid
 };
 
 // As the library hashes, so that what is harmful looks undamaged.
@@ -40,13 +40,13 @@ static void seal(struct hair_test_blob* blob)
 static hair_instance* make_small(struct hair_test* test, int way)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
-    subject.desc                     = hair_test_way(way);
-    subject.groom.guides             = 2;
+    subject.desc = hair_test_way(way);
+    subject.groom.guides = 2;
     subject.groom.fewest = 4, subject.groom.most = 5;
     subject.groom.followers = 8;
     if (way == CROWD) subject.physics.cohesion = 5, subject.physics.volume = 0.2f;
     hair_instance* hair = hair_test_subject_make(test, &subject);
-    hair_tie       tie  = {1, 2, HAIR_TIE_WORLD, {0.1f, 0.2f, 0.1f}};
+    hair_tie tie = {1, 2, HAIR_TIE_WORLD, {0.1f, 0.2f, 0.1f}};
     if (way == CROWD) hair_test_ok(test, hair_set_ties(hair, &tie, 1, sizeof tie));
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_move(test, hair, &subject, 4);
@@ -57,7 +57,7 @@ static hair_instance* make_small(struct hair_test* test, int way)
 
 struct wrong {
     hair_result (*load)(hair_instance* hair, struct hair_test_blob blob, size_t at);
-    size_t      at;
+    size_t at;
     hair_result result;
     const char* words;
 };
@@ -130,13 +130,13 @@ static hair_result load_with_65(hair_instance* hair, struct hair_test_blob blob,
 static void a_refused_load_leaves_the_instance_as_it_was(void** state)
 {
     static struct hair_test_seen before, after;
-    struct hair_test*            test = *state;
-    hair_instance*               hair = make_small(test, 0);
-    struct hair_test_blob        good = hair_test_save(test, hair);
+    struct hair_test* test = *state;
+    hair_instance* hair = make_small(test, 0);
+    struct hair_test_blob good = hair_test_save(test, hair);
     // Solids now and before, and no ties; then of every vertex its state, its frame, its rates, and, after a flag, its force and turns.
     size_t vertices = hair->sim.guide_vertices,
            states = SOLIDS + 12 + SOLID_BYTES * (hair->sim.solids.now.count + hair->sim.solids.before.count),
-           tip    = states + 32 * (vertices - 1);
+           tip = states + 32 * (vertices - 1);
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     size_t forces = 4 + 48 * vertices;
     assert_int_equal(rates + 32 * vertices + forces + 4 + SLEEP + 8,
@@ -201,13 +201,13 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
 
 static void the_state_of_another_haircut_or_substep_is_refused(void** state)
 {
-    struct hair_test*        test    = *state;
+    struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
-    hair_instance*           hair    = hair_test_subject_make(test, &subject);
+    hair_instance* hair = hair_test_subject_make(test, &subject);
     struct hair_test_subject others[3];
-    const char*              words[3] = {"its number of guides is 8, the instance's 7",
-                                         "its hash of the vertices of each guide is ",
-                                         "its substep is 0.00999999978, the instance's"};
+    const char* words[3] = {"its number of guides is 8, the instance's 7",
+                            "its hash of the vertices of each guide is ",
+                            "its substep is 0.00999999978, the instance's"};
     for (int i = 0; i < 3; ++i) others[i] = hair_test_subject_of(0);
     others[0].groom.guides = 8;
     others[1].groom.guides = 6, subject.groom.guides = 6;
@@ -216,8 +216,8 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     hair_instance* six =
         hair_test_subject_make(test, &subject); // of 16 vertices each, as many in all as 15 to 17
     for (int i = 0; i < 3; ++i) {
-        hair_instance*        other = hair_test_subject_make(test, &others[i]);
-        struct hair_test_blob blob  = hair_test_save(test, other);
+        hair_instance* other = hair_test_subject_make(test, &others[i]);
+        struct hair_test_blob blob = hair_test_save(test, other);
         refused(test, hair_load(i == 1 ? six : hair, blob.bytes, blob.size), HAIR_ERROR_ARGUMENT, words[i]);
         hair_destroy(other);
         free(blob.bytes);
@@ -228,8 +228,8 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
 
 static void a_state_cut_off_at_any_byte_is_refused(void** state)
 {
-    struct hair_test*     test = *state;
-    hair_instance*        hair = make_small(test, 0);
+    struct hair_test* test = *state;
+    hair_instance* hair = make_small(test, 0);
     struct hair_test_blob good = hair_test_save(test, hair), cut = {malloc(good.size), 0};
     for (cut.size = 0; cut.size < good.size; ++cut.size) {
         unsigned char* exact = malloc(cut.size ? cut.size : 1); // so that reading beyond it is seen
@@ -248,7 +248,7 @@ static void a_state_cut_off_at_any_byte_is_refused(void** state)
 static int survives(struct hair_test* test, hair_instance* hair, struct hair_test_blob blob)
 {
     static struct hair_test_seen seen;
-    hair_result                  result = load_sealed(hair, blob);
+    hair_result result = load_sealed(hair, blob);
     assert_int_equal(hair_test_forgive(test), result ? 1 : 0);
     if (result) return 0;
     hair_test_look(test, hair, &seen);
@@ -261,9 +261,9 @@ static int survives(struct hair_test* test, hair_instance* hair, struct hair_tes
 
 static void flip_every_bit(struct hair_test* test, int way)
 {
-    hair_instance*        hair = make_small(test, way);
+    hair_instance* hair = make_small(test, way);
     struct hair_test_blob good = hair_test_save(test, hair), wrong = {malloc(good.size), good.size};
-    uint32_t              accepted = 0, sealed = 0, random = 3;
+    uint32_t accepted = 0, sealed = 0, random = 3;
     for (size_t bit = 0; bit < 8 * good.size; ++bit) {
         memcpy(wrong.bytes, good.bytes, good.size);
         wrong.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
@@ -297,18 +297,19 @@ static void any_flipped_bit_is_refused_or_harmless(void** state)
 // The greatest of every number that is let through, all together.
 static void load_the_farthest(struct hair_test* test, int way)
 {
-    hair_instance*        hair   = make_small(test, way);
-    struct hair_test_blob blob   = hair_test_save(test, hair);
-    size_t                pushes = hair->sim.crowd.beat ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
-    size_t                beat   = blob.size - 8 - SLEEP - pushes - 4;
-    size_t                flag   = beat - 4 - (hair->sim.bend ? 48 * (size_t)hair->sim.guide_vertices : 0);
-    size_t                ties   = 4 + hair->sim.ties.count * TIE_BYTES;
+    hair_instance* hair = make_small(test, way);
+    struct hair_test_blob blob = hair_test_save(test, hair);
+    size_t pushes = hair->sim.crowd.beat ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
+    size_t beat = blob.size - 8 - SLEEP - pushes - 4;
+    size_t flag = beat - 4 - (hair->sim.bend ? 48 * (size_t)hair->sim.guide_vertices : 0);
+    size_t ties = 4 + hair->sim.ties.count * TIE_BYTES;
     for (int sign = -1; sign <= 1; sign += 2) {
         for (int p = 0; p < 4; ++p)
             for (int k = 0; k < 3; ++k)
                 hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
         for (size_t at = SOLIDS + 2 * (4 + 2 * SOLID_BYTES) + ties; at < blob.size - 8 - SLEEP; at += 4)
-            if (at != beat && at != flag) hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
+            if (at != beat && at != flag)
+                hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
         assert_true(survives(test, hair, blob));
     }
     hair_destroy(hair);

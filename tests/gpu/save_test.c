@@ -24,11 +24,11 @@ static void follow(struct hair_test* test, hair_instance* hair, const struct hai
 static int check_run(struct hair_test* test, const struct hair_test_subject* subject, uint32_t i)
 {
     static struct hair_test_seen straight[AFTER + 1], again[AFTER + 1];
-    hair_instance*               hair = hair_test_subject_make(test, subject);
+    hair_instance* hair = hair_test_subject_make(test, subject);
     hair_test_run(test, hair, subject, 0, i);
     hair_test_move(test, hair, subject, i);
-    int                   between = hair->sim.left > 0.05 * hair->sim.substep;
-    struct hair_test_blob blob    = hair_test_save(test, hair);
+    int between = hair->sim.left > 0.05 * hair->sim.substep;
+    struct hair_test_blob blob = hair_test_save(test, hair);
     follow(test, hair, subject, i, straight);
     for (int fresh = 0; fresh < 2; ++fresh) {
         if (fresh) {
@@ -49,13 +49,13 @@ static int check_run(struct hair_test* test, const struct hair_test_subject* sub
 static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void** state)
 {
     static const uint32_t saved[] = {0, 7, 12, 17, 28}; // 12 ends in a teleport, 28 in a reset
-    int                   between = 0, all = 0;
+    int between = 0, all = 0;
     for (uint32_t way = 0; way < HAIR_TEST_WAYS; ++way)
         for (uint32_t i = 0; i < sizeof saved / sizeof *saved; ++i, ++all) {
             // Every two of way, moment and subject are together once.
             struct hair_test_subject subject = hair_test_subject_of((way + i) % HAIR_TEST_SUBJECTS);
-            subject.desc.solver              = hair_test_way((int)way).solver;
-            subject.desc.mapping             = hair_test_way((int)way).mapping;
+            subject.desc.solver = hair_test_way((int)way).solver;
+            subject.desc.mapping = hair_test_way((int)way).mapping;
             between += check_run(*state, &subject, saved[i]);
         }
     print_message("    %d of %d between two substeps\n", between, all);
@@ -65,7 +65,7 @@ static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void*
 // What is saved says all: bytes of a state and bytes of what was loaded from them are the same.
 static void a_loaded_state_saves_as_the_same_bytes(void** state)
 {
-    struct hair_test*        test    = *state;
+    struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
     hair_instance* hair[2] = {hair_test_subject_make(test, &subject), hair_test_subject_make(test, &subject)};
     hair_test_run(test, hair[0], &subject, 0, 10);
@@ -81,13 +81,13 @@ static void a_loaded_state_saves_as_the_same_bytes(void** state)
 // Settings are the instance's own.
 static void loading_leaves_physics_and_look_as_they_are(void** state)
 {
-    struct hair_test*        test    = *state;
+    struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
-    hair_instance*           from    = hair_test_subject_make(test, &subject);
-    subject.physics.damping          = 77;
-    hair_instance* into              = hair_test_subject_make(test, &subject);
-    hair_look      own               = hair_look_default();
-    own.segments                     = 3;
+    hair_instance* from = hair_test_subject_make(test, &subject);
+    subject.physics.damping = 77;
+    hair_instance* into = hair_test_subject_make(test, &subject);
+    hair_look own = hair_look_default();
+    own.segments = 3;
     hair_test_ok(test, hair_set_look(into, &own));
     struct hair_test_blob blob = hair_test_save(test, from);
     hair_test_ok(test, hair_load(into, blob.bytes, blob.size));
@@ -101,10 +101,10 @@ static void loading_leaves_physics_and_look_as_they_are(void** state)
 static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** state)
 {
     static struct hair_test_seen alone[3][2], beside;
-    struct hair_test*            test   = *state;
-    uint32_t                     random = 5, done[3] = {0}, left = 3;
-    struct hair_test_subject     subjects[3];
-    hair_instance*               hair[3];
+    struct hair_test* test = *state;
+    uint32_t random = 5, done[3] = {0}, left = 3;
+    struct hair_test_subject subjects[3];
+    hair_instance* hair[3];
     for (uint32_t n = 0; n < 3; ++n) {
         subjects[n] = hair_test_subject_of(n);
         if (n > 0) subjects[n].physics.cohesion = 6, subjects[n].physics.volume = 0.2f;
@@ -117,7 +117,7 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
     }
     for (uint32_t n = 0; n < 3; ++n) hair[n] = hair_test_subject_make(test, &subjects[n]);
     while (left) {
-        uint32_t n     = (uint32_t)(3 * hair_random(&random));
+        uint32_t n = (uint32_t)(3 * hair_random(&random));
         uint32_t steps = 1 + (uint32_t)(2 * hair_random(&random));
         for (; steps && done[n] < 40; --steps) {
             hair_test_run(test, hair[n], &subjects[n], done[n], done[n] + 1);
@@ -134,10 +134,10 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
 static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void** state)
 {
     static struct hair_test_seen once, twice;
-    struct hair_test*            test    = *state;
-    struct hair_test_subject     subject = hair_test_subject_of(0);
-    hair_instance*               hair    = hair_test_subject_make(test, &subject);
-    float                        there[16], identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct hair_test* test = *state;
+    struct hair_test_subject subject = hair_test_subject_of(0);
+    hair_instance* hair = hair_test_subject_make(test, &subject);
+    float there[16], identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_ok(test, hair_teleport(hair, identity));
     hair_test_look(test, hair, &once);
@@ -153,11 +153,11 @@ static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void**
 
 static void a_capacity_that_is_too_small_is_an_error_that_names_both_sizes(void** state)
 {
-    struct hair_test*        test    = *state;
+    struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
-    hair_instance*           hair    = hair_test_subject_make(test, &subject);
-    size_t                   size = 0, again = 0;
-    char                     words[96];
+    hair_instance* hair = hair_test_subject_make(test, &subject);
+    size_t size = 0, again = 0;
+    char words[96];
     hair_test_ok(test, hair_save(hair, NULL, 0, &size));
     unsigned char* bytes = malloc(size + 1);
     memset(bytes, 0xa5, size + 1);

@@ -18,17 +18,17 @@
 #define STEP (1.0f / 30)
 
 struct skinned {
-    hair_groom*    groom;
+    hair_groom* groom;
     hair_instance* hair;
-    float          rest[3 * VERTICES], positions[3 * VERTICES]; // of the scalp
+    float rest[3 * VERTICES], positions[3 * VERTICES]; // of the scalp
 };
 
 // From the scalp, which is level, upwards and leaning.
 static hair_vec3 strand(float t, uint32_t number, const void* user)
 {
     (void)user;
-    uint32_t  random = hair_hash(number);
-    float     step = SIDE / CELLS, x = SIDE * hair_random(&random), z = SIDE * hair_random(&random);
+    uint32_t random = hair_hash(number);
+    float step = SIDE / CELLS, x = SIDE * hair_random(&random), z = SIDE * hair_random(&random);
     hair_vec3 root = {x, 0, z};
     if (number < VERTICES)
         root = hair_v3(step * (float)(number % (CELLS + 1)), 0, step * (float)(number / (CELLS + 1)));
@@ -38,12 +38,12 @@ static hair_vec3 strand(float t, uint32_t number, const void* user)
 static hair_groom* make_groom(struct hair_test* test, float* rest)
 {
     struct hair_test_strands strands = hair_test_strands_make(GUIDES, 10);
-    struct hair_test_scalp   scalp   = hair_test_scalp_make(CELLS, SIDE);
+    struct hair_test_scalp scalp = hair_test_scalp_make(CELLS, SIDE);
     for (uint32_t i = 0; i < GUIDES; ++i) hair_test_strands_add(&strands, 10, strand, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test->host, &strands);
     hair_test_set_scalp(&desc, &scalp);
     desc.follower_count = FOLLOWERS;
-    hair_groom* groom   = NULL;
+    hair_groom* groom = NULL;
     hair_test_ok(test, hair_groom_create(&desc, &groom));
     memcpy(rest, scalp.positions, 3 * VERTICES * sizeof *rest);
     hair_test_strands_free(&strands);
@@ -53,15 +53,15 @@ static hair_groom* make_groom(struct hair_test* test, float* rest)
 
 static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_mapping mapping)
 {
-    struct skinned s    = {0};
-    hair_desc      desc = hair_desc_default();
-    desc.mapping        = mapping;
-    hair_look look      = hair_look_default();
-    look.segments       = SEGMENTS;
-    look.collision      = HAIR_COLLISION_NONE; // Whether a follower meets a solid may hang on rounding.
-    desc.look           = &look;
-    desc.solver         = solver;
-    s.groom             = make_groom(test, s.rest);
+    struct skinned s = {0};
+    hair_desc desc = hair_desc_default();
+    desc.mapping = mapping;
+    hair_look look = hair_look_default();
+    look.segments = SEGMENTS;
+    look.collision = HAIR_COLLISION_NONE; // Whether a follower meets a solid may hang on rounding.
+    desc.look = &look;
+    desc.solver = solver;
+    s.groom = make_groom(test, s.rest);
     hair_test_ok(test, hair_create(test->context, s.groom, &desc, &s.hair));
     hair_groom_destroy(s.groom); // What an instance needs of it it holds.
     memcpy(s.positions, s.rest, sizeof s.positions);
@@ -85,7 +85,7 @@ static void give(struct hair_test* test, struct skinned* s)
 
 #define MOST 8192
 struct seen {
-    float    at[3 * MOST];
+    float at[3 * MOST];
     uint32_t count;
 };
 
@@ -130,14 +130,14 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
 {
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
-    struct hair_test*        test      = *state;
-    static struct seen       a, b;
+    struct hair_test* test = *state;
+    static struct seen a, b;
     for (int i = 0; i < 5; ++i) {
-        hair_mapping   mapping = i == 4 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_AUTO;
-        struct skinned head    = make_by(test, solvers[i % 4], mapping),
-                       scalp   = make_by(test, solvers[i % 4], mapping);
+        hair_mapping mapping = i == 4 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_AUTO;
+        struct skinned head = make_by(test, solvers[i % 4], mapping),
+                       scalp = make_by(test, solvers[i % 4], mapping);
         double most = 0, went = 0, apart[2] = {0};
-        float  time = 0;
+        float time = 0;
         for (int frame = 1; frame <= 25; ++frame) {
             float m[16];
             float dt = frame % 5 == 4 ? 0.001f : STEP; // Of several substeps, or none.
@@ -174,12 +174,12 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
 static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void** state)
 {
     static const float rates[] = {1, 0.25f, 0.5f, 1, 1, 0.0625f};
-    struct hair_test*  test    = *state;
+    struct hair_test* test = *state;
     static struct seen a, b;
-    float              time = 0;
-    struct skinned     head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
-    hair_physics       physics = hair_physics_default();
-    double             most[2] = {0};
+    float time = 0;
+    struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
+    hair_physics physics = hair_physics_default();
+    double most[2] = {0};
     for (int frame = 1; frame <= 90; ++frame) {
         float m[16];
         physics.rate = rates[frame / 5 % 6];
@@ -210,15 +210,15 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
 // the first segments of guides are bent a little, would else leave the scalp by that.
 static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen a, b, c, d;
-    double             most[2] = {0};
-    struct skinned     head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
-    hair_physics       physics   = hair_physics_default();
-    hair_solid         solids[2] = {hair_solid_default(), hair_solid_default()};
-    physics.cohesion             = 5;
-    solids[0].size[0]            = 0.04f;
-    solids[1].shape              = HAIR_SHAPE_BOX;
+    double most[2] = {0};
+    struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
+    hair_physics physics = hair_physics_default();
+    hair_solid solids[2] = {hair_solid_default(), hair_solid_default()};
+    physics.cohesion = 5;
+    solids[0].size[0] = 0.04f;
+    solids[1].shape = HAIR_SHAPE_BOX;
     for (int i = 0; i < 2; ++i) {
         solids[i].position[0] = 0.15f * (float)i, solids[i].position[1] = 0.08f, solids[i].position[2] = 0.1f;
         if (i) solids[i].size[0] = solids[i].size[1] = solids[i].size[2] = 0.03f;
@@ -246,16 +246,16 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 // More than a step's parameters hold: looked for where hair may be, which the head does not say.
 static void a_scalp_taken_far_from_the_head_meets_solids_there(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen a, b, free;
-    struct skinned     near = make(test, HAIR_SOLVER_DIRECT), far = make(test, HAIR_SOLVER_DIRECT),
+    struct skinned near = make(test, HAIR_SOLVER_DIRECT), far = make(test, HAIR_SOLVER_DIRECT),
                    none = make(test, HAIR_SOLVER_DIRECT);
     hair_solid solids[HAIR_STEP_SOLIDS + 8];
-    float      m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1};
+    float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1};
     for (int at = 0; at < 2; ++at) {
         for (int i = 0; i < HAIR_STEP_SOLIDS + 8; ++i) {
-            solids[i]             = hair_solid_default();
-            solids[i].size[0]     = 0.01f;
+            solids[i] = hair_solid_default();
+            solids[i].size[0] = 0.01f;
             solids[i].position[0] = (float)(4 * at) + 0.025f * (float)(i % 9);
             solids[i].position[1] = 0.08f;
             solids[i].position[2] = 0.025f * (float)(i / 9);
@@ -288,7 +288,7 @@ static void stretch(const struct skinned* s, float by, float* out)
 // Roots, which are on it, go where it goes; hair keeps its shape and direction.
 static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen rest[3], now[3];
     for (int redblack = 0; redblack < 2; ++redblack) {
         struct skinned s = make(test, redblack ? HAIR_SOLVER_REDBLACK : HAIR_SOLVER_DIRECT);
@@ -320,7 +320,7 @@ static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
 static void bulge(struct skinned* s, float time)
 {
     for (int i = 0; i < VERTICES; ++i) {
-        s->positions[3 * i]     = s->rest[3 * i] + 0.1f * time;
+        s->positions[3 * i] = s->rest[3 * i] + 0.1f * time;
         s->positions[3 * i + 1] = 0.02f * sinf(20 * s->rest[3 * i] + 15 * s->rest[3 * i + 2] + 8 * time);
         s->positions[3 * i + 2] = s->rest[3 * i + 2] * (1 + 0.1f * sinf(5 * time));
     }
@@ -334,8 +334,8 @@ struct given {
 static struct given put_in_buffer(const struct skinned* s, size_t offset, size_t stride)
 {
     struct given given = {0, offset, stride};
-    size_t       size  = offset + stride * (VERTICES - 1) + 12;
-    char*        bytes = calloc(1, size);
+    size_t size = offset + stride * (VERTICES - 1) + 12;
+    char* bytes = calloc(1, size);
     for (size_t i = 0; i < VERTICES; ++i) memcpy(bytes + offset + i * stride, s->positions + 3 * i, 12);
     glCreateBuffers(1, &given.buffer);
     glNamedBufferStorage(given.buffer, (GLsizeiptr)size, bytes, 0);
@@ -345,9 +345,9 @@ static struct given put_in_buffer(const struct skinned* s, size_t offset, size_t
 
 static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
 {
-    struct hair_test*   test = *state;
-    static struct seen  a, b;
-    struct skinned      memory = make(test, HAIR_SOLVER_DIRECT), buffer = make(test, HAIR_SOLVER_DIRECT);
+    struct hair_test* test = *state;
+    static struct seen a, b;
+    struct skinned memory = make(test, HAIR_SOLVER_DIRECT), buffer = make(test, HAIR_SOLVER_DIRECT);
     static const size_t layouts[3][2] = {{0, 12}, {20, 32}, {1028, 28}};
     for (int frame = 1; frame <= 9; ++frame) {
         bulge(&memory, STEP * (float)frame);
@@ -372,14 +372,14 @@ static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
 // Given in a space that goes along, far out or near, it is the same to the head.
 static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen a, b;
-    struct skinned     near = make(test, HAIR_SOLVER_DIRECT), far = make(test, HAIR_SOLVER_DIRECT);
-    float              m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4096, -2048, 512, 1}, own[16];
-    float              away[16];
+    struct skinned near = make(test, HAIR_SOLVER_DIRECT), far = make(test, HAIR_SOLVER_DIRECT);
+    float m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4096, -2048, 512, 1}, own[16];
+    float away[16];
     memcpy(away, m, sizeof m);
     hair_physics physics = hair_physics_default();
-    physics.gravity[1]   = 0; // Which has a direction of its own.
+    physics.gravity[1] = 0; // Which has a direction of its own.
     hair_test_ok(test, hair_set_physics(near.hair, &physics));
     hair_test_ok(test, hair_set_physics(far.hair, &physics));
     hair_test_ok(test, hair_teleport(far.hair, m));
@@ -409,7 +409,7 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
 // What is not finite, or has no plane, leaves what sits on it where it is against the head; the rest goes on.
 static void whatever_a_buffer_holds_hair_stays_finite(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen seen, before;
     for (int redblack = 0; redblack < 2; ++redblack) {
         struct skinned s = make(test, redblack ? HAIR_SOLVER_REDBLACK : HAIR_SOLVER_DIRECT);
@@ -440,12 +440,12 @@ static void whatever_a_buffer_holds_hair_stays_finite(void** state)
 
 static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
 {
-    struct hair_test* test  = *state;
-    struct skinned    s     = make(test, HAIR_SOLVER_DIRECT);
-    float             m[16] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    hair_instance*    h     = s.hair;
-    float*            p     = s.positions;
-    hair_result       bad   = HAIR_ERROR_ARGUMENT;
+    struct hair_test* test = *state;
+    struct skinned s = make(test, HAIR_SOLVER_DIRECT);
+    float m[16] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    hair_instance* h = s.hair;
+    float* p = s.positions;
+    hair_result bad = HAIR_ERROR_ARGUMENT;
     assert_int_equal(hair_set_scalp(NULL, p, VERTICES, 12, NULL), bad);
     assert_int_equal(hair_set_scalp_buffer(NULL, 1, 0, 12, NULL), bad);
     hair_test_refused(test, hair_set_scalp(h, NULL, VERTICES, 12, NULL), bad, "positions is NULL");
@@ -458,9 +458,9 @@ static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
     hair_test_refused(test, hair_set_scalp(h, p, VERTICES, 12, m), bad, "to_world is not a rigid motion");
     p[7] = NAN;
     hair_test_refused(test, hair_set_scalp(h, p, VERTICES, 12, NULL), bad, "positions: vertex 2 is (");
-    p[7]            = 0;
+    p[7] = 0;
     struct given in = put_in_buffer(&s, 8, 16);
-    GLuint       of[2];
+    GLuint of[2];
     glGenBuffers(2, of); // Names that are no buffers yet.
     hair_test_refused(test, hair_set_scalp_buffer(h, 0, 0, 12, NULL), bad, "gl_buffer is 0, not a buffer");
     hair_test_refused(test, hair_set_scalp_buffer(h, of[0], 0, 12, NULL), bad, "not a buffer");
@@ -485,13 +485,13 @@ static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
 
 static void a_groom_without_a_scalp_has_none_to_skin(void** state)
 {
-    struct hair_test*        test    = *state;
+    struct hair_test* test = *state;
     struct hair_test_strands strands = hair_test_fur(20);
-    hair_groom_desc          groom   = hair_test_groom_desc(&test->host, &strands);
-    hair_desc                desc    = hair_desc_default();
-    hair_groom*              plain   = NULL;
-    hair_instance*           hair    = NULL;
-    float                    p[9]    = {0};
+    hair_groom_desc groom = hair_test_groom_desc(&test->host, &strands);
+    hair_desc desc = hair_desc_default();
+    hair_groom* plain = NULL;
+    hair_instance* hair = NULL;
+    float p[9] = {0};
     hair_test_ok(test, hair_groom_create(&groom, &plain));
     hair_test_ok(test, hair_create(test->context, plain, &desc, &hair));
     hair_test_refused(test, hair_set_scalp(hair, p, 3, 12, NULL), HAIR_ERROR_ARGUMENT,
@@ -513,10 +513,10 @@ static void run(struct hair_test* test, struct skinned* s, int from, int to)
 // Saved between a scalp and its step: into the same instance, another, and one that has never had a scalp.
 static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
 {
-    struct hair_test*  test = *state;
+    struct hair_test* test = *state;
     static struct seen straight[2], again[2];
-    struct skinned     s    = make(test, HAIR_SOLVER_DIRECT);
-    size_t             size = 0, plain_size = 0;
+    struct skinned s = make(test, HAIR_SOLVER_DIRECT);
+    size_t size = 0, plain_size = 0;
     hair_test_ok(test, hair_save(s.hair, NULL, 0, &plain_size));
     char* plain = malloc(plain_size);
     hair_test_ok(test, hair_save(s.hair, plain, plain_size, &plain_size));
@@ -527,9 +527,9 @@ static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
     char* bytes = malloc(size);
     hair_test_ok(test, hair_save(s.hair, bytes, size, &size));
     for (int k = 0; k < 3; ++k) {
-        struct skinned  other = make(test, HAIR_SOLVER_DIRECT);
-        struct skinned* in    = k == 2 ? &other : &s;
-        struct seen*    to    = k ? again : straight;
+        struct skinned other = make(test, HAIR_SOLVER_DIRECT);
+        struct skinned* in = k == 2 ? &other : &s;
+        struct seen* to = k ? again : straight;
         if (k) hair_test_ok(test, hair_load(in->hair, bytes, size));
         hair_test_ok(test, hair_step(in->hair, STEP));
         look(test, in, HAIR_READ_FOLLOWERS, &to[0]);
@@ -551,11 +551,11 @@ static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
 
 static void no_state_of_the_host_is_changed(void** state)
 {
-    struct hair_test*               test = *state;
-    struct skinned                  s    = make(test, HAIR_SOLVER_DIRECT);
-    struct given                    in   = put_in_buffer(&s, 0, 12);
+    struct hair_test* test = *state;
+    struct skinned s = make(test, HAIR_SOLVER_DIRECT);
+    struct given in = put_in_buffer(&s, 0, 12);
     static struct hair_test_glstate before, after;
-    static struct seen              seen;
+    static struct seen seen;
     hair_test_glstate_disturb();
     hair_test_glstate_read(&before);
     hair_test_ok(test, hair_set_scalp_buffer(s.hair, in.buffer, 0, 12, NULL));

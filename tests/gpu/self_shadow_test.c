@@ -20,42 +20,42 @@
 #define EACH (LIGHTS + 1)
 
 struct fixture {
-    struct hair_test*      test;
-    hair_groom*            groom;
-    hair_instance*         hair;
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
     struct hair_test_frame frame;
-    hair_view              view;
-    hair_light             light[LIGHTS];
-    GLuint                 map;
+    hair_view view;
+    hair_light light[LIGHTS];
+    GLuint map;
     // As the GPU has them, in the head's frame:
     struct hair_reference_grid grid;
-    double *                   density, *met; // per node, the last of the sky and of each light
-    hair_vec4*                 position;      // per vertex
-    uint32_t                   numbers[VERTICES * EACH];
+    double *density, *met; // per node, the last of the sky and of each light
+    hair_vec4* position; // per vertex
+    uint32_t numbers[VERTICES * EACH];
 };
 
 static const float turned[16] = {0.6f, 0, -0.8f, 0, 0, 1, 0, 0, 0.8f, 0, 0.6f, 0, 0.1f, 0.2f, -0.3f, 1};
 
 static struct fixture start(void** state, uint32_t followers)
 {
-    struct fixture            f      = {.test = *state, .view = hair_view_default()};
+    struct fixture f = {.test = *state, .view = hair_view_default()};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
-    wanted.followers                 = followers;
-    wanted.density                   = 1;
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    wanted.followers = followers;
+    wanted.density = 1;
     look.segments = SEGMENTS, look.radius = 0.001f, look.voxel = 0.012f;
     look.shadow = HAIR_SHADOW_STRANDS;
-    desc.look   = &look;
-    f.groom     = hair_test_groom(&f.test->host.host, wanted);
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_ok(f.test, hair_teleport(f.hair, turned));
     hair_test_ok(f.test, hair_step(f.hair, 0));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     f.view.projection[0] = f.view.projection[5] = 1 / 0.6f;
-    f.view.projection[10]                       = -0.5f;
+    f.view.projection[10] = -0.5f;
     for (int i = 0; i < LIGHTS; ++i) f.light[i] = hair_light_default();
-    f.light[1].kind        = HAIR_LIGHT_POINT;
+    f.light[1].kind = HAIR_LIGHT_POINT;
     f.light[1].position[0] = 0.3f, f.light[1].position[2] = -0.3f;
     f.view.light_count = LIGHTS;
     return f;
@@ -82,7 +82,7 @@ static void draw(struct fixture* f)
 static float from_ordered(uint32_t u)
 {
     uint32_t bits = u & 0x80000000u ? u & 0x7fffffffu : ~u;
-    float    x;
+    float x;
     memcpy(&x, &bits, sizeof x);
     return x;
 }
@@ -106,8 +106,8 @@ static void into_head(const float* p, double out[3])
 static void look_inside(struct fixture* f)
 {
     const struct hair_draw* d = &f->hair->draw;
-    uint32_t                box[6];
-    size_t                  nodes = 1;
+    uint32_t box[6];
+    size_t nodes = 1;
     glGetNamedBufferSubData(d->self_shadow.box, 0, sizeof box, box);
     f->grid.cell = (double)d->look.voxel;
     for (int i = 0; i < 3; ++i) {
@@ -116,11 +116,11 @@ static void look_inside(struct fixture* f)
         f->grid.nodes[i] = (uint32_t)(floor(high / f->grid.cell) - floor(low / f->grid.cell) + 2);
         nodes *= f->grid.nodes[i];
     }
-    uint32_t* sums  = malloc(nodes * sizeof *sums);
-    float*    light = malloc(nodes * EACH * sizeof *light);
-    f->density      = calloc(nodes, sizeof *f->density);
-    f->met          = calloc(nodes * EACH, sizeof *f->met);
-    f->position     = malloc(VERTICES * sizeof *f->position);
+    uint32_t* sums = malloc(nodes * sizeof *sums);
+    float* light = malloc(nodes * EACH * sizeof *light);
+    f->density = calloc(nodes, sizeof *f->density);
+    f->met = calloc(nodes * EACH, sizeof *f->met);
+    f->position = malloc(VERTICES * sizeof *f->position);
     glGetNamedBufferSubData(d->self_shadow.density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
     glGetNamedBufferSubData(d->self_shadow.nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
     glGetNamedBufferSubData(d->self_shadow.light, 0, sizeof f->numbers, f->numbers);
@@ -146,7 +146,7 @@ static void the_grid_holds_the_area_of_all_strands(void** state)
     double *twin = calloc(node_count(&f), sizeof *twin), sum = 0, area = 0;
     for (int v = 0; v < VERTICES; ++v) {
         const hair_vec4 *p = &f.position[v], *q = p + 1;
-        double           a[3], b[3];
+        double a[3], b[3];
         if (v % (SEGMENTS + 1) == SEGMENTS) continue;
         into_head(&p->x, a);
         into_head(&q->x, b);
@@ -170,10 +170,10 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
     struct fixture f = start(state, FOLLOWERS);
     draw(&f);
     look_inside(&f);
-    size_t   nodes = node_count(&f);
-    uint32_t held  = 0;
-    double   most  = 0, to[3], lamp[3], from_origin[3];
-    double   l     = sqrt(0.4 * 0.4 + 0.8 * 0.8 + 0.45 * 0.45);
+    size_t nodes = node_count(&f);
+    uint32_t held = 0;
+    double most = 0, to[3], lamp[3], from_origin[3];
+    double l = sqrt(0.4 * 0.4 + 0.8 * 0.8 + 0.45 * 0.45);
     into_head((float[]){(float)(0.4 / l), (float)(0.8 / l), (float)(0.45 / l)}, to);
     for (int i = 0; i < 3; ++i) from_origin[i] = (double)f.light[1].position[i] - (double)turned[12 + i];
     into_head((float[]){(float)from_origin[0], (float)from_origin[1], (float)from_origin[2]}, lamp);
@@ -185,8 +185,8 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
             size_t k = i == 0   ? n % f.grid.nodes[0]
                        : i == 1 ? n / f.grid.nodes[0] % f.grid.nodes[1]
                                 : n / f.grid.nodes[0] / f.grid.nodes[1];
-            at[i]    = f.grid.lower[i] + f.grid.cell * (double)k;
-            way[i]   = lamp[i] - at[i];
+            at[i] = f.grid.lower[i] + f.grid.cell * (double)k;
+            way[i] = lamp[i] - at[i];
             reach += way[i] * way[i];
         }
         reach = sqrt(reach);
@@ -202,8 +202,8 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
     print_message("    %u nodes with hair, at most %g met\n", held, most);
     assert_true(held > 100 && most > 0.5);
     for (int v = 0; v < VERTICES; ++v) {
-        double       at[3], before[3], after[3], along = 0, length = 0;
-        int          k = v % (SEGMENTS + 1);
+        double at[3], before[3], after[3], along = 0, length = 0;
+        int k = v % (SEGMENTS + 1);
         const float* p = &f.position[v].x;
         into_head(p, at);
         into_head(k > 0 ? p - 4 : p, before);
@@ -228,7 +228,7 @@ static void light_with_map(struct fixture* f, float depth)
 {
     f->light[0].to[0] = f->light[0].to[1] = 0, f->light[0].to[2] = 1;
     f->light[0].shadow_matrix[0] = f->light[0].shadow_matrix[5] = 1 / 0.6f;
-    f->light[0].shadow_matrix[10]                               = -0.5f;
+    f->light[0].shadow_matrix[10] = -0.5f;
     if (!f->map) {
         glCreateTextures(GL_TEXTURE_2D, 1, &f->map);
         glTextureStorage2D(f->map, 1, GL_DEPTH_COMPONENT32F, 1024, 1024);
@@ -240,7 +240,7 @@ static void light_with_map(struct fixture* f, float depth)
 static double open_on_average(struct fixture* f, uint32_t vertices)
 {
     uint32_t* numbers = malloc(vertices * EACH * sizeof *numbers);
-    double    sum     = 0;
+    double sum = 0;
     glGetNamedBufferSubData(f->hair->draw.self_shadow.light, 0,
                             (GLsizeiptr)(vertices * EACH * sizeof *numbers), numbers);
     for (uint32_t v = 0; v < vertices; ++v) sum += half_of(numbers[v * EACH + 1] & 0xffff);
@@ -263,7 +263,7 @@ static void a_map_hides_what_lies_behind_it(void** state)
 static void a_strand_does_not_shade_itself(void** state)
 {
     struct fixture f = start(state, 1);
-    GLuint         frame;
+    GLuint frame;
     light_with_map(&f, 1);
     glCreateFramebuffers(1, &frame);
     glNamedFramebufferTexture(frame, GL_DEPTH_ATTACHMENT, f.map, 0);
@@ -286,9 +286,9 @@ static void a_strand_does_not_shade_itself(void** state)
 
 static hair_report_row row_of(struct fixture* f, const char* work)
 {
-    hair_report_row  rows[64] = {{0}};
-    hair_report_info info     = hair_report_info_default();
-    uint32_t         count    = 0;
+    hair_report_row rows[64] = {{0}};
+    hair_report_info info = hair_report_info_default();
+    uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].work, work) == 0) return rows[i];
@@ -298,9 +298,9 @@ static hair_report_row row_of(struct fixture* f, const char* work)
 
 static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
 {
-    struct fixture f    = start(state, FOLLOWERS);
-    hair_look      look = f.hair->draw.look;
-    f.view.frame        = 7;
+    struct fixture f = start(state, FOLLOWERS);
+    hair_look look = f.hair->draw.look;
+    f.view.frame = 7;
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
     draw(&f);
@@ -322,13 +322,13 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
 // Of a quarter of the strands: only they are lit, and the grid holds as much hair, for they are as much wider.
 static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(void** state)
 {
-    static const uint32_t none    = 0xffffffffu;
-    struct fixture        f       = start(state, FOLLOWERS);
-    hair_lod              lod     = hair_lod_default();
-    double                area[2] = {0};
-    uint32_t              lit     = 0;
-    lod.dynamic                   = 0;
-    lod.strands                   = 0.25f;
+    static const uint32_t none = 0xffffffffu;
+    struct fixture f = start(state, FOLLOWERS);
+    hair_lod lod = hair_lod_default();
+    double area[2] = {0};
+    uint32_t lit = 0;
+    lod.dynamic = 0;
+    lod.strands = 0.25f;
     for (int i = 0; i < 2; ++i) {
         f.view.lod = i ? &lod : NULL;
         hair_test_ok(f.test, hair_step(f.hair, 0.01f));

@@ -14,19 +14,19 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 static struct fixture start(void** state)
 {
-    struct fixture f    = {.test = *state};
-    hair_desc      desc = hair_desc_default();
-    hair_look      look = hair_look_default();
-    look.radius         = 0.004f;
-    look.shading        = HAIR_SHADING_LINES;
-    desc.look           = &look;
-    f.groom             = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    struct fixture f = {.test = *state};
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    look.radius = 0.004f;
+    look.shading = HAIR_SHADING_LINES;
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     return f;
 }
@@ -40,20 +40,20 @@ static void finish(struct fixture* f)
 static hair_result make(struct fixture* f, const char* glsl, hair_shade_at at, hair_shader** out)
 {
     hair_shader_desc desc = hair_shader_desc_default();
-    desc.label            = "mine";
-    desc.glsl             = glsl;
-    desc.at               = at;
+    desc.label = "mine";
+    desc.glsl = glsl;
+    desc.at = at;
     return hair_shader_create(f->test->context, &desc, out);
 }
 
 static hair_view view_of(hair_pass pass, hair_shader* shader)
 {
-    hair_view view     = hair_view_default();
-    view.pass          = pass;
-    view.shader        = shader;
+    hair_view view = hair_view_default();
+    view.pass = pass;
+    view.shader = shader;
     view.projection[0] = view.projection[5] = 2;
-    view.projection[10]                     = -0.5f;
-    view.projection[13]                     = -0.2f;
+    view.projection[10] = -0.5f;
+    view.projection[13] = -0.2f;
     return view;
 }
 
@@ -69,8 +69,8 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
 // Strand, guide and place along it, each from 1; 0 where there is no hair.
 static void draw_ids(struct fixture* f, uint32_t* ids)
 {
-    GLuint              framebuffer, target[2];
-    static const float  far_away   = 1;
+    GLuint framebuffer, target[2];
+    static const float far_away = 1;
     static const GLuint nothing[4] = {0};
     glCreateFramebuffers(1, &framebuffer);
     glCreateRenderbuffers(2, target);
@@ -92,9 +92,9 @@ static void draw_ids(struct fixture* f, uint32_t* ids)
 
 static void a_shader_that_calls_ours_changes_nothing(void** state)
 {
-    static float   plain[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
+    static float plain[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
     struct fixture f = start(state);
-    hair_shader*   shader;
+    hair_shader* shader;
     hair_test_ok(f.test,
                  make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f), 1.0); }\n",
                       HAIR_SHADE_VERTICES, &shader));
@@ -113,10 +113,10 @@ static void a_shader_that_calls_ours_changes_nothing(void** state)
 // The pass of numbers says which strand is where.
 static void shaders_of_pixels_know_strand_place_and_side(void** state)
 {
-    static float    pixels[4 * SIDE * SIDE];
+    static float pixels[4 * SIDE * SIDE];
     static uint32_t ids[4 * SIDE * SIDE];
-    struct fixture  f = start(state);
-    hair_shader*    shader;
+    struct fixture f = start(state);
+    hair_shader* shader;
     hair_test_ok(
         f.test,
         make(&f,
@@ -128,7 +128,7 @@ static void shaders_of_pixels_know_strand_place_and_side(void** state)
     draw_ids(&f, ids);
     uint32_t covered = 0, strands = 0, left = 0, right = 0, last = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
-        const float*    p  = pixels + 4 * i;
+        const float* p = pixels + 4 * i;
         const uint32_t* id = ids + 4 * i;
         assert_true((p[1] > 0) == (id[0] > 0));
         if (!id[0]) continue;
@@ -151,9 +151,9 @@ static void shaders_of_pixels_know_strand_place_and_side(void** state)
 
 static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
 {
-    static float   pixels[4 * SIDE * SIDE];
+    static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state);
-    hair_shader*   shader;
+    hair_shader* shader;
     hair_test_ok(
         f.test,
         make(&f,
@@ -167,9 +167,9 @@ static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
              HAIR_SHADE_PIXELS, &shader));
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
-    GLuint              second;
-    static const GLenum both[]  = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    static const float  none[4] = {0};
+    GLuint second;
+    static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    static const float none[4] = {0};
     glCreateRenderbuffers(1, &second);
     glNamedRenderbufferStorage(second, GL_RGBA32F, SIDE, SIDE);
     glNamedFramebufferRenderbuffer(frame.framebuffer, GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER, second);
@@ -208,7 +208,7 @@ static void what_is_no_colour_is_drawn_as_black(void** state)
         "vec4 hair_shade(hair_fragment f) { return vec4(-1.0, sqrt(f.t - 2.0), log(-1.0 - f.t), 1.0); }",
         "vec4 hair_shade(hair_fragment f) { return vec4(0.0 / (f.t - f.t), -1e30, -1.0 / (f.t - f.t), 1.0); "
         "}"};
-    static float   pixels[4 * SIDE * SIDE];
+    static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state);
     for (int i = 0; i < 4; ++i) {
         hair_shader* shader;
@@ -225,9 +225,9 @@ static void what_is_no_colour_is_drawn_as_black(void** state)
 
 static void errors_have_the_hosts_own_lines(void** state)
 {
-    struct fixture   f      = start(state);
-    hair_shader*     shader = NULL;
-    hair_shader_desc desc   = hair_shader_desc_default();
+    struct fixture f = start(state);
+    hair_shader* shader = NULL;
+    hair_shader_desc desc = hair_shader_desc_default();
     hair_test_refused(f.test, hair_shader_create(f.test->context, &desc, &shader), HAIR_ERROR_ARGUMENT,
                       "hair_shader_desc.glsl is NULL");
     for (int at = 0; at < 2; ++at) {
@@ -261,13 +261,13 @@ static void no_text_breaks_anything(void** state)
         "void main() {}\nvec4 hair_shade(hair_fragment f) { return vec4(1.0); }",
         "\xff\xfe\x01%s%n%d \\\n\\",
         "struct hair_fragment { int x; };"};
-    static float   before[4 * SIDE * SIDE], after[4 * SIDE * SIDE];
-    struct fixture f    = start(state);
-    hair_view      view = view_of(HAIR_PASS_COLOR, NULL);
+    static float before[4 * SIDE * SIDE], after[4 * SIDE * SIDE];
+    struct fixture f = start(state);
+    hair_view view = view_of(HAIR_PASS_COLOR, NULL);
     draw(&f, &view, before);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
         hair_shader* shader = NULL;
-        hair_result  result = make(&f, texts[i], i % 2 ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES, &shader);
+        hair_result result = make(&f, texts[i], i % 2 ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES, &shader);
         assert_true(result == HAIR_ERROR_OPENGL || (!result && shader));
         assert_true(result == HAIR_OK || !shader);
         hair_shader_destroy(shader);
@@ -281,26 +281,26 @@ static void no_text_breaks_anything(void** state)
 // On a square scalp of 0.4 m whose uvs are its x and z. Roots are where they say.
 static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
 {
-    static float             pixels[4 * SIDE * SIDE];
-    struct fixture           f      = {.test = *state};
-    struct hair_test_scalp   scalp  = hair_test_scalp_make(4, 0.4f);
+    static float pixels[4 * SIDE * SIDE];
+    struct fixture f = {.test = *state};
+    struct hair_test_scalp scalp = hair_test_scalp_make(4, 0.4f);
     struct hair_test_strands guides = hair_test_strands_make(9, 4);
     for (int i = 0; i < 9; ++i) // Slanted, lest strands are seen end on.
         hair_test_add_straight(&guides, 4, hair_v3(0.1f * (float)(i % 3 + 1), 0, 0.1f * (float)(i / 3 + 1)),
                                hair_v3(0.3f, 1, 0), 0.1f);
     hair_groom_desc groom = hair_test_groom_desc(&f.test->host, &guides);
-    float*          uvs   = malloc(2 * sizeof *uvs * scalp.vertex_count);
+    float* uvs = malloc(2 * sizeof *uvs * scalp.vertex_count);
     for (uint32_t i = 0; i < scalp.vertex_count; ++i)
         for (size_t k = 0; k < 2; ++k) uvs[2 * i + k] = scalp.positions[3 * i + 2 * k] / 0.4f;
     hair_test_set_scalp(&groom, &scalp);
-    groom.strands_are    = HAIR_STRANDS_GUIDES;
+    groom.strands_are = HAIR_STRANDS_GUIDES;
     groom.follower_count = 200;
-    groom.scalp_uvs      = uvs;
-    hair_look look       = hair_look_default();
-    hair_desc desc       = hair_desc_default();
+    groom.scalp_uvs = uvs;
+    hair_look look = hair_look_default();
+    hair_desc desc = hair_desc_default();
     look.radius = 0.004f, look.tip_strays = look.strays = 0, look.color_spread = 0;
     look.interpolation = HAIR_INTERPOLATION_MULTI;
-    desc.look          = &look;
+    desc.look = &look;
     hair_test_ok(f.test, hair_groom_create(&groom, &f.groom));
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_shader* shader;
@@ -326,7 +326,7 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
 
     // Half of the scalp has blue hair, the other none that light comes from.
     static const unsigned char halves[] = {0, 0, 255, 255, 0, 0, 0, 255};
-    GLuint                     texture;
+    GLuint texture;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, GL_RGBA8, 2, 1);
     glTextureSubImage2D(texture, 0, 0, 0, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, halves);
@@ -349,7 +349,7 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
     print_message("    %u blue pixels, %u black\n", blue, black);
     assert_true(blue > 30 && black > 30);
     view.shader = NULL;
-    blue        = 0;
+    blue = 0;
     draw(&f, &view, pixels);
     for (int i = 0; i < SIDE * SIDE; ++i) blue += pixels[4 * i + 2] > 2 * pixels[4 * i];
     assert_true(blue > 30);

@@ -16,22 +16,22 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
+    hair_groom* groom;
+    hair_instance* hair;
 };
 
 static struct fixture start(void** state, uint32_t followers, float radius)
 {
-    struct fixture            f      = {.test = *state};
+    struct fixture f = {.test = *state};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc                 desc   = hair_desc_default();
-    hair_look                 look   = hair_look_default();
-    wanted.followers                 = followers;
-    look.radius                      = radius;
-    look.taper                       = hair_curve_line(1, 1);
-    look.shading                     = HAIR_SHADING_LINES;
-    desc.look                        = &look;
-    f.groom                          = hair_test_groom(&f.test->host.host, wanted);
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    wanted.followers = followers;
+    look.radius = radius;
+    look.taper = hair_curve_line(1, 1);
+    look.shading = HAIR_SHADING_LINES;
+    desc.look = &look;
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     return f;
 }
@@ -45,11 +45,11 @@ static void finish(struct fixture* f)
 // A metre around the head, seen along -z.
 static hair_view view_of(hair_coverage coverage)
 {
-    hair_view view     = hair_view_default();
-    view.coverage      = coverage;
+    hair_view view = hair_view_default();
+    view.coverage = coverage;
     view.projection[0] = view.projection[5] = 2;
-    view.projection[10]                     = -0.5f;
-    view.projection[13]                     = -0.2f;
+    view.projection[10] = -0.5f;
+    view.projection[13] = -0.2f;
     return view;
 }
 
@@ -74,17 +74,17 @@ static double mean_alpha(const float* pixels, GLsizei side)
 // Few strands, so that hardly two share a pixel. A pixel is a 48th of a metre.
 static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
 {
-    static float       pixels[4 * SIDE * SIDE], fine[4 * SIDE * FINE * SIDE * FINE];
+    static float pixels[4 * SIDE * SIDE], fine[4 * SIDE * FINE * SIDE * FINE];
     static const float widths[] = {0.08f, 0.25f, 0.5f, 1, 1.5f};
     for (size_t i = 0; i < sizeof widths / sizeof *widths; ++i) {
         // Of thinner strands finer pixels than these see too little: they are taken to cover in proportion.
-        float          seen = fmaxf(widths[i], 0.5f), pixel = 1.0f / SIDE;
-        struct fixture f    = start(state, 5, 0.5f * seen * pixel);
-        hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
+        float seen = fmaxf(widths[i], 0.5f), pixel = 1.0f / SIDE;
+        struct fixture f = start(state, 5, 0.5f * seen * pixel);
+        hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
         draw(&f, &view, FINE * SIDE, 4, fine, NULL);
         double expected = mean_alpha(fine, FINE * SIDE) * (double)(widths[i] / seen);
         finish(&f);
-        f             = start(state, 5, 0.5f * widths[i] * pixel);
+        f = start(state, 5, 0.5f * widths[i] * pixel);
         view.coverage = HAIR_COVERAGE_SHARES;
         for (GLsizei samples = 0; samples <= 4; samples += 4) {
             draw(&f, &view, SIDE, samples, pixels, NULL);
@@ -104,19 +104,19 @@ static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
 // Where strands are wide, whole pixels are covered by the nearest alone: that is what opaque ones leave.
 static void the_nearest_strand_is_in_front(void** state)
 {
-    static float   opaque[4 * WIDE * WIDE], shares[4 * WIDE * WIDE];
-    struct fixture f    = start(state, 64, 0.009f);
-    hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
+    static float opaque[4 * WIDE * WIDE], shares[4 * WIDE * WIDE];
+    struct fixture f = start(state, 64, 0.009f);
+    hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
     for (int lod = 0; lod < 2; ++lod) {
         hair_lod part = hair_lod_default();
         part.dynamic = 0, part.strands = 0.7f, part.segments = 0.5f;
-        view.path     = HAIR_PATH_INSTANCED;
-        view.lod      = lod ? &part : NULL;
+        view.path = HAIR_PATH_INSTANCED;
+        view.lod = lod ? &part : NULL;
         view.coverage = HAIR_COVERAGE_SAMPLES;
         draw(&f, &view, WIDE, 4, opaque, NULL);
         view.coverage = HAIR_COVERAGE_SHARES;
         draw(&f, &view, WIDE, 0, shares, NULL);
-        double   off     = 0;
+        double off = 0;
         uint32_t covered = 0;
         for (int i = 0; i < WIDE * WIDE; ++i) {
             if (opaque[4 * i + 3] < 1) continue;
@@ -135,10 +135,10 @@ static void the_nearest_strand_is_in_front(void** state)
 
 static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** state)
 {
-    static float           pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
-    static const float     near = 0.2f, blue[4] = {0, 0, 0.5f, 1};
-    struct fixture         f    = start(state, 64, 0.002f);
-    hair_view              view = view_of(HAIR_COVERAGE_SHARES);
+    static float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
+    static const float near = 0.2f, blue[4] = {0, 0, 0.5f, 1};
+    struct fixture f = start(state, 64, 0.002f);
+    hair_view view = view_of(HAIR_COVERAGE_SHARES);
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     glClearNamedFramebufferfv(frame.framebuffer, GL_DEPTH, 0, &near);
@@ -161,15 +161,15 @@ static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** sta
 
 static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
 {
-    static float   pixels[4 * SIDE * SIDE];
-    struct fixture f    = start(state, 64, 0.002f);
-    hair_view      view = view_of(HAIR_COVERAGE_SAMPLES);
-    view.path           = HAIR_PATH_EXPANDED;
+    static float pixels[4 * SIDE * SIDE];
+    struct fixture f = start(state, 64, 0.002f);
+    hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
+    view.path = HAIR_PATH_EXPANDED;
     draw(&f, &view, SIDE, 0, pixels, NULL);
     assert_int_equal(f.hair->draw.sorted.bucket, 0);
     assert_int_equal(f.hair->draw.sorted.index, 0);
     view.coverage = HAIR_COVERAGE_SHARES;
-    view.pass     = HAIR_PASS_DEPTH; // Of depth there are no shares.
+    view.pass = HAIR_PASS_DEPTH; // Of depth there are no shares.
     draw(&f, &view, SIDE, 0, pixels, NULL);
     assert_int_equal(f.hair->draw.sorted.bucket, 0);
     finish(&f);

@@ -17,26 +17,26 @@ enum { FPS = 60, GUIDES = 7, MOST = 512, PATIENCE = 15 * FPS };
 
 static hair_context* make_context(struct hair_test* test)
 {
-    hair_context*     context = NULL;
-    hair_context_desc desc    = hair_context_desc_default();
-    desc.host                 = &test->host.host;
-    desc.get_proc             = hair_test_trace_proc;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_test_trace_proc;
     hair_test_ok(test, hair_context_create(&desc, &context));
     return context;
 }
 
 static hair_instance* make(struct hair_test* test, hair_context* context, hair_solver solver, float sleep)
 {
-    struct hair_test_handmade wanted  = hair_test_handmade_default();
-    hair_physics              physics = hair_physics_default();
-    hair_desc                 desc    = hair_desc_default();
-    hair_instance*            hair    = NULL;
-    wanted.guides                     = GUIDES;
-    wanted.turn                       = 0.1f;
-    physics.sleep                     = sleep;
-    desc.physics                      = &physics;
-    desc.solver                       = solver;
-    hair_groom* groom                 = hair_test_groom(&test->host.host, wanted);
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_physics physics = hair_physics_default();
+    hair_desc desc = hair_desc_default();
+    hair_instance* hair = NULL;
+    wanted.guides = GUIDES;
+    wanted.turn = 0.1f;
+    physics.sleep = sleep;
+    desc.physics = &physics;
+    desc.solver = solver;
+    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
     hair_test_ok(test, hair_create(context, groom, &desc, &hair));
     hair_groom_destroy(groom);
     return hair;
@@ -76,7 +76,7 @@ static uint32_t let_sleep(struct hair_test* test, hair_instance* hair, uint32_t 
 
 static float farthest(struct hair_test* test, hair_instance* a, hair_instance* b)
 {
-    float    at[2][3 * MOST], far = 0;
+    float at[2][3 * MOST], far = 0;
     uint32_t count[2];
     hair_test_ok(test, hair_read(a, HAIR_READ_SMOOTH, at[0], MOST, &count[0]));
     hair_test_ok(test, hair_read(b, HAIR_READ_SMOOTH, at[1], MOST, &count[1]));
@@ -97,7 +97,7 @@ static hair_solid ball_at(float x)
 // How far the nearest vertex is from the ball.
 static float nearest(struct hair_test* test, hair_instance* hair, const hair_solid* ball)
 {
-    float    at[3 * MOST], near = 1;
+    float at[3 * MOST], near = 1;
     uint32_t count;
     hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, at, MOST, &count));
     for (uint32_t i = 0; i < count; ++i)
@@ -121,11 +121,11 @@ static int compare(const void* a, const void* b)
 // The head is set anew in every frame, and so are solids, as hosts do it.
 static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = make_context(test);
-    hair_instance*    hair    = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
-    hair_solid        solid   = hair_solid_default();
-    double            us[999];
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
+    hair_solid solid = hair_solid_default();
+    double us[999];
     solid.size[0] = 0.08f;
     hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
     uint32_t frames = let_sleep(test, hair, 1);
@@ -155,12 +155,12 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
 {
     enum { CALM = 7 * FPS, END = CALM + FPS / 4 };
     hair_instance* hair[2] = {make(test, context, solver, bound), make(test, context, solver, 0)};
-    float          asleep = 0, awake = 0;
-    uint32_t       slept = 0;
+    float asleep = 0, awake = 0;
+    uint32_t slept = 0;
     for (uint32_t frame = 0; frame < END; ++frame) {
-        float      time = (float)frame / FPS, later = fmaxf(time - (float)CALM / FPS, 0);
-        float      angle = frame < FPS / 2 ? 0.4f * sinf(12.566371f * time) : 0.5f * sinf(24 * later);
-        hair_solid ball  = ball_at(0.2f + 0.2f * later);
+        float time = (float)frame / FPS, later = fmaxf(time - (float)CALM / FPS, 0);
+        float angle = frame < FPS / 2 ? 0.4f * sinf(12.566371f * time) : 0.5f * sinf(24 * later);
+        hair_solid ball = ball_at(0.2f + 0.2f * later);
         for (int i = 0; i < 2; ++i) {
             if (solids) hair_test_ok(test, hair_set_solids(hair[i], &ball, 1, sizeof ball));
             turn_head(test, hair[i], angle, 0.2f * later);
@@ -193,8 +193,8 @@ static void hair_that_wakes_is_within_the_bound_of_hair_that_never_slept(void** 
 
 // Hair asleep, one that is used up by every question asked of it.
 struct dozing {
-    struct hair_test*     test;
-    hair_instance*        hair;
+    struct hair_test* test;
+    hair_instance* hair;
     struct hair_test_blob blob;
 };
 
@@ -237,8 +237,8 @@ static void check_solids(struct dozing* d)
 static void check_settings(struct dozing* d)
 {
     hair_physics physics = d->hair->sim.physics;
-    hair_tie     tie     = hair_tie_default();
-    hair_wind    wind    = hair_wind_default();
+    hair_tie tie = hair_tie_default();
+    hair_wind wind = hair_wind_default();
     hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
     check_stir(d, "the same physics", 0);
     physics.damping += 0.01f;
@@ -263,9 +263,9 @@ static void check_settings(struct dozing* d)
 
 static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
 {
-    struct dozing d       = {.test = *state};
+    struct dozing d = {.test = *state};
     hair_context* context = make_context(d.test);
-    d.hair                = make(d.test, context, HAIR_SOLVER_DIRECT, 1e-4f);
+    d.hair = make(d.test, context, HAIR_SOLVER_DIRECT, 1e-4f);
     assert_true(let_sleep(d.test, d.hair, 1) < PATIENCE);
     d.blob = hair_test_save(d.test, d.hair);
     turn_head(d.test, d.hair, 0, 0);
@@ -286,12 +286,12 @@ static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
 static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** state)
 {
     static struct hair_test_seen seen[2];
-    struct hair_test*            test    = *state;
-    hair_context*                context = make_context(test);
-    uint32_t                     frames[2];
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    uint32_t frames[2];
     for (uint32_t i = 0; i < 2; ++i) { // A frame behind at most, or three.
         hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
-        frames[i]           = let_sleep(test, hair, 1 + 2 * i);
+        frames[i] = let_sleep(test, hair, 1 + 2 * i);
         hair_test_look(test, hair, &seen[i]);
         hair_destroy(hair);
     }
@@ -305,10 +305,10 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
 // of its way at its beginning.
 static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = make_context(test);
-    hair_instance*    hair[2];
-    uint32_t          asleep[2] = {0, 0}, frame = 0;
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_instance* hair[2];
+    uint32_t asleep[2] = {0, 0}, frame = 0;
     for (int i = 0; i < 2; ++i) {
         hair[i] = make(test, context, HAIR_SOLVER_DIRECT, 2e-3f);
         turn_head(test, hair[i], 0.3f, 0);
@@ -335,11 +335,11 @@ static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** 
 static void what_is_saved_falls_asleep_as_it_would_have(void** state)
 {
     static struct hair_test_seen straight, loaded;
-    struct hair_test*            test    = *state;
-    hair_context*                context = make_context(test);
-    hair_instance*               hair    = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
-    hair_instance*               other   = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
-    uint32_t                     slept   = 0;
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
+    hair_instance* other = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
+    uint32_t slept = 0;
     for (uint32_t frame = 0; frame < 6 * FPS && slept < 3; ++frame) {
         turn_head(test, hair, frame < FPS / 2 ? 0.4f * sinf(0.2f * (float)frame) : 0, 0);
         show(test, hair, frame, 1);
@@ -371,12 +371,12 @@ static void what_is_saved_falls_asleep_as_it_would_have(void** state)
 // Which nothing dampens: it swings by more than the bound for ever.
 static void hair_that_swings_and_hair_that_may_not_never_sleep(void** state)
 {
-    struct hair_test* test    = *state;
-    hair_context*     context = make_context(test);
-    hair_instance*    swings  = make(test, context, HAIR_SOLVER_ACCURATE, 1e-4f);
-    hair_instance*    may_not = make(test, context, HAIR_SOLVER_DIRECT, 0);
-    hair_physics      physics = hair_physics_default();
-    physics.damping           = 0;
+    struct hair_test* test = *state;
+    hair_context* context = make_context(test);
+    hair_instance* swings = make(test, context, HAIR_SOLVER_ACCURATE, 1e-4f);
+    hair_instance* may_not = make(test, context, HAIR_SOLVER_DIRECT, 0);
+    hair_physics physics = hair_physics_default();
+    physics.damping = 0;
     hair_test_ok(test, hair_set_physics(swings, &physics));
     assert_int_equal(let_sleep(test, swings, 1), PATIENCE);
     assert_int_equal(let_sleep(test, may_not, 1), PATIENCE);

@@ -13,15 +13,15 @@
 #define SAMPLES 8192
 
 struct fixture {
-    struct hair_test*            test;
-    hair_groom*                  groom;
-    hair_instance*               hair;
-    struct hair_step_params      params;
-    struct hair_state            state[STATES];
-    hair_vec4                    position[SAMPLES], tangent[SAMPLES], frame[SAMPLES]; // from the GPU
+    struct hair_test* test;
+    hair_groom* groom;
+    hair_instance* hair;
+    struct hair_step_params params;
+    struct hair_state state[STATES];
+    hair_vec4 position[SAMPLES], tangent[SAMPLES], frame[SAMPLES]; // from the GPU
     struct hair_reference_sample expected[SAMPLES];
-    uint32_t                     samples, random;
-    double                       direction, turn; // how far unit vectors and frames may be off
+    uint32_t samples, random;
+    double direction, turn; // how far unit vectors and frames may be off
 };
 
 static hair_vec4 turn_about(hair_vec3 axis, float angle)
@@ -38,23 +38,23 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
 {
     static struct fixture f;
     memset(&f, 0, sizeof f);
-    f.test         = *state;
-    f.random       = 54321;
+    f.test = *state;
+    f.random = 54321;
     hair_desc desc = hair_desc_default();
-    f.groom        = hair_test_groom(&f.test->host.host, wanted);
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    f.params.guides            = f.groom->info.guide_count;
-    f.params.smooth_vertices   = 2 * f.groom->most_vertices - 1;
-    f.params.rotation_before   = turn_about(hair_v3(1, 2, 3), 0.3f);
-    f.params.rotation_after    = turn_about(hair_v3(1, 2, 2.5f), 0.4f);
-    f.params.rotation_now      = turn_about(hair_v3(3, -1, 1), 0.5f);
+    f.params.guides = f.groom->info.guide_count;
+    f.params.smooth_vertices = 2 * f.groom->most_vertices - 1;
+    f.params.rotation_before = turn_about(hair_v3(1, 2, 3), 0.3f);
+    f.params.rotation_after = turn_about(hair_v3(1, 2, 2.5f), 0.4f);
+    f.params.rotation_now = turn_about(hair_v3(3, -1, 1), 0.5f);
     f.params.last_displacement = (hair_vec4){0.003f, -0.004f, 0.001f, 0};
-    f.params.alpha             = 0.375f;
-    f.samples                  = f.params.guides * f.params.smooth_vertices;
+    f.params.alpha = 0.375f;
+    f.samples = f.params.guides * f.params.smooth_vertices;
     // A direction is a difference of positions that are half a segment apart or more; a frame carries the errors of
     // all before it, which add up as their square root.
     f.direction = POSITION / (0.5 * (double)wanted.segment);
-    f.turn      = sqrt(f.groom->most_vertices) * f.direction;
+    f.turn = sqrt(f.groom->most_vertices) * f.direction;
     hair_test_scatter(f.groom, 0.1f * wanted.segment, 0.2f * wanted.segment, &f.random, f.state);
     return &f;
 }
@@ -89,7 +89,7 @@ static void run(struct fixture* f)
 
     for (uint32_t g = 0; g < f->params.guides; ++g) {
         static struct hair_reference_vertex state[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide*            guide = &f->groom->guides[g];
+        const struct hair_guide* guide = &f->groom->guides[g];
         for (uint32_t i = 0; i < guide->count; ++i) {
             hair_vec4 p = f->state[guide->first + i].position, d = f->state[guide->first + i].displacement;
             state[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {d.x, d.y, d.z}};
@@ -114,8 +114,8 @@ static void compare(struct fixture* f)
         hair_test_near("length from the root", i, f->position[i].w, expected->to_root, POSITION);
         near3("tangent", i, &f->tangent[i], expected->tangent, f->direction);
         // q and -q are one rotation.
-        hair_vec4     frame = f->frame[i];
-        const double* q     = expected->frame;
+        hair_vec4 frame = f->frame[i];
+        const double* q = expected->frame;
         if (frame.x * q[0] + frame.y * q[1] + frame.z * q[2] + frame.w * q[3] < 0)
             frame = (hair_vec4){-frame.x, -frame.y, -frame.z, -frame.w};
         near3("frame", i, &frame, q, f->turn);
@@ -135,10 +135,10 @@ static void guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference(void** 
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
-        uint32_t                  most   = vertices[guides - 1];
+        uint32_t most = vertices[guides - 1];
         struct hair_test_handmade wanted = hair_test_handmade_default();
         wanted.guides = guides, wanted.vertices = vertices;
-        wanted.segment    = most > 64 ? 0.64f / (float)most : 0.01f; // None is longer than 1 m.
+        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f; // None is longer than 1 m.
         struct fixture* f = start_with(state, wanted);
         run(f);
         compare(f);
@@ -177,8 +177,8 @@ static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
 {
     struct fixture* f = start(state, 2, 64);
     hair_test_scatter(f->groom, 0, 0, &f->random, f->state);
-    f->params.alpha             = 1;
-    f->params.rotation_after    = (hair_vec4){0, 0, 0, 1};
+    f->params.alpha = 1;
+    f->params.rotation_after = (hair_vec4){0, 0, 0, 1};
     f->params.last_displacement = (hair_vec4){0};
     run(f);
     hair_quat now = {f->params.rotation_now.x, f->params.rotation_now.y, f->params.rotation_now.z,
@@ -189,7 +189,7 @@ static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
         near3("y", i, &t, (double[]){y.x, y.y, y.z}, 1e-5);
         hair_test_near("tangent", i, hair_length(hair_v3(t.x, t.y, t.z)), 1, 1e-6);
         if (i % f->params.smooth_vertices) continue;
-        hair_vec4 at   = f->groom->rest[f->groom->guides[i / f->params.smooth_vertices].first].position;
+        hair_vec4 at = f->groom->rest[f->groom->guides[i / f->params.smooth_vertices].first].position;
         hair_vec3 root = hair_rotate(now, hair_v3(at.x, at.y, at.z));
         near3("root", i, &f->position[i], (double[]){root.x, root.y, root.z}, 1e-6);
         assert_true(f->position[i].w == 0);

@@ -16,17 +16,17 @@
 // A host with a debug context of its own, everything in it set to odd values.
 struct fixture {
     struct hair_test_host host;
-    hair_egl*             egl;
-    EGLDisplay            display;
-    EGLContext            debug;
-    int                   planting;     // an error of the host's own
-    char                  message[512]; // the last error that was not planted
-    hair_groom*           groom;
-    hair_context*         context;
-    hair_instance*        hair;
-    GLuint                shadow;
-    hair_gl_state         promise;
-    int                   way; // in which hair is simulated
+    hair_egl* egl;
+    EGLDisplay display;
+    EGLContext debug;
+    int planting; // an error of the host's own
+    char message[512]; // the last error that was not planted
+    hair_groom* groom;
+    hair_context* context;
+    hair_instance* hair;
+    GLuint shadow;
+    hair_gl_state promise;
+    int way; // in which hair is simulated
 };
 
 static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
@@ -49,12 +49,12 @@ static int start(void** state)
                                     EGL_CONTEXT_OPENGL_DEBUG,
                                     EGL_TRUE,
                                     EGL_NONE};
-    struct fixture*     f        = calloc(1, sizeof *f);
-    *state                       = f;
+    struct fixture* f = calloc(1, sizeof *f);
+    *state = f;
     hair_test_host_init(&f->host);
     if (hair_egl_create(&f->host.host, -1, &f->egl)) return -1;
     f->display = eglGetCurrentDisplay();
-    f->debug   = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    f->debug = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
     if (!eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug)) return -1;
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -88,10 +88,10 @@ static int finish(void** state)
 static hair_result create_context(struct fixture* f)
 {
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &f->host.host;
-    desc.get_proc          = hair_egl_get_proc;
-    desc.timings           = 1;
-    desc.gl_state          = f->promise;
+    desc.host = &f->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.timings = 1;
+    desc.gl_state = f->promise;
     return hair_context_create(&desc, &f->context);
 }
 static hair_result reload(struct fixture* f)
@@ -121,16 +121,16 @@ static hair_result reset(struct fixture* f)
 static hair_result set_all(struct fixture* f)
 {
     hair_physics physics = hair_physics_default();
-    hair_look    look    = hair_look_default();
-    hair_desc    desc    = hair_desc_default();
-    hair_wind    wind    = hair_wind_default();
-    hair_solid   solid   = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
-    wind.model           = HAIR_WIND_FLUID;
-    wind.resolution      = 16;
-    wind.velocity[0]     = 1;
-    look.segments        = 100; // of two parts
-    physics.damping      = 5;   // of which rods are made anew
-    hair_result result   = hair_set_physics(f->hair, &physics);
+    hair_look look = hair_look_default();
+    hair_desc desc = hair_desc_default();
+    hair_wind wind = hair_wind_default();
+    hair_solid solid = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
+    wind.model = HAIR_WIND_FLUID;
+    wind.resolution = 16;
+    wind.velocity[0] = 1;
+    look.segments = 100; // of two parts
+    physics.damping = 5; // of which rods are made anew
+    hair_result result = hair_set_physics(f->hair, &physics);
     if (!result) result = hair_set_look(f->hair, &look);
     if (!result) result = hair_set_wind(f->hair, &wind);
     if (!result) result = hair_set_transform(f->hair, desc.transform);
@@ -138,7 +138,7 @@ static hair_result set_all(struct fixture* f)
 }
 static hair_result teleport(struct fixture* f)
 {
-    hair_desc desc     = hair_desc_default();
+    hair_desc desc = hair_desc_default();
     desc.transform[12] = 3;
     return hair_teleport(f->hair, desc.transform);
 }
@@ -146,21 +146,21 @@ static hair_result teleport(struct fixture* f)
 #define DRAWS (5 * 4)
 static hair_result draw_as(struct fixture* f, int i)
 {
-    hair_view  view = hair_view_default();
+    hair_view view = hair_view_default();
     hair_light lights[4];
-    hair_lod   lod  = hair_lod_default();
-    int        path = i / 5, lit = i % 5 == 4;
-    view.path      = (hair_path)path;
-    view.pass      = (hair_pass)(i % 5 % 4);
+    hair_lod lod = hair_lod_default();
+    int path = i / 5, lit = i % 5 == 4;
+    view.path = (hair_path)path;
+    view.pass = (hair_pass)(i % 5 % 4);
     view.primitive = path == HAIR_PATH_COMPUTED ? HAIR_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
-    view.slice     = (hair_slice)(i % 2);
-    view.lod       = path >= HAIR_PATH_EXPANDED && i % 5 == 0 ? &lod : NULL;
+    view.slice = (hair_slice)(i % 2);
+    view.lod = path >= HAIR_PATH_EXPANDED && i % 5 == 0 ? &lod : NULL;
     for (int k = 0; k < 4; ++k) {
-        lights[k]                = hair_light_default();
+        lights[k] = hair_light_default();
         lights[k].shadow_texture = f->shadow;
-        lights[k].body_texture   = f->shadow;
+        lights[k].body_texture = f->shadow;
     }
-    view.lights      = lit ? lights : NULL;
+    view.lights = lit ? lights : NULL;
     view.light_count = lit ? 4 : 1;
     // Of each path once alone, once with lights.
     view.depth_texture = view.pass == HAIR_PASS_COLOR ? f->shadow : 0;
@@ -169,26 +169,26 @@ static hair_result draw_as(struct fixture* f, int i)
 static hair_result draw_again(struct fixture* f)
 {
     static const int some[] = {0, 1, 2, 3, 4, 5, 10};
-    hair_result      result = HAIR_OK;
+    hair_result result = HAIR_OK;
     for (size_t i = 0; i < sizeof some / sizeof *some && !result; ++i) result = draw_as(f, some[i]);
     return result;
 }
 // However hair is simulated it is drawn the same: all ways to draw are seen of one, for they compile for long.
 static hair_result draw(struct fixture* f)
 {
-    int         all    = !f->way && f->promise == HAIR_GL_RESTORE;
+    int all = !f->way && f->promise == HAIR_GL_RESTORE;
     hair_result result = all ? HAIR_OK : draw_again(f);
     for (int i = 0; i < DRAWS && !result && all; ++i) result = draw_as(f, i);
     hair_view other = hair_view_default();
-    other.pass      = HAIR_PASS_WIND;
+    other.pass = HAIR_PASS_WIND;
     if (!result) result = hair_draw(f->hair, &other);
     other.pass = HAIR_PASS_OPACITY;
     return result ? result : hair_draw(f->hair, &other);
 }
 static hair_result read_all(struct fixture* f)
 {
-    float       positions[300];
-    uint32_t    count;
+    float positions[300];
+    uint32_t count;
     hair_result result = HAIR_OK;
     for (int what = 0; what < 3 && !result; ++what)
         result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
@@ -196,22 +196,22 @@ static hair_result read_all(struct fixture* f)
 }
 static hair_result prepare(struct fixture* f)
 {
-    hair_view view  = hair_view_default();
-    uint32_t  ready = 0;
-    view.path       = HAIR_PATH_EXPANDED;
+    hair_view view = hair_view_default();
+    uint32_t ready = 0;
+    view.path = HAIR_PATH_EXPANDED;
     return hair_prepare(f->hair, &view, &ready);
 }
 static hair_result ask_field(struct fixture* f)
 {
-    hair_field_info info   = hair_field_info_default();
-    hair_result     result = hair_get_field(f->hair, &info);
+    hair_field_info info = hair_field_info_default();
+    hair_result result = hair_get_field(f->hair, &info);
     return result || info.distance_texture ? result : HAIR_ERROR_ARGUMENT;
 }
 static hair_result save_and_load(struct fixture* f)
 {
     static unsigned char bytes[65536];
-    size_t               size   = 0;
-    hair_result          result = hair_save(f->hair, bytes, sizeof bytes, &size);
+    size_t size = 0;
+    hair_result result = hair_save(f->hair, bytes, sizeof bytes, &size);
     return result ? result : hair_load(f->hair, bytes, size);
 }
 static hair_result time_all(struct fixture* f)
@@ -296,8 +296,8 @@ static void check_calls(struct fixture* f, const struct hair_test_glstate* befor
     static struct hair_test_glstate after;
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         plant_an_error(f);
-        hair_result result  = calls[i].call(f);
-        GLenum      planted = glGetError(), other = glGetError();
+        hair_result result = calls[i].call(f);
+        GLenum planted = glGetError(), other = glGetError();
         if (result) fail_msg("%s: %s", calls[i].name, f->host.sentence);
         if (*f->message) fail_msg("%s: %s", calls[i].name, f->message);
         if (planted != GL_INVALID_ENUM) fail_msg("%s ate the host's error", calls[i].name);
@@ -347,7 +347,7 @@ static void in_an_untouched_context_nothing_is_left_bound(void** state)
                                     EGL_CONTEXT_OPENGL_DEBUG,
                                     EGL_TRUE,
                                     EGL_NONE};
-    EGLContext          fresh    = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    EGLContext fresh = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
     assert_true(eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, fresh));
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);

@@ -31,25 +31,25 @@ struct strand {
 
 struct fixture {
     struct hair_test* test;
-    GLuint            program;
+    GLuint program;
 };
 
 static struct fixture start(void** state)
 {
-    struct fixture        f = {.test = *state};
+    struct fixture f = {.test = *state};
     struct hair_gl_source source;
     assert_int_equal(hair_gl_read_source(&f.test->host.host, NULL, "tint.glsl", "", &source), HAIR_OK);
     const char* text[] = {"#version 450 core\n", source.text, text_of_strands};
-    f.program          = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
+    f.program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     hair_free(&f.test->host.host, source.text);
     return f;
 }
 
 static const struct strand* look_at(const struct fixture* f, const hair_look* look, float t)
 {
-    static struct strand    found[STRANDS];
+    static struct strand found[STRANDS];
     struct hair_draw_params params;
-    GLuint                  buffer[2];
+    GLuint buffer[2];
     memset(&params, 0, sizeof params);
     params.radius = t;
     hair_draw_write_tint(look, &params.tint);
@@ -75,27 +75,27 @@ static void finish(struct fixture* f)
 
 static hair_look even_look(void)
 {
-    hair_look look    = hair_look_default();
+    hair_look look = hair_look_default();
     look.color_spread = 0;
     return look;
 }
 
 static void colours_go_from_root_to_tip_times_the_ramp(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = even_look();
-    look.red.at[4]      = 3;
-    look.blue           = hair_curve_line(0, 40.0f / 7);
+    struct fixture f = start(state);
+    hair_look look = even_look();
+    look.red.at[4] = 3;
+    look.blue = hair_curve_line(0, 40.0f / 7);
     for (int i = 0; i <= 14; ++i) {
-        float                t      = (float)i / 14;
+        float t = (float)i / 14;
         const struct strand* strand = look_at(&f, &look, t);
         for (int k = 0; k < 3; ++k) {
             double at[2];
             for (int end = 0; end < 2; ++end) { // Between two of eight places.
-                int    n   = i / 2 + (i % 2 ? end : 0);
+                int n = i / 2 + (i % 2 ? end : 0);
                 double way = n / 7.0, factor = k == 0 ? look.red.at[n] : k == 2 ? look.blue.at[n] : 1;
                 double mixed = look.root_color[k] + way * (look.tip_color[k] - look.root_color[k]);
-                at[end]      = fmin(factor * mixed, 1);
+                at[end] = fmin(factor * mixed, 1);
             }
             hair_test_near("colour", (size_t)(3 * i + k), (double)strand[i].color[k], 0.5 * (at[0] + at[1]),
                            1e-5);
@@ -104,8 +104,8 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
     look.root_shade = 0.75f, look.root_shade_length = 0.5f;
     double shaded = (double)look_at(&f, &look, 0)[0].color[1], whole = (double)look.root_color[1];
     hair_test_near("at the root", 0, shaded, 0.25 * whole, 1e-6);
-    double half     = (double)look_at(&f, &look, 0.25f)[0].color[1],
-           beyond   = (double)look_at(&f, &look, 0.5f)[0].color[1];
+    double half = (double)look_at(&f, &look, 0.25f)[0].color[1],
+           beyond = (double)look_at(&f, &look, 0.5f)[0].color[1];
     look.root_shade = 0;
     hair_test_near("half way", 0, half / (double)look_at(&f, &look, 0.25f)[0].color[1], 0.625, 1e-5);
     hair_test_near("beyond", 0, beyond, (double)look_at(&f, &look, 0.5f)[0].color[1], 1e-7);
@@ -114,13 +114,13 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
 
 static void as_many_strands_are_streaks_as_are_asked_for(void** state)
 {
-    struct fixture f    = start(state);
-    hair_look      look = even_look();
-    look.streaks        = 0.3f;
+    struct fixture f = start(state);
+    hair_look look = even_look();
+    look.streaks = 0.3f;
     for (int locks = 0; locks < 2; ++locks) {
-        look.streak_locks           = (float)locks;
+        look.streak_locks = (float)locks;
         const struct strand* strand = look_at(&f, &look, 0.5f);
-        double               sum = 0, mixed = 0;
+        double sum = 0, mixed = 0;
         for (uint32_t i = 0; i < STRANDS; i += 16) {
             uint32_t of_lock = 0;
             for (uint32_t k = i; k < i + 16; ++k) {
@@ -143,13 +143,13 @@ static void as_many_strands_are_streaks_as_are_asked_for(void** state)
 
 static void spreads_are_as_wide_as_they_say(void** state)
 {
-    struct fixture f              = start(state);
-    hair_look      look           = even_look();
-    look.color_spread             = 0.4f;
-    look.hue_spread               = 0;
-    look.roughness_spread         = 0.5f;
-    look.sparkle                  = 0.8f;
-    double               least[4] = {9, 9, 9, 9}, most[4] = {0}, mean[4] = {0};
+    struct fixture f = start(state);
+    hair_look look = even_look();
+    look.color_spread = 0.4f;
+    look.hue_spread = 0;
+    look.roughness_spread = 0.5f;
+    look.sparkle = 0.8f;
+    double least[4] = {9, 9, 9, 9}, most[4] = {0}, mean[4] = {0};
     const struct strand* strand = look_at(&f, &look, 0.37f);
     double green = (double)(look.root_color[1] + 0.37f * (look.tip_color[1] - look.root_color[1]));
     for (uint32_t i = 0; i < STRANDS; ++i) {
@@ -170,7 +170,7 @@ static void spreads_are_as_wide_as_they_say(void** state)
     look.hue_spread = 1, look.color_spread = 0;
     strand = look_at(&f, &look, 1);
     for (uint32_t i = 0; i < STRANDS; ++i) {
-        double red  = (double)(strand[i].color[0] / look.tip_color[0]),
+        double red = (double)(strand[i].color[0] / look.tip_color[0]),
                blue = (double)(strand[i].color[2] / look.tip_color[2]);
         hair_test_near("red and blue", i, red + blue, 2, 1e-5);
         assert_true(red >= 0 && blue >= 0);

@@ -9,7 +9,7 @@
 
 static hair_wind blowing(float x, float y, float z)
 {
-    hair_wind wind   = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = x, wind.velocity[1] = y, wind.velocity[2] = z;
     return wind;
 }
@@ -17,9 +17,9 @@ static hair_wind blowing(float x, float y, float z)
 static struct hair_test_living straight(struct hair_test* test, uint32_t vertices, hair_vec3 way,
                                         const hair_physics* physics, hair_solver solver)
 {
-    struct hair_test_living  living;
+    struct hair_test_living living;
     struct hair_test_strands strands = hair_test_straight(vertices, hair_v3(0, 0, 0), way, 0.2f);
-    hair_desc                desc    = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     return living;
@@ -28,19 +28,19 @@ static struct hair_test_living straight(struct hair_test* test, uint32_t vertice
 // Of a strand that nothing holds, across the wind and at an angle: from rest, in a quarter of a second.
 static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
 {
-    static const float     speeds[] = {0.05f, 1, 12}; // Reynolds numbers from 0.26 to 64
-    static const hair_vec3 ways[]   = {{1, 0, 0}, {1, 0, 1}};
-    hair_physics           physics  = hair_test_bare();
+    static const float speeds[] = {0.05f, 1, 12}; // Reynolds numbers from 0.26 to 64
+    static const hair_vec3 ways[] = {{1, 0, 0}, {1, 0, 1}};
+    hair_physics physics = hair_test_bare();
     physics.gravity[1] = 0, physics.damping = 0, physics.drag = 1;
     physics.fiber_radius = 4e-5f;
-    physics.root         = HAIR_ROOT_FREE;
+    physics.root = HAIR_ROOT_FREE;
     for (int k = 0; k < 6; ++k)
         for (int solver = 0; solver < 2; ++solver) {
-            hair_wind               wind   = blowing(0, 0, speeds[k / 2]);
+            hair_wind wind = blowing(0, 0, speeds[k / 2]);
             struct hair_test_living living = straight(*state, 8, ways[k % 2], &physics, (hair_solver)solver);
             hair_test_blow(&living, &wind);
             struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
-            double                     off = 0, way = (double)speeds[k / 2] * 15 * FRAME;
+            double off = 0, way = (double)speeds[k / 2] * 15 * FRAME;
             for (int i = 0; i < 15; ++i) {
                 hair_test_advance(&living, NULL, FRAME);
                 hair_test_read_guides(&living);
@@ -65,7 +65,7 @@ static void a_strand_is_deflected_as_the_reference_has_it(void** state)
         for (int solver = 0; solver < 2; ++solver) {
             hair_physics physics = hair_test_bare();
             physics.damping = 6, physics.drag = cases[k].drag, physics.fiber_radius = 4e-5f;
-            hair_wind               wind = blowing(0.8f * cases[k].speed, 0, 0.6f * cases[k].speed);
+            hair_wind wind = blowing(0.8f * cases[k].speed, 0, 0.6f * cases[k].speed);
             struct hair_test_living living =
                 straight(*state, 16, hair_v3(0.1f, -1, 0), &physics, (hair_solver)solver);
             hair_test_blow(&living, &wind);
@@ -101,20 +101,20 @@ static double suffer(struct hair_test_living* living, const hair_wind* wind, uin
 static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
 {
     static const struct {
-        float  speed, drag;
-        int    gusty;
+        float speed, drag;
+        int gusty;
         double dt;
     } cases[] = {{1000, 10, 0, FRAME}, {1000, 10, 1, FRAME}, {30, 1, 1, FRAME}, {20, 1, 1, 0.1}};
     for (int k = 0; k < 4; ++k)
         for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver) {
-            hair_physics physics          = hair_physics_default();
-            physics.drag                  = cases[k].drag;
-            float                   speed = cases[k].speed;
-            hair_wind               wind  = blowing(0.6f * speed, 0.1f * speed, -0.8f * speed);
+            hair_physics physics = hair_physics_default();
+            physics.drag = cases[k].drag;
+            float speed = cases[k].speed;
+            hair_wind wind = blowing(0.6f * speed, 0.1f * speed, -0.8f * speed);
             struct hair_test_living living =
                 straight(*state, 16, hair_v3(0.6f, -1, 0), &physics, (hair_solver)solver);
-            double most        = suffer(&living, &wind, 60, cases[k].gusty, cases[k].dt);
-            most               = fmax(most, suffer(&living, NULL, 240, 0, FRAME));
+            double most = suffer(&living, &wind, 60, cases[k].gusty, cases[k].dt);
+            most = fmax(most, suffer(&living, NULL, 240, 0, FRAME));
             hair_health health = hair_test_health(&living);
             print_message(
                 "    %g m/s, drag %g%s, steps of %.2g s, solver %d: stretch %.2g, then %.2g from rest; %u by "
@@ -130,9 +130,9 @@ static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
 
 static void what_no_wind_takes_is_nothing(void** state)
 {
-    hair_physics            physics = hair_physics_default();
-    hair_wind               wind    = blowing(1, 0, 0);
-    struct hair_test_living living  = straight(*state, 8, hair_v3(0, -1, 0), &physics, HAIR_SOLVER_DIRECT);
+    hair_physics physics = hair_physics_default();
+    hair_wind wind = blowing(1, 0, 0);
+    struct hair_test_living living = straight(*state, 8, hair_v3(0, -1, 0), &physics, HAIR_SOLVER_DIRECT);
     hair_test_wait(&living, 1);
     assert_int_equal(living.hair->sim.air.params, 0);
     hair_test_blow(&living, &wind);

@@ -24,7 +24,7 @@ double hair_distance_to_solid(const hair_solid* solid, const double point[3], do
 // Of each test: a host, and what converts.
 struct bullet_test {
     hair_test_host host;
-    hair_bullet*   bullet;
+    hair_bullet* bullet;
 };
 static bullet_test test;
 
@@ -47,7 +47,7 @@ static int stop(void**)
 // The list, of the given length.
 static inline const hair_solid* solids(uint32_t expected)
 {
-    uint32_t          count;
+    uint32_t count;
     const hair_solid* list = hair_bullet_solids(test.bullet, &count);
     assert_int_equal(count, expected);
     return list;
@@ -55,10 +55,10 @@ static inline const hair_solid* solids(uint32_t expected)
 
 static inline double nearest(const btVector3& p)
 {
-    uint32_t          count;
-    const hair_solid* list     = hair_bullet_solids(test.bullet, &count);
-    double            distance = INFINITY;
-    const double      at[3]    = {p.x(), p.y(), p.z()};
+    uint32_t count;
+    const hair_solid* list = hair_bullet_solids(test.bullet, &count);
+    double distance = INFINITY;
+    const double at[3] = {p.x(), p.y(), p.z()};
     for (uint32_t i = 0; i < count; ++i)
         distance = std::fmin(distance, hair_distance_to_solid(&list[i], at, nullptr));
     return distance;
@@ -67,12 +67,12 @@ static inline double nearest(const btVector3& p)
 // By GJK, from a point to a convex shape with its margin; inside its core by EPA, which is less exact.
 static inline double gjk(const btConvexShape* shape, const btTransform& where, const btVector3& p)
 {
-    btSphereShape                        point(0);
-    btVoronoiSimplexSolver               simplex;
-    btGjkEpaPenetrationDepthSolver       depth;
-    btGjkPairDetector                    detector(shape, &point, &simplex, &depth);
+    btSphereShape point(0);
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector(shape, &point, &simplex, &depth);
     btGjkPairDetector::ClosestPointInput input;
-    btPointCollector                     result;
+    btPointCollector result;
     input.m_transformA = where;
     input.m_transformB = btTransform(btQuaternion::getIdentity(), p);
     detector.getClosestPoints(input, result, nullptr);

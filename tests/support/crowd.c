@@ -19,10 +19,10 @@ hair_physics hair_test_only_crowd(float cohesion, float volume)
 {
     hair_physics physics = hair_test_bare();
     memset(physics.gravity, 0, sizeof physics.gravity);
-    physics.damping  = 0;
-    physics.young    = 0;
+    physics.damping = 0;
+    physics.young = 0;
     physics.cohesion = cohesion;
-    physics.volume   = volume;
+    physics.volume = volume;
     return physics;
 }
 
@@ -35,9 +35,9 @@ void hair_test_crowd(struct hair_test* test, const hair_desc* desc, float width,
 
 void hair_test_set_state(struct hair_test_living* living, const struct hair_state* state)
 {
-    struct hair_sim* sim  = &living->hair->sim;
-    size_t           size = sim->guide_vertices * sizeof *state;
-    GLuint           from;
+    struct hair_sim* sim = &living->hair->sim;
+    size_t size = sim->guide_vertices * sizeof *state;
+    GLuint from;
     glCreateBuffers(1, &from);
     glNamedBufferStorage(from, (GLsizeiptr)size, state, 0);
     glCopyNamedBufferSubData(from, sim->state, 0, 0, (GLsizeiptr)size);

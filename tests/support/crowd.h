@@ -16,7 +16,7 @@ void hair_test_crowd(struct hair_test* test, const hair_desc* desc, float width,
 hair_physics hair_test_only_crowd(float cohesion, float volume);
 
 // The state, and the velocity that a solver keeps beside it.
-void  hair_test_set_state(struct hair_test_living* living, const struct hair_state* state);
+void hair_test_set_state(struct hair_test_living* living, const struct hair_state* state);
 void* hair_test_buffer(GLuint buffer, size_t size); // what it holds, to be freed
 
 #endif

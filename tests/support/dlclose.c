@@ -3,7 +3,7 @@
 // Leaks are looked for when the program ends. By then EGL has unloaded the driver: what the driver itself
 // forgot (a few hundred bytes, whoever calls it) would be reported without a name to suppress it by.
 
-int         dlclose(void* library);
+int dlclose(void* library);
 const char* __lsan_default_suppressions(void);
 
 int dlclose(void* library)

@@ -10,9 +10,9 @@ struct hair_test_field hair_test_field_read(const struct hair_solid_field* field
 {
     struct hair_test_field read;
     for (int i = 0; i < 3; ++i) read.size[i] = HAIR_BRICK * field->box.bricks[i];
-    size_t count  = hair_test_field_count(&read);
+    size_t count = hair_test_field_count(&read);
     read.distance = calloc(count, sizeof *read.distance);
-    read.number   = calloc(count, sizeof *read.number);
+    read.number = calloc(count, sizeof *read.number);
     glGetTextureImage(field->distance, 0, GL_RED, GL_FLOAT, (GLsizei)(count * sizeof *read.distance),
                       read.distance);
     glGetTextureImage(field->number, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
@@ -42,7 +42,7 @@ static void turn(const double q[4], const double v[3], double out[3])
 double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number)
 {
     double nearest = INFINITY;
-    *number        = HAIR_NO_SOLID;
+    *number = HAIR_NO_SOLID;
     for (uint32_t i = 0; i < count; ++i) {
         double distance = hair_distance_to_solid(&solids[i], point, NULL);
         if (!(distance < nearest)) continue;
@@ -55,11 +55,11 @@ double hair_test_nearest(const hair_solid* solids, uint32_t count, const double 
 void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* head, size_t i,
                      double point[3])
 {
-    size_t       nx = HAIR_BRICK * box->bricks[0], ny = HAIR_BRICK * box->bricks[1];
-    const double at[3]  = {(double)(i % nx), (double)(i / nx % ny), (double)(i / nx / ny)},
+    size_t nx = HAIR_BRICK * box->bricks[0], ny = HAIR_BRICK * box->bricks[1];
+    const double at[3] = {(double)(i % nx), (double)(i / nx % ny), (double)(i / nx / ny)},
                  low[3] = {(double)box->lower.x, (double)box->lower.y, (double)box->lower.z},
-                 q[4]   = {(double)head->rotation.x, (double)head->rotation.y, (double)head->rotation.z,
-                           (double)head->rotation.w};
+                 q[4] = {(double)head->rotation.x, (double)head->rotation.y, (double)head->rotation.z,
+                         (double)head->rotation.w};
     double own[3];
     for (int k = 0; k < 3; ++k) own[k] = low[k] + (at[k] + 0.5) * (double)box->voxel;
     turn(q, own, point);
@@ -75,15 +75,15 @@ hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct ha
                                uint32_t* random)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
+    solid.shape = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
     hair_vec3 side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
-    hair_vec3 at   = hair_add(hair_add(box->lower, side),
-                              hair_v3(between(random, -reach, reach), between(random, -reach, reach),
-                                      between(random, -reach, reach)));
-    hair_vec3 turned    = hair_rotate(head->rotation, at);
-    hair_quat q         = hair_quat_normalize((hair_quat){between(random, -1, 1), between(random, -1, 1),
-                                                          between(random, -1, 1), between(random, -1, 1)});
+    hair_vec3 at = hair_add(hair_add(box->lower, side),
+                            hair_v3(between(random, -reach, reach), between(random, -reach, reach),
+                                    between(random, -reach, reach)));
+    hair_vec3 turned = hair_rotate(head->rotation, at);
+    hair_quat q = hair_quat_normalize((hair_quat){between(random, -1, 1), between(random, -1, 1),
+                                                  between(random, -1, 1), between(random, -1, 1)});
     const float place[] = {turned.x, turned.y, turned.z}, way[] = {q.x, q.y, q.z, q.w};
     for (int i = 0; i < 3; ++i) solid.position[i] = (float)(head->position[i] + (double)place[i]);
     for (int i = 0; i < 4; ++i) solid.rotation[i] = way[i];

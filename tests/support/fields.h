@@ -7,14 +7,14 @@
 #include "lib/field/field.h"
 
 struct hair_test_field {
-    uint32_t  size[3];
-    float*    distance;
+    uint32_t size[3];
+    float* distance;
     uint32_t* number;
 };
 
 // Of a field that is there.
 struct hair_test_field hair_test_field_read(const struct hair_solid_field* field);
-void                   hair_test_field_free(struct hair_test_field* read);
+void hair_test_field_free(struct hair_test_field* read);
 
 static inline size_t hair_test_field_count(const struct hair_test_field* read)
 {

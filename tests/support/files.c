@@ -12,7 +12,7 @@
 void hair_test_put(struct hair_test_file* file, const void* bytes, size_t size)
 {
     if (file->size + size > file->room) {
-        file->room  = 2 * (file->size + size);
+        file->room = 2 * (file->size + size);
         file->bytes = realloc(file->bytes, file->room);
         assert_non_null(file->bytes);
     }
@@ -69,8 +69,8 @@ static void put_zeros(struct hair_test_file* file, uint32_t count)
 struct hair_test_file hair_test_hair(uint32_t arrays)
 {
     static const uint32_t varied[3] = {3, 2, 4};
-    struct hair_test_file file      = {0};
-    char                  info[88];
+    struct hair_test_file file = {0};
+    char info[88];
     memset(info, 'i', sizeof info); // No 0 ends it.
     hair_test_put_text(&file, "HAIR");
     hair_test_put_u32(&file, 3);
@@ -97,7 +97,7 @@ struct hair_test_file hair_test_tfx4(void)
     hair_test_put_u32(&file, 3);
     hair_test_put_u32(&file, 4);
     hair_test_put_u32(&file, 160 + 24 + 12); // positions, after
-    hair_test_put_u32(&file, 160);           // coordinates of strands
+    hair_test_put_u32(&file, 160); // coordinates of strands
     hair_test_put_u32(&file, 160 + 24 + 12 + 192);
     hair_test_put_u32(&file, 160 + 24); // thickness
     hair_test_put_u32(&file, 160 + 24 + 12 + 192 + 96);
@@ -173,12 +173,12 @@ hair_result hair_test_read(struct hair_test_host* test, const hair_import* impor
     void* copy = malloc(size ? size : 1);
     assert_non_null(copy);
     if (size) memcpy(copy, bytes, size);
-    uint32_t          errors = test->errors, blocks = test->blocks;
+    uint32_t errors = test->errors, blocks = test->blocks;
     hair_asset* const untouched = (hair_asset*)test;
-    hair_asset*       asset     = untouched;
-    test->peak                  = test->live;
-    size_t      before          = test->live;
-    hair_result result          = hair_asset_decode(&test->host, import, copy, size, &asset);
+    hair_asset* asset = untouched;
+    test->peak = test->live;
+    size_t before = test->live;
+    hair_result result = hair_asset_decode(&test->host, import, copy, size, &asset);
     free(copy);
 
     assert_true(test->peak - before <= ((size_t)64 << 20) + 4 * size);

@@ -7,7 +7,7 @@
 
 struct hair_test_file {
     unsigned char* bytes; // free() it
-    size_t         size, room;
+    size_t size, room;
 };
 
 void hair_test_put(struct hair_test_file* file, const void* bytes, size_t size);

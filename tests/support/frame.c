@@ -34,9 +34,9 @@ void hair_test_frame_clear(const struct hair_test_frame* frame)
 void hair_test_frame_make(struct hair_test_frame* frame, GLsizei width, GLsizei height, GLenum format,
                           GLsizei samples)
 {
-    *frame             = (struct hair_test_frame){.width = width, .height = height, .samples = samples};
+    *frame = (struct hair_test_frame){.width = width, .height = height, .samples = samples};
     frame->framebuffer = make_framebuffer(frame, 0, format, samples);
-    frame->resolved    = samples ? make_framebuffer(frame, 1, format, 0) : frame->framebuffer;
+    frame->resolved = samples ? make_framebuffer(frame, 1, format, 0) : frame->framebuffer;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->framebuffer);
     glViewport(0, 0, width, height);
     glEnable(GL_DEPTH_TEST);
@@ -72,9 +72,9 @@ void hair_test_frame_read_depth(const struct hair_test_frame* frame, float* dept
 int hair_test_png_write(const char* path, int width, int height, const unsigned char* pixels)
 {
     png_image image = {.version = PNG_IMAGE_VERSION,
-                       .width   = (png_uint_32)width,
-                       .height  = (png_uint_32)height,
-                       .format  = PNG_FORMAT_RGBA};
+                       .width = (png_uint_32)width,
+                       .height = (png_uint_32)height,
+                       .format = PNG_FORMAT_RGBA};
     return png_image_write_to_file(&image, path, 0, pixels, 0, NULL);
 }
 
@@ -83,13 +83,13 @@ int hair_test_png_read(const char* path, int* width, int* height, unsigned char*
     png_image image = {.version = PNG_IMAGE_VERSION};
     if (!png_image_begin_read_from_file(&image, path)) return 0;
     image.format = PNG_FORMAT_RGBA;
-    *pixels      = malloc(PNG_IMAGE_SIZE(image));
+    *pixels = malloc(PNG_IMAGE_SIZE(image));
     if (!*pixels || !png_image_finish_read(&image, NULL, *pixels, 0, NULL)) {
         free(*pixels);
         png_image_free(&image);
         return 0;
     }
-    *width  = (int)image.width;
+    *width = (int)image.width;
     *height = (int)image.height;
     return 1;
 }
@@ -103,7 +103,7 @@ void hair_test_blend_begin(void)
 
 int hair_test_blend_end(void)
 {
-    GLint     factor[4], equation[2];
+    GLint factor[4], equation[2];
     GLboolean writes;
     glGetIntegeri_v(GL_BLEND_SRC_RGB, 0, &factor[0]), glGetIntegeri_v(GL_BLEND_DST_RGB, 0, &factor[1]);
     glGetIntegeri_v(GL_BLEND_SRC_ALPHA, 0, &factor[2]), glGetIntegeri_v(GL_BLEND_DST_ALPHA, 0, &factor[3]);

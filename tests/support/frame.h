@@ -6,9 +6,9 @@
 
 struct hair_test_frame {
     GLsizei width, height, samples;
-    GLuint  framebuffer; // what is drawn into
-    GLuint  resolved;    // what is read from: the same when samples is 0
-    GLuint  color[2], depth[2];
+    GLuint framebuffer; // what is drawn into
+    GLuint resolved; // what is read from: the same when samples is 0
+    GLuint color[2], depth[2];
 };
 
 // `format`: GL_RGBA32F or GL_RGBA8. `samples`: 0 or 4. Bound, its viewport set, cleared to black, depth 1.
@@ -25,7 +25,7 @@ void hair_test_frame_read_depth(const struct hair_test_frame* frame, float* dept
 
 // A host's blending of the first draw buffer, set up but off: begun, and whether all of it is still as it was, which ends it.
 void hair_test_blend_begin(void);
-int  hair_test_blend_end(void);
+int hair_test_blend_end(void);
 
 // RGBA of 8 bits, the upper row first. 1 when it was done.
 int hair_test_png_write(const char* path, int width, int height, const unsigned char* pixels);

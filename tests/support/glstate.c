@@ -11,8 +11,8 @@
 
 struct row {
     const char* name;
-    GLenum      what;
-    int         count; // of its components
+    GLenum what;
+    int count; // of its components
 };
 
 static const struct row integers[] = {
@@ -168,7 +168,7 @@ static const struct row textures[] = {
 
 // Bindings of a number each, with its limit and the names of buffer, start and size, or other parts.
 static const struct {
-    int        count;
+    int count;
     struct row part[6];
 } indexed[] = {
     {16,

@@ -11,7 +11,7 @@
 struct hair_test_glstate {
     size_t count;
     struct {
-        char    name[56]; // "GL_PATCH_VERTICES", "GL_TEXTURE_BINDING_2D of unit 5"
+        char name[56]; // "GL_PATCH_VERTICES", "GL_TEXTURE_BINDING_2D of unit 5"
         int64_t value;
     } values[HAIR_TEST_VALUES];
 };

@@ -7,7 +7,7 @@
 struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t most)
 {
     return (struct hair_test_strands){.positions = malloc(3 * (size_t)count * most * sizeof(float)),
-                                      .vertices  = malloc(count * sizeof(uint32_t))};
+                                      .vertices = malloc(count * sizeof(uint32_t))};
 }
 
 void hair_test_strands_free(struct hair_test_strands* strands)
@@ -30,10 +30,10 @@ void hair_test_strands_add(struct hair_test_strands* strands, uint32_t vertices,
 static hair_vec3 fur(float t, uint32_t strand, const void* user)
 {
     (void)user;
-    uint32_t  random = hair_hash(strand);
-    float     length = 0.015f + 0.01f * hair_random(&random);
-    hair_vec3 root   = {hair_random(&random), 0, hair_random(&random)};
-    float     lean   = 0.5f + 0.2f * hair_random(&random);
+    uint32_t random = hair_hash(strand);
+    float length = 0.015f + 0.01f * hair_random(&random);
+    hair_vec3 root = {hair_random(&random), 0, hair_random(&random)};
+    float lean = 0.5f + 0.2f * hair_random(&random);
     return hair_add(root, hair_scale(hair_v3(lean * t, 1 - 0.3f * t, 0.1f * sinf(9 * root.x)), length * t));
 }
 
@@ -46,10 +46,10 @@ struct hair_test_strands hair_test_fur(uint32_t count)
 
 struct hair_test_scalp hair_test_scalp_make(uint32_t cells, float size)
 {
-    struct hair_test_scalp scalp = {.vertex_count   = (cells + 1) * (cells + 1),
+    struct hair_test_scalp scalp = {.vertex_count = (cells + 1) * (cells + 1),
                                     .triangle_count = 2 * cells * cells};
-    scalp.positions              = malloc(3 * scalp.vertex_count * sizeof(float));
-    scalp.triangles              = malloc(3 * scalp.triangle_count * sizeof(uint32_t));
+    scalp.positions = malloc(3 * scalp.vertex_count * sizeof(float));
+    scalp.triangles = malloc(3 * scalp.triangle_count * sizeof(uint32_t));
     for (uint32_t i = 0; i < scalp.vertex_count; ++i) {
         float x = size * (float)(i % (cells + 1)) / (float)cells;
         float z = size * (float)(i / (cells + 1)) / (float)cells;
@@ -70,23 +70,23 @@ void hair_test_scalp_free(struct hair_test_scalp* scalp)
     memset(scalp, 0, sizeof *scalp);
 }
 
-hair_groom_desc hair_test_groom_desc(const struct hair_test_host*    host,
+hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
                                      const struct hair_test_strands* strands)
 {
     hair_groom_desc desc = hair_groom_desc_default();
-    desc.host            = &host->host;
-    desc.positions       = strands->positions;
+    desc.host = &host->host;
+    desc.positions = strands->positions;
     desc.strand_vertices = strands->vertices;
-    desc.strand_count    = strands->count;
+    desc.strand_count = strands->count;
     return desc;
 }
 
 void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp)
 {
-    desc->strands_are          = HAIR_STRANDS_GUIDES;
-    desc->scalp_positions      = scalp->positions;
-    desc->scalp_triangles      = scalp->triangles;
-    desc->scalp_vertex_count   = scalp->vertex_count;
+    desc->strands_are = HAIR_STRANDS_GUIDES;
+    desc->scalp_positions = scalp->positions;
+    desc->scalp_triangles = scalp->triangles;
+    desc->scalp_vertex_count = scalp->vertex_count;
     desc->scalp_triangle_count = scalp->triangle_count;
 }
 
@@ -105,7 +105,7 @@ static hair_vec3 xyz(hair_vec4 v)
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
     struct hair_smoothed_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
-    hair_vec3                  p[4];
+    hair_vec3 p[4];
     for (int i = 0; i < 4; ++i) p[i] = xyz(follower->offset[i]);
     for (int n = 3; n > 0; --n) // De Casteljau
         for (int i = 0; i < n; ++i) p[i] = hair_lerp(p[i], p[i + 1], t);
@@ -114,13 +114,13 @@ hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_fol
 
 hair_vec3 hair_test_multi(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
-    float                      u   = t * follower->length_ratio;
-    struct hair_smoothed_point g0  = guide_at(groom, follower->guide0, u);
-    struct hair_smoothed_point g1  = guide_at(groom, follower->guide1, u);
-    struct hair_smoothed_point g2  = guide_at(groom, follower->guide2, u);
-    float                      w0  = 1 - follower->weight1 - follower->weight2;
-    hair_vec3                  own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
-    hair_vec3                  blended =
+    float u = t * follower->length_ratio;
+    struct hair_smoothed_point g0 = guide_at(groom, follower->guide0, u);
+    struct hair_smoothed_point g1 = guide_at(groom, follower->guide1, u);
+    struct hair_smoothed_point g2 = guide_at(groom, follower->guide2, u);
+    float w0 = 1 - follower->weight1 - follower->weight2;
+    hair_vec3 own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
+    hair_vec3 blended =
         hair_add(hair_scale(g1.position, follower->weight1), hair_scale(g2.position, follower->weight2));
     return hair_add(hair_add(hair_scale(g0.position, w0), blended), hair_rotate(g0.frame, own));
 }

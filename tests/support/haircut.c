@@ -3,10 +3,10 @@
 
 hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* style, uint32_t followers)
 {
-    hair_style_desc of    = *style;
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_asset*     asset = NULL;
-    hair_groom*     groom = NULL;
+    hair_style_desc of = *style;
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_asset* asset = NULL;
+    hair_groom* groom = NULL;
     of.host = desc.host = &test->host.host;
     hair_test_ok(test, hair_asset_generate(&of, &asset));
     hair_test_ok(test, hair_asset_fill(asset, &desc));
@@ -19,15 +19,15 @@ hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* sty
 hair_instance* hair_test_wear(struct hair_test* test, hair_style style, uint32_t followers, float radius,
                               hair_groom** groom)
 {
-    hair_style_desc of   = hair_style_desc_default();
-    hair_desc       desc = hair_desc_default();
-    hair_look       look = hair_look_default();
-    hair_instance*  hair = NULL;
-    of.style             = style;
-    look.radius          = radius;
-    look.segments        = 24;
-    desc.look            = &look;
-    *groom               = hair_test_haircut(test, &of, followers);
+    hair_style_desc of = hair_style_desc_default();
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    hair_instance* hair = NULL;
+    of.style = style;
+    look.radius = radius;
+    look.segments = 24;
+    desc.look = &look;
+    *groom = hair_test_haircut(test, &of, followers);
     hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
     return hair;
 }

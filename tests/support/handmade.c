@@ -9,15 +9,15 @@
 
 struct hair_test_handmade hair_test_handmade_default(void)
 {
-    return (struct hair_test_handmade){.guides    = 7,
-                                       .fewest    = 16,
-                                       .most      = 16,
-                                       .segment   = 0.01f,
-                                       .turn      = 0.3f,
+    return (struct hair_test_handmade){.guides = 7,
+                                       .fewest = 16,
+                                       .most = 16,
+                                       .segment = 0.01f,
+                                       .turn = 0.3f,
                                        .followers = 64,
-                                       .each      = 16,
-                                       .density   = 1,
-                                       .seed      = 1};
+                                       .each = 16,
+                                       .density = 1,
+                                       .seed = 1};
 }
 
 // Tests of refused memory make their grooms before they refuse any.
@@ -36,17 +36,17 @@ static float between(uint32_t* random, float least, float most)
 // Evenly over the upper half of the ball (Fibonacci's lattice).
 static hair_vec3 find_root(uint32_t i, uint32_t count)
 {
-    float y     = 0.1f + 0.9f * ((float)i + 0.5f) / (float)count;
-    float r     = sqrtf(1 - y * y);
+    float y = 0.1f + 0.9f * ((float)i + 0.5f) / (float)count;
+    float r = sqrtf(1 - y * y);
     float angle = 2.399963f * (float)i;
     return hair_v3(0.1f * r * cosf(angle), 0.1f * y, 0.1f * r * sinf(angle));
 }
 
 static hair_vec3 turn_a_little(hair_vec3 direction, float most, uint32_t* random)
 {
-    hair_vec3 side  = hair_perpendicular(direction);
+    hair_vec3 side = hair_perpendicular(direction);
     hair_vec3 other = hair_cross(direction, side);
-    float     about = between(random, 0, 6.2831853f), angle = between(random, 0, most);
+    float about = between(random, 0, 6.2831853f), angle = between(random, 0, most);
     hair_vec3 to = hair_add(hair_scale(side, cosf(about)), hair_scale(other, sinf(about)));
     return hair_add(hair_scale(direction, cosf(angle)), hair_scale(to, sinf(angle)));
 }
@@ -55,22 +55,22 @@ static void place_guide(struct hair_guide* guide, struct hair_rest* rest, hair_v
                         const struct hair_test_handmade* wanted, uint32_t* random)
 {
     hair_vec3 at = root, direction = hair_normalize(root, Y_AXIS);
-    hair_quat frame   = hair_quat_between(Y_AXIS, direction);
+    hair_quat frame = hair_quat_between(Y_AXIS, direction);
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
     for (uint32_t i = 0; i < guide->count; ++i) {
-        int       tip    = i + 1 == guide->count;
-        float     length = tip ? 0 : wanted->segment * between(random, 0.7f, 1.3f);
-        hair_vec3 own    = Y_AXIS;
+        int tip = i + 1 == guide->count;
+        float length = tip ? 0 : wanted->segment * between(random, 0.7f, 1.3f);
+        hair_vec3 own = Y_AXIS;
         if (i > 0 && !tip) {
             hair_vec3 to = hair_normalize(turn_a_little(direction, wanted->turn, random), direction);
-            own          = hair_rotate(hair_quat_conjugate(frame), to);
-            frame        = hair_quat_normalize(hair_quat_multiply(hair_quat_between(direction, to), frame));
-            direction    = to;
+            own = hair_rotate(hair_quat_conjugate(frame), to);
+            frame = hair_quat_normalize(hair_quat_multiply(hair_quat_between(direction, to), frame));
+            direction = to;
         }
-        rest[i].position  = (hair_vec4){at.x, at.y, at.z, length};
+        rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
         rest[i].direction = (hair_vec4){own.x, own.y, own.z, 0};
-        rest[i].frame     = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
-        at                = hair_add(at, hair_scale(direction, length));
+        rest[i].frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
+        at = hair_add(at, hair_scale(direction, length));
         guide->arc_length += length;
     }
     for (uint32_t i = 0; i + 2 < guide->count; ++i) {
@@ -82,14 +82,14 @@ static void place_guide(struct hair_guide* guide, struct hair_rest* rest, hair_v
 static void place_follower(struct hair_follower* follower, uint32_t number, uint32_t guides, uint32_t* random)
 {
     float a = hair_random(random), b = hair_random(random);
-    follower->guide0       = number % guides;
-    follower->guide1       = (number + 1) % guides;
-    follower->guide2       = (number + 2) % guides;
-    follower->seed         = hair_hash(number);
-    follower->weight1      = a + b < 1 ? a : 1 - a;
-    follower->weight2      = a + b < 1 ? b : 1 - b;
+    follower->guide0 = number % guides;
+    follower->guide1 = (number + 1) % guides;
+    follower->guide2 = (number + 2) % guides;
+    follower->seed = hair_hash(number);
+    follower->weight1 = a + b < 1 ? a : 1 - a;
+    follower->weight2 = a + b < 1 ? b : 1 - b;
     follower->length_ratio = between(random, 0.5f, 1.1f);
-    follower->multi        = number % 3 == 0 ? 0 : number % 3 == 1 ? 1 : hair_random(random);
+    follower->multi = number % 3 == 0 ? 0 : number % 3 == 1 ? 1 : hair_random(random);
     for (int i = 0; i < 4; ++i)
         follower->offset[i] = (hair_vec4){between(random, -0.01f, 0.01f), between(random, -0.002f, 0.002f),
                                           between(random, -0.01f, 0.01f), between(random, -0.002f, 0.002f)};
@@ -98,10 +98,10 @@ static void place_follower(struct hair_follower* follower, uint32_t number, uint
 
 static void place_patch(struct hair_patch* patch, uint32_t first, const struct hair_test_handmade* wanted)
 {
-    uint32_t left      = wanted->followers - first;
-    patch->first       = first;
-    patch->count       = left < wanted->each ? left : wanted->each;
-    patch->density     = wanted->density;
+    uint32_t left = wanted->followers - first;
+    patch->first = first;
+    patch->count = left < wanted->each ? left : wanted->each;
+    patch->density = wanted->density;
     patch->map_density = patch->map_thickness = (hair_vec4){1, 1, 1, 1};
 }
 
@@ -115,19 +115,19 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
 {
     uint32_t random = wanted.seed, vertices = 0;
     for (uint32_t i = 0; i < wanted.guides; ++i) vertices += count_vertices(&wanted, i);
-    uint32_t    patches = (wanted.followers + wanted.each - 1) / wanted.each;
-    hair_groom* groom   = take(host, 1, sizeof *groom);
-    groom->host         = *host;
-    groom->guides       = take(host, wanted.guides, sizeof *groom->guides);
-    groom->rest         = take(host, vertices, sizeof *groom->rest);
-    groom->followers    = take(host, wanted.followers, sizeof *groom->followers);
-    groom->patches      = take(host, patches, sizeof *groom->patches);
+    uint32_t patches = (wanted.followers + wanted.each - 1) / wanted.each;
+    hair_groom* groom = take(host, 1, sizeof *groom);
+    groom->host = *host;
+    groom->guides = take(host, wanted.guides, sizeof *groom->guides);
+    groom->rest = take(host, vertices, sizeof *groom->rest);
+    groom->followers = take(host, wanted.followers, sizeof *groom->followers);
+    groom->patches = take(host, patches, sizeof *groom->patches);
 
     uint32_t first = 0;
     for (uint32_t i = 0; i < wanted.guides; ++i) {
         struct hair_guide* guide = &groom->guides[i];
-        guide->first             = first;
-        guide->count             = count_vertices(&wanted, i);
+        guide->first = first;
+        guide->count = count_vertices(&wanted, i);
         place_guide(guide, groom->rest + first, find_root(i, wanted.guides), &wanted, &random);
         first += guide->count;
         if (guide->count > groom->most_vertices) groom->most_vertices = guide->count;
@@ -135,10 +135,10 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     for (uint32_t i = 0; i < wanted.followers; ++i)
         place_follower(&groom->followers[i], i, wanted.guides, &random);
     for (uint32_t i = 0; i < patches; ++i) place_patch(&groom->patches[i], i * wanted.each, &wanted);
-    groom->info.guide_count        = wanted.guides;
+    groom->info.guide_count = wanted.guides;
     groom->info.guide_vertex_count = vertices;
-    groom->info.follower_count     = wanted.followers;
-    groom->info.patch_count        = patches;
+    groom->info.follower_count = wanted.followers;
+    groom->info.patch_count = patches;
     hair_measure_patches(groom);
     groom->skull = hair_find_skull(groom);
     return groom;
@@ -155,7 +155,7 @@ void hair_test_scatter(const hair_groom* groom, float away, float moved, uint32_
                        struct hair_state* state)
 {
     for (uint32_t i = 0; i < groom->info.guide_vertex_count; ++i) {
-        state[i].position     = anywhere(random, groom->rest[i].position, away);
+        state[i].position = anywhere(random, groom->rest[i].position, away);
         state[i].displacement = anywhere(random, (hair_vec4){0}, moved);
     }
 }

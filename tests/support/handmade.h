@@ -5,15 +5,15 @@
 #include "lib/groom/groom.h"
 
 struct hair_test_handmade {
-    uint32_t        guides;       // with roots on a ball of radius 0.1 m around the head's origin
-    uint32_t        fewest, most; // vertices of each, in turn
-    const uint32_t* vertices;     // of each guide, in place of the above. NULL: none
-    float           segment;      // m, on average
-    float           turn;         // rad: greatest angle between segments
-    uint32_t        followers;    // the i-th has 1 + i / 65536 of the look's radius
-    uint32_t        each;         // followers of a patch
-    float           density;      // of every patch
-    uint32_t        seed;
+    uint32_t guides; // with roots on a ball of radius 0.1 m around the head's origin
+    uint32_t fewest, most; // vertices of each, in turn
+    const uint32_t* vertices; // of each guide, in place of the above. NULL: none
+    float segment; // m, on average
+    float turn; // rad: greatest angle between segments
+    uint32_t followers; // the i-th has 1 + i / 65536 of the look's radius
+    uint32_t each; // followers of a patch
+    float density; // of every patch
+    uint32_t seed;
 };
 
 // A small one. Change what the test is about.

@@ -12,17 +12,17 @@ void hair_test_live(struct hair_test* test, const struct hair_test_strands* stra
     *out = (struct hair_test_living){
         .test = test, .physics = hair_physics_default(), .wind = hair_wind_default()};
     hair_groom_desc of = hair_test_groom_desc(&test->host, strands);
-    of.strands_are     = HAIR_STRANDS_GUIDES;
-    of.follower_count  = strands->count;
-    of.guide_vertices  = 2;
+    of.strands_are = HAIR_STRANDS_GUIDES;
+    of.follower_count = strands->count;
+    of.guide_vertices = 2;
     for (uint32_t i = 0; i < strands->count; ++i)
         if (strands->vertices[i] > of.guide_vertices) of.guide_vertices = strands->vertices[i];
     hair_test_ok(test, hair_groom_create(&of, &out->groom));
     if (desc->physics) out->physics = *desc->physics;
     hair_test_ok(test, hair_create(test->context, out->groom, desc, &out->hair));
-    out->vertices  = out->groom->info.guide_vertex_count;
+    out->vertices = out->groom->info.guide_vertex_count;
     out->positions = calloc(out->vertices, 3 * sizeof *out->positions);
-    out->before    = calloc(out->vertices, 3 * sizeof *out->before);
+    out->before = calloc(out->vertices, 3 * sizeof *out->before);
     assert_int_equal(out->vertices, strands->vertex_count);
     hair_test_read_guides(out);
 }
@@ -56,8 +56,8 @@ struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, h
 static void write_matrix(const struct hair_reference_rod_pose* pose, float out[16])
 {
     static const hair_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const double*          q       = pose->rotation;
-    hair_quat              turn    = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+    const double* q = pose->rotation;
+    hair_quat turn = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
     memset(out, 0, 16 * sizeof *out);
     for (int i = 0; i < 3; ++i) hair_store3(out + 4 * i, hair_rotate(turn, axes[i]));
     for (int i = 0; i < 3; ++i) out[12 + i] = (float)pose->position[i];
@@ -87,9 +87,9 @@ void hair_test_wait(struct hair_test_living* living, uint32_t frames)
 
 void hair_test_read_guides(struct hair_test_living* living)
 {
-    float*   later    = living->before;
-    uint32_t count    = 0;
-    living->before    = living->positions;
+    float* later = living->before;
+    uint32_t count = 0;
+    living->before = living->positions;
     living->positions = later;
     hair_test_ok(living->test, hair_read(living->hair, HAIR_READ_GUIDES, later, living->vertices, &count));
     assert_int_equal(count, living->vertices);
@@ -149,8 +149,8 @@ double hair_test_from_rest(const struct hair_test_living* living)
 
 hair_solid hair_test_body(hair_shape shape, float x, float y, float z)
 {
-    hair_solid solid  = hair_solid_default();
-    solid.shape       = shape;
+    hair_solid solid = hair_solid_default();
+    solid.shape = shape;
     solid.position[0] = x;
     solid.position[1] = y;
     solid.position[2] = z;
@@ -174,9 +174,9 @@ double hair_test_depth(const struct hair_test_living* living, const hair_solid* 
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
         for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
              ++i) {
-            hair_vec3    p     = hair_test_at(living, g, i);
+            hair_vec3 p = hair_test_at(living, g, i);
             const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
-            most               = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
+            most = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
         }
     return most;
 }
@@ -212,11 +212,11 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
     for (uint32_t i = 0; i + 1 < count; ++i) total += (double)rest[i].position.w;
     for (uint32_t i = 0; i < count; ++i) {
         double root = (double)physics->stiffness_root, pull = (double)physics->pull_root;
-        out->positions[3 * i]     = (double)rest[i].position.x;
+        out->positions[3 * i] = (double)rest[i].position.x;
         out->positions[3 * i + 1] = (double)rest[i].position.y;
         out->positions[3 * i + 2] = (double)rest[i].position.z;
-        out->lengths[i]           = (double)rest[i].position.w;
-        out->scale[i]             = root + so_far / total * ((double)physics->stiffness_tip - root);
+        out->lengths[i] = (double)rest[i].position.w;
+        out->scale[i] = root + so_far / total * ((double)physics->stiffness_tip - root);
         out->pull[i] =
             6.283185307179586 * (pull + (double)i / (count - 1) * ((double)physics->pull_tip - pull));
         so_far += (double)rest[i].position.w;
@@ -227,13 +227,13 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
 static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
 {
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
-    double bend       = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
+    double bend = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
     out->line_density = 1;
-    out->tip_mass     = (double)physics->tip_mass * length;
-    out->bend[0]      = bend * flat;
-    out->bend[1]      = bend / flat;
-    out->twist        = bend * 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
-    out->damping      = (double)physics->damping;
+    out->tip_mass = (double)physics->tip_mass * length;
+    out->bend[0] = bend * flat;
+    out->bend[1] = bend / flat;
+    out->twist = bend * 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
+    out->damping = (double)physics->damping;
     for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
 }
 
@@ -244,26 +244,26 @@ static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct
     if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0) return;
     out->drag = (double)physics->drag / ((double)physics->fiber_density * 3.14159265358979 * radius * radius);
     out->diameter = 2 * radius;
-    out->air      = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
+    out->air = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
 }
 
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
                                                const struct hair_reference_rod_pose* head)
 {
-    struct hair_reference_rod_desc desc    = hair_reference_rod_desc_default();
-    const struct hair_guide*       of      = &living->groom->guides[guide];
-    const hair_physics*            physics = &living->physics;
-    const hair_vec4                frame   = of->root_frame;
-    struct arrays*                 arrays  = calloc(1, sizeof *arrays);
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
+    const struct hair_guide* of = &living->groom->guides[guide];
+    const hair_physics* physics = &living->physics;
+    const hair_vec4 frame = of->root_frame;
+    struct arrays* arrays = calloc(1, sizeof *arrays);
     fill_arrays(living->groom->rest + of->first, of->count, physics, arrays);
     fill_material(physics, (double)of->arc_length, &desc);
     fill_wind(physics, &living->wind, &desc);
-    desc.vertices  = of->count;
+    desc.vertices = of->count;
     desc.positions = arrays->positions;
-    desc.lengths   = arrays->lengths;
-    desc.scale     = arrays->scale;
+    desc.lengths = arrays->lengths;
+    desc.scale = arrays->scale;
     if (physics->pull_root > 0 || physics->pull_tip > 0) desc.pull = arrays->pull;
-    desc.root          = (enum hair_reference_rod_root)physics->root;
+    desc.root = (enum hair_reference_rod_root)physics->root;
     desc.root_frame[0] = (double)frame.x, desc.root_frame[1] = (double)frame.y;
     desc.root_frame[2] = (double)frame.z, desc.root_frame[3] = (double)frame.w;
     if (head) desc.head = *head;
@@ -286,12 +286,12 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
 double hair_test_off(const struct hair_test_living* living, uint32_t guide,
                      const struct hair_reference_rod* rod)
 {
-    double   x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;
+    double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;
     uint32_t count = hair_reference_rod_vertices(rod);
     hair_reference_rod_positions(rod, x);
     for (uint32_t i = 0; i < count; ++i) {
         hair_vec3 p = hair_test_at(living, guide, i);
-        double    a = (double)p.x - x[3 * i], b = (double)p.y - x[3 * i + 1], c = (double)p.z - x[3 * i + 2];
+        double a = (double)p.x - x[3 * i], b = (double)p.y - x[3 * i + 1], c = (double)p.z - x[3 * i + 2];
         most = fmax(most, sqrt(a * a + b * b + c * c));
     }
     return most;
@@ -300,7 +300,7 @@ double hair_test_off(const struct hair_test_living* living, uint32_t guide,
 struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 axis, double angle)
 {
     hair_vec3 unit = hair_normalize(axis, hair_v3(0, 1, 0));
-    double    s    = sin(angle / 2);
+    double s = sin(angle / 2);
     return (struct hair_reference_rod_pose){
         {(double)position.x, (double)position.y, (double)position.z},
         {s * (double)unit.x, s * (double)unit.y, s * (double)unit.z, cos(angle / 2)}};
@@ -309,10 +309,10 @@ struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 a
 hair_physics hair_test_bare(void)
 {
     hair_physics physics = hair_physics_default();
-    physics.young        = 3e9f;
+    physics.young = 3e9f;
     physics.fiber_radius = 5e-5f;
-    physics.damping      = 1;
-    physics.hold         = 0;
+    physics.damping = 1;
+    physics.hold = 0;
     physics.pull_root = physics.pull_tip = physics.sleep = 0;
     return physics;
 }
@@ -320,9 +320,9 @@ hair_physics hair_test_bare(void)
 hair_physics hair_test_loose(float friction)
 {
     hair_physics physics = hair_physics_default();
-    physics.hold         = 0;
+    physics.hold = 0;
     physics.pull_root = physics.pull_tip = 0;
-    physics.friction                     = friction;
+    physics.friction = friction;
     return physics;
 }
 
@@ -330,10 +330,10 @@ hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double subste
                          const hair_physics* physics)
 {
     hair_desc desc = hair_desc_default();
-    desc.solver    = solver;
-    desc.mapping   = mapping;
-    desc.substep   = (float)substep;
-    desc.physics   = physics;
+    desc.solver = solver;
+    desc.mapping = mapping;
+    desc.substep = (float)substep;
+    desc.physics = physics;
     return desc;
 }
 

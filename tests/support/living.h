@@ -8,13 +8,13 @@
 
 struct hair_test_living {
     struct hair_test* test;
-    hair_groom*       groom;
-    hair_instance*    hair;
-    hair_physics      physics;
-    hair_wind         wind;
-    uint32_t          vertices;  // of all guides
-    float*            positions; // where they were when read last, xyz
-    float*            before;    // and the time before
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_physics physics;
+    hair_wind wind;
+    uint32_t vertices; // of all guides
+    float* positions; // where they were when read last, xyz
+    float* before; // and the time before
 };
 
 // Every strand is a guide of as many vertices as it has. Uses desc.physics, or the defaults.
@@ -26,8 +26,8 @@ void hair_test_die(struct hair_test_living* living);
 hair_physics hair_test_bare(void);
 // The defaults, but that nothing holds the groom's shape.
 hair_physics hair_test_loose(float friction);
-hair_desc    hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
-                            const hair_physics* physics);
+hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
+                         const hair_physics* physics);
 
 // Straight, from `root` along `way`, which need not be unit; evenly spaced.
 struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, hair_vec3 way, float length);
@@ -46,7 +46,7 @@ void hair_test_read_guides(struct hair_test_living* living);
 
 hair_vec3 hair_test_at(const struct hair_test_living* living, uint32_t guide, uint32_t vertex);
 hair_vec3 hair_test_tip(const struct hair_test_living* living, uint32_t guide);
-double    hair_test_length(const struct hair_test_living* living, uint32_t guide);
+double hair_test_length(const struct hair_test_living* living, uint32_t guide);
 // Of what was read last: largest |length / rest length - 1| of a segment.
 double hair_test_stretch(const struct hair_test_living* living);
 // Farthest that a vertex is from where it was when read the time before. m.
@@ -56,8 +56,8 @@ double hair_test_from_rest(const struct hair_test_living* living);
 
 // A solid at a place, turned by no angle and of no size; and turned about one of its axes.
 hair_solid hair_test_body(hair_shape shape, float x, float y, float z);
-void       hair_test_turn(hair_solid* solid, int axis, double angle);
-void       hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count);
+void hair_test_turn(hair_solid* solid, int axis, double angle);
+void hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count);
 // How far a vertex is in a solid at most; negative: how near. A root that the scalp holds does not count. m.
 double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid);
 
@@ -77,7 +77,7 @@ struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 a
 
 // The scene by which solvers are compared: a strand of 0.3 m, from 0.1 m beside the head's origin and 30 degrees below
 // the horizontal; and the head at `time`, which yaws by 0.6 rad and back within a second.
-struct hair_test_strands       hair_test_slanting(uint32_t vertices);
+struct hair_test_strands hair_test_slanting(uint32_t vertices);
 struct hair_reference_rod_pose hair_test_shaken(double time);
 
 #endif

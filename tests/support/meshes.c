@@ -16,7 +16,7 @@ struct hair_test_mesh hair_test_box_mesh(const float half[3])
 {
     static const uint32_t triangles[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                                          2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-    struct hair_test_mesh mesh        = make(8, 12);
+    struct hair_test_mesh mesh = make(8, 12);
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 3; ++k) mesh.positions[3 * i + k] = i >> k & 1 ? half[k] : -half[k];
     memcpy(mesh.triangles, triangles, sizeof triangles);
@@ -31,15 +31,15 @@ static uint32_t ball_vertex(uint32_t rows, uint32_t columns, uint32_t row, uint3
 struct hair_test_mesh hair_test_ball_mesh(float radius, uint32_t rows, uint32_t columns)
 {
     struct hair_test_mesh mesh = make(2 + (rows - 1) * columns, 2 * (rows - 1) * columns);
-    uint32_t*             out  = mesh.triangles;
-    const double          pi   = 3.14159265358979;
+    uint32_t* out = mesh.triangles;
+    const double pi = 3.14159265358979;
     for (uint32_t row = 0; row <= rows; ++row)
         for (uint32_t column = 0; column < columns; ++column) {
             double polar = pi * row / rows, turn = 2 * pi * column / columns;
             float* at = mesh.positions + 3 * ball_vertex(rows, columns, row, column);
-            at[0]     = (float)((double)radius * sin(polar) * sin(turn));
-            at[1]     = (float)((double)radius * cos(polar));
-            at[2]     = (float)((double)radius * sin(polar) * cos(turn));
+            at[0] = (float)((double)radius * sin(polar) * sin(turn));
+            at[1] = (float)((double)radius * cos(polar));
+            at[2] = (float)((double)radius * sin(polar) * cos(turn));
             if (row == rows) continue;
             uint32_t a = ball_vertex(rows, columns, row, column),
                      b = ball_vertex(rows, columns, row + 1, column),
@@ -60,7 +60,7 @@ void hair_test_mesh_append(struct hair_test_mesh* mesh, const struct hair_test_m
            other->vertex_count * 3 * sizeof(float));
     memcpy(both.triangles, mesh->triangles, mesh->triangle_count * 3 * sizeof(uint32_t));
     for (uint32_t i = 0; i < 3 * other->triangle_count; ++i) {
-        uint32_t from                                = inside_out ? i - i % 3 + 2 - i % 3 : i;
+        uint32_t from = inside_out ? i - i % 3 + 2 - i % 3 : i;
         both.triangles[3 * mesh->triangle_count + i] = mesh->vertex_count + other->triangles[from];
     }
     hair_test_mesh_free(mesh);

@@ -5,9 +5,9 @@
 #include <stdint.h>
 
 struct hair_test_mesh {
-    float*    positions;
+    float* positions;
     uint32_t* triangles;
-    uint32_t  vertex_count, triangle_count;
+    uint32_t vertex_count, triangle_count;
 };
 
 struct hair_test_mesh hair_test_box_mesh(const float half[3]);

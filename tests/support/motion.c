@@ -7,21 +7,21 @@
 
 struct hair_test_subject hair_test_subject_of(uint32_t kind)
 {
-    struct hair_test_subject subject = {.groom   = hair_test_handmade_default(),
-                                        .desc    = hair_desc_default(),
+    struct hair_test_subject subject = {.groom = hair_test_handmade_default(),
+                                        .desc = hair_desc_default(),
                                         .physics = hair_physics_default(),
-                                        .seed    = 7919 * kind};
-    subject.groom.seed               = kind + 1;
-    subject.desc.solver              = (hair_solver)(kind % HAIR_TEST_SOLVERS);
-    subject.desc.substep             = 1.0f / 120;
+                                        .seed = 7919 * kind};
+    subject.groom.seed = kind + 1;
+    subject.desc.solver = (hair_solver)(kind % HAIR_TEST_SOLVERS);
+    subject.desc.substep = 1.0f / 120;
     if (kind == 1) { // Guides of many lengths, in many short substeps.
         subject.groom.guides = 5, subject.groom.fewest = 4, subject.groom.most = 9;
-        subject.desc.substep    = 1.0f / 500;
+        subject.desc.substep = 1.0f / 500;
         subject.physics.damping = 12, subject.physics.bend = 0.4f;
     }
     if (kind == 2) { // Long ones, of a work group of 64.
         subject.groom.guides = 3, subject.groom.fewest = 40, subject.groom.most = 40;
-        subject.groom.segment      = 0.004f;
+        subject.groom.segment = 0.004f;
         subject.physics.gravity[0] = 3, subject.physics.iterations = 7;
     }
     if (kind == 3) // In substeps as the solver wants them.
@@ -31,13 +31,13 @@ struct hair_test_subject hair_test_subject_of(uint32_t kind)
 
 hair_instance* hair_test_subject_make(struct hair_test* test, const struct hair_test_subject* subject)
 {
-    hair_instance* hair  = NULL;
-    hair_groom*    groom = hair_test_groom(&test->host.host, subject->groom);
-    hair_desc      desc  = subject->desc;
-    hair_look      look  = hair_look_default();
-    look.segments        = 8;
-    desc.physics         = &subject->physics;
-    desc.look            = &look;
+    hair_instance* hair = NULL;
+    hair_groom* groom = hair_test_groom(&test->host.host, subject->groom);
+    hair_desc desc = subject->desc;
+    hair_look look = hair_look_default();
+    look.segments = 8;
+    desc.physics = &subject->physics;
+    desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_groom_destroy(groom);
     return hair;
@@ -70,25 +70,25 @@ void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hai
 void hair_test_move(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                     uint32_t i)
 {
-    float      transform[16], time = 0.11f * (float)i + (float)subject->seed;
-    hair_quat  q        = turn(time);
+    float transform[16], time = 0.11f * (float)i + (float)subject->seed;
+    hair_quat q = turn(time);
     hair_solid solids[] = {{HAIR_SHAPE_SPHERE,
                             {0.15f * cosf(2 * time), 0.1f, 0.15f * sinf(2 * time)},
                             {0, 0, 0, 1},
                             {0.08f, NAN},
-                            .scale    = 1,
+                            .scale = 1,
                             .friction = 1},
                            {HAIR_SHAPE_CAPSULE,
                             {0.1f * sinf(time), 0.1f, 0},
                             {q.x, q.y, q.z, q.w},
                             {0.05f, 0.04f},
-                            .scale    = 1,
+                            .scale = 1,
                             .friction = 1},
                            {HAIR_SHAPE_SPHERE,
                             {-0.1f, 0.2f * cosf(time), 0.1f},
                             {0, 0, 0, 1},
                             {0.07f, 0},
-                            .scale    = 1,
+                            .scale = 1,
                             .friction = 1}};
     if (i % 6 == 0) hair_test_set(test, hair, subject, i);
     if (i % 3 == 2) return;

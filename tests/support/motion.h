@@ -14,10 +14,10 @@
 // One head of hair and what happens to it: every event follows from `seed` and its number.
 struct hair_test_subject {
     struct hair_test_handmade groom;
-    hair_desc                 desc;
-    hair_physics              physics; // at first
-    uint32_t                  seed;
-    int                       hardens; // and softens again, time after time
+    hair_desc desc;
+    hair_physics physics; // at first
+    uint32_t seed;
+    int hardens; // and softens again, time after time
 };
 
 struct hair_test_subject hair_test_subject_of(uint32_t kind);
@@ -39,7 +39,7 @@ void hair_test_run(struct hair_test* test, hair_instance* hair, const struct hai
 // All that can be seen of an instance: the state itself, with what its solver has beside it; guides, smoothed guides,
 // followers.
 struct hair_test_seen {
-    float  number[HAIR_TEST_SEEN];
+    float number[HAIR_TEST_SEEN];
     size_t count;
 };
 
@@ -53,7 +53,7 @@ void hair_test_pose(float time, float transform[16]);
 // What hair_save writes. To be freed.
 struct hair_test_blob {
     unsigned char* bytes;
-    size_t         size;
+    size_t size;
 };
 struct hair_test_blob hair_test_save(struct hair_test* test, hair_instance* hair);
 

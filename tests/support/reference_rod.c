@@ -11,21 +11,21 @@ void hair_test_plane_make(struct hair_test_plane* p, uint32_t vertices, double a
 {
     p->desc = hair_reference_rod_desc_default();
     for (uint32_t i = 0; i < vertices; ++i) {
-        p->lengths[i]           = 1.0 / (vertices - 1);
-        p->positions[3 * i]     = i * p->lengths[i] * sin(angle);
+        p->lengths[i] = 1.0 / (vertices - 1);
+        p->positions[3 * i] = i * p->lengths[i] * sin(angle);
         p->positions[3 * i + 1] = -(i * p->lengths[i]) * cos(angle);
         p->positions[3 * i + 2] = 0;
     }
-    p->desc.vertices     = vertices;
-    p->desc.positions    = p->positions;
-    p->desc.lengths      = p->lengths;
+    p->desc.vertices = vertices;
+    p->desc.positions = p->positions;
+    p->desc.lengths = p->lengths;
     p->desc.line_density = 1;
     p->desc.bend[0] = p->desc.bend[1] = 1;
-    p->desc.twist                     = 1 / 1.45;
-    p->desc.plain_clamp               = 1;
-    p->desc.gravity[1]                = -gamma;
-    p->desc.root_frame[2]             = sin((angle - PI) / 2); // y by angle - pi about z.
-    p->desc.root_frame[3]             = cos((angle - PI) / 2);
+    p->desc.twist = 1 / 1.45;
+    p->desc.plain_clamp = 1;
+    p->desc.gravity[1] = -gamma;
+    p->desc.root_frame[2] = sin((angle - PI) / 2); // y by angle - pi about z.
+    p->desc.root_frame[3] = cos((angle - PI) / 2);
 }
 
 void hair_test_plane_curl(struct hair_test_plane* p, double turn)

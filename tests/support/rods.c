@@ -9,20 +9,20 @@
 
 void hair_test_rod_place(struct hair_test_rod* f, uint32_t count, const float* p)
 {
-    f->guide      = (struct hair_guide){.count = count};
-    hair_quat at  = {0, 0, 0, 1};
+    f->guide = (struct hair_guide){.count = count};
+    hair_quat at = {0, 0, 0, 1};
     hair_vec3 was = {0, 1, 0};
     for (uint32_t i = 0; i < count; ++i) {
         float length = 0;
         if (i + 1 < count) {
             hair_vec3 link = hair_sub(hair_load3(p + 3 * i + 3), hair_load3(p + 3 * i));
-            hair_vec3 to   = hair_normalize(link, was);
-            length         = hair_length(link);
-            at             = hair_quat_normalize(hair_quat_multiply(hair_quat_between(was, to), at));
-            was            = to;
+            hair_vec3 to = hair_normalize(link, was);
+            length = hair_length(link);
+            at = hair_quat_normalize(hair_quat_multiply(hair_quat_between(was, to), at));
+            was = to;
         }
         f->rest[i].position = (hair_vec4){p[3 * i], p[3 * i + 1], p[3 * i + 2], length};
-        f->rest[i].frame    = (hair_vec4){at.x, at.y, at.z, at.w};
+        f->rest[i].frame = (hair_vec4){at.x, at.y, at.z, at.w};
         if (i == 0) f->guide.root_frame = f->rest[0].frame;
         f->guide.arc_length += length;
     }
@@ -32,8 +32,8 @@ void hair_test_rod_straight(struct hair_test_rod* f, uint32_t count, double leng
 {
     float p[3 * MOST];
     for (uint32_t i = 0; i < count; ++i) {
-        double s     = length * i / (count - 1);
-        p[3 * i]     = (float)(s * sin(angle));
+        double s = length * i / (count - 1);
+        p[3 * i] = (float)(s * sin(angle));
         p[3 * i + 1] = (float)(-s * cos(angle));
         p[3 * i + 2] = 0;
     }
@@ -44,8 +44,8 @@ void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment)
 {
     float p[3 * MOST];
     for (uint32_t i = 0; i < count; ++i) {
-        double t     = i + 0.2 * sin(5.0 * i);
-        p[3 * i]     = (float)(segment * (0.8 * t + cos(0.7 * t)));
+        double t = i + 0.2 * sin(5.0 * i);
+        p[3 * i] = (float)(segment * (0.8 * t + cos(0.7 * t)));
         p[3 * i + 1] = (float)(segment * 0.4 * t);
         p[3 * i + 2] = (float)(segment * sin(0.7 * t));
     }
@@ -55,8 +55,8 @@ void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment)
 struct hair_test_rod* hair_test_rod_make(void)
 {
     struct hair_test_rod* f = calloc(1, sizeof *f);
-    f->physics              = hair_physics_default();
-    f->physics.young        = 3e9f;
+    f->physics = hair_physics_default();
+    f->physics.young = 3e9f;
     f->physics.fiber_radius = 5e-5f;
     return f;
 }

@@ -5,12 +5,12 @@
 #include "lib/sim/rod.h"
 
 struct hair_test_rod {
-    struct hair_guide       guide;
-    struct hair_rest        rest[HAIR_MAX_GUIDE_VERTICES];
-    hair_physics            physics;
-    struct hair_rod_borne   borne[HAIR_MAX_GUIDE_VERTICES]; // from hair_test_rod_hold
+    struct hair_guide guide;
+    struct hair_rest rest[HAIR_MAX_GUIDE_VERTICES];
+    hair_physics physics;
+    struct hair_rod_borne borne[HAIR_MAX_GUIDE_VERTICES]; // from hair_test_rod_hold
     struct hair_rods_report report;
-    struct hair_rod         rod[HAIR_MAX_GUIDE_VERTICES]; // from hair_test_rod_write
+    struct hair_rod rod[HAIR_MAX_GUIDE_VERTICES]; // from hair_test_rod_write
 };
 
 // Hair of the design's reference values: Young's modulus 3 GPa, radius 0.05 mm, Poisson's ratio 0.45. free() ends it.
@@ -23,8 +23,8 @@ void hair_test_rod_straight(struct hair_test_rod* f, uint32_t count, double leng
 // A corkscrew about a slanting axis, with uneven segments of about that length.
 void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment);
 
-void   hair_test_rod_hold(struct hair_test_rod* f);
-void   hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep); // holds it first
+void hair_test_rod_hold(struct hair_test_rod* f);
+void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep); // holds it first
 double hair_test_rod_substep(struct hair_test_rod* f, hair_solver solver); // that the solver wants
 double hair_test_rod_bend(const hair_physics* physics); // bending stiffness over mass per length. m^4/s^2
 

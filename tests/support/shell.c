@@ -38,13 +38,13 @@ const char* hair_test_folder(void)
 int hair_test_shell(const char* command)
 {
     static char line[8192];
-    int         length = snprintf(line, sizeof line, "{ T=%s; D=%s; %s\n} 2>&1", program, folder, command);
+    int length = snprintf(line, sizeof line, "{ T=%s; D=%s; %s\n} 2>&1", program, folder, command);
     assert_in_range(length, 1, sizeof line - 1);
     FILE* pipe = popen(line, "r");
     assert_non_null(pipe);
-    size_t size          = fread(hair_test_said, 1, sizeof hair_test_said - 1, pipe);
+    size_t size = fread(hair_test_said, 1, sizeof hair_test_said - 1, pipe);
     hair_test_said[size] = 0;
-    int status           = pclose(pipe);
+    int status = pclose(pipe);
     assert_true(WIFEXITED(status));
     return WEXITSTATUS(status);
 }

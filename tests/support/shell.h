@@ -5,8 +5,8 @@
 #include <jansson.h>
 
 // For cmocka_run_group_tests: a new folder, and its end. `tool` is a path.
-int         hair_test_shell_start(const char* tool);
-int         hair_test_shell_finish(void** state);
+int hair_test_shell_start(const char* tool);
+int hair_test_shell_finish(void** state);
 const char* hair_test_folder(void); // Where it is.
 
 extern char hair_test_said[16384]; // By the last command, both streams.

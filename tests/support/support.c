@@ -38,8 +38,8 @@ int hair_test_start(void** state)
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(listen, NULL);
     hair_context_desc desc = hair_context_desc_default();
-    desc.host              = &test->host.host;
-    desc.get_proc          = hair_egl_get_proc;
+    desc.host = &test->host.host;
+    desc.get_proc = hair_egl_get_proc;
     if (hair_context_create(&desc, &test->context)) {
         fprintf(stderr, "%s\n", test->host.sentence);
         return -1;
@@ -69,17 +69,17 @@ int hair_test_begin(void** state)
     struct hair_test* test = *state;
     hair_egl_make_current(test->egl);
     while (glGetError()) {}
-    test->blocks         = hair_test_blocks(test);
-    test->host.errors    = 0;
-    test->host.refuse    = 0;
+    test->blocks = hair_test_blocks(test);
+    test->host.errors = 0;
+    test->host.refuse = 0;
     *test->host.sentence = 0;
     return 0;
 }
 
 int hair_test_end(void** state)
 {
-    struct hair_test* test  = *state;
-    GLenum            error = glGetError();
+    struct hair_test* test = *state;
+    GLenum error = glGetError();
     if (error) fprintf(stderr, "OpenGL error 0x%x\n", error);
     if (test->host.errors) fprintf(stderr, "the log has: %s\n", test->host.sentence);
     int left = (int)(hair_test_blocks(test) - test->blocks);
@@ -89,7 +89,7 @@ int hair_test_end(void** state)
 
 uint32_t hair_test_forgive(struct hair_test* test)
 {
-    uint32_t errors   = test->host.errors;
+    uint32_t errors = test->host.errors;
     test->host.errors = 0;
     return errors;
 }

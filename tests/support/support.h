@@ -16,9 +16,9 @@
 
 struct hair_test {
     struct hair_test_host host;
-    hair_egl*             egl;
-    hair_context*         context;
-    uint32_t              blocks; // hair_test_blocks when a test begins
+    hair_egl* egl;
+    hair_context* context;
+    uint32_t blocks; // hair_test_blocks when a test begins
 };
 
 // Whether there is no OpenGL and that is no failure. With HAIR_TEST=required, as `make test` sets it, the

@@ -16,8 +16,8 @@ enum function {
 };
 
 static uint32_t counts[CALLS], waits;
-static int      is_behind;
-static void*    reals[CALLS];
+static int is_behind;
+static void* reals[CALLS];
 
 static const char* const names[] = {
 #define FUNCTION(type, name, parameters) "gl" #name,
@@ -154,8 +154,8 @@ uint32_t hair_test_trace_waits(void)
 const char* hair_test_trace_list(void)
 {
     static char text[4096];
-    size_t      used = 0;
-    *text            = 0;
+    size_t used = 0;
+    *text = 0;
     for (int i = 0; i < CALLS && used < sizeof text; ++i)
         if (counts[i])
             used += (size_t)snprintf(text + used, sizeof text - used, "%s %u, ", names[i], counts[i]);

@@ -6,9 +6,9 @@ hair_desc hair_test_way(int way)
     static const float substeps[HAIR_TEST_SOLVERS] = {1.0f / 240, 1.0f / 960, 1.0f / 120, 1.0f / 120};
 
     hair_desc desc = hair_desc_default();
-    desc.solver    = (hair_solver)(way / 2);
-    desc.mapping   = way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
-    desc.substep   = substeps[desc.solver];
+    desc.solver = (hair_solver)(way / 2);
+    desc.mapping = way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+    desc.substep = substeps[desc.solver];
     return desc;
 }
 

@@ -27,14 +27,14 @@ struct member {
     char comment[256];
 };
 
-static char          headers[1 << 17]; // all of them
+static char headers[1 << 17]; // all of them
 static struct member members[512];
-static size_t        member_count;
+static size_t member_count;
 
 static void read_headers(void)
 {
     static const char* const names[] = {"include/hair/hair.h", "include/hair/hair_asset.h"};
-    size_t                   size    = 0;
+    size_t size = 0;
     for (int i = 0; i < 2; ++i) {
         FILE* file = fopen(names[i], "rb");
         if (!file) fail_msg("%s is not there: run this where the Makefile is", names[i]);
@@ -47,8 +47,8 @@ static void read_headers(void)
 static void read_member(const char* line, const char* owner)
 {
     struct member member = {0};
-    const char*   end    = strchr(line, ';');
-    const char*   about  = strstr(line, "///<");
+    const char* end = strchr(line, ';');
+    const char* about = strstr(line, "///<");
     snprintf(member.owner, sizeof member.owner, "%s", owner);
     const char* parenthesis = strchr(line, '(');
     if (!end || (parenthesis && parenthesis < end)) return; // No member, or a function.
@@ -81,8 +81,8 @@ static int read_members(void** state)
 static double find_enumerator(const char* name, size_t length)
 {
     for (const char* at = strstr(headers, "typedef enum"); at; at = strstr(at + 1, "typedef enum")) {
-        const char* end   = strchr(at, '}');
-        double      value = 0;
+        const char* end = strchr(at, '}');
+        double value = 0;
         for (const char* p = strchr(at, '{') + 1; p < end; ++p) {
             if (strncmp(p, "//", 2) == 0) p += strcspn(p, "\n");
             if (strncmp(p, "HAIR_", 5)) continue;
@@ -173,15 +173,15 @@ static void check_field(const char* owner, const struct hair_field* field)
 {
     char name[40];
     snprintf(name, sizeof name, "%s", strchr(field->name, '.') + 1);
-    char* bracket               = strchr(name, '[');
-    int   index                 = bracket ? atoi(bracket + 1) : 0;
-    name[strcspn(name, "[.")]   = 0; // Of a curve its numbers are members of a member.
+    char* bracket = strchr(name, '[');
+    int index = bracket ? atoi(bracket + 1) : 0;
+    name[strcspn(name, "[.")] = 0; // Of a curve its numbers are members of a member.
     const struct member* member = find_member(owner, name);
     if (!member) fail_msg("%s is in no header", field->name);
 
     double min, max, value;
-    int    enumerators = count_enumerators(member->type);
-    int    everything  = field->max > 1e30 || (field->min == 0 && field->max == UINT32_MAX);
+    int enumerators = count_enumerators(member->type);
+    int everything = field->max > 1e30 || (field->min == 0 && field->max == UINT32_MAX);
     if (read_range(member->comment, &min, &max)) {
         check(field->name, "least", min, field->min);
         check(field->name, "most", max, field->max);
@@ -240,7 +240,7 @@ static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
     size_t ranges = 0;
     for (size_t i = 0; i < member_count; ++i) {
         const struct member* member = &members[i];
-        double               min, max;
+        double min, max;
         if (!has_table(member->owner) || strcmp(member->type, "const") == 0)
             continue; // Arrays are checked elsewhere.
         int range = read_range(member->comment, &min, &max);
@@ -256,8 +256,8 @@ static void the_default_functions_follow_the_table(void** state)
 {
     (void)state;
     hair_physics physics = hair_physics_default();
-    hair_desc    desc    = hair_desc_default();
-    hair_light   light   = hair_light_default();
+    hair_desc desc = hair_desc_default();
+    hair_light light = hair_light_default();
     assert_int_equal(physics.made.size, sizeof physics);
     assert_int_equal(physics.made.version, HAIR_VERSION);
     assert_true(physics.gravity[1] == -9.81f);

@@ -34,20 +34,20 @@ static const struct {
 // Read it with some import or other, and read what was made of it once more. Returns whether it was accepted.
 static bool survives(const void* bytes, size_t size)
 {
-    hair_import imports[3]     = {hair_test_import(), hair_test_import(), hair_test_import()};
-    imports[1].tip_first       = 1;
-    imports[1].up              = HAIR_UP_X;
+    hair_import imports[3] = {hair_test_import(), hair_test_import(), hair_test_import()};
+    imports[1].tip_first = 1;
+    imports[1].up = HAIR_UP_X;
     imports[1].strand_vertices = 8;
-    imports[2].scale           = 1e6f;
-    imports[2].share           = 1e-6f;
-    uint32_t accepted          = 0;
+    imports[2].scale = 1e6f;
+    imports[2].share = 1e-6f;
+    uint32_t accepted = 0;
     for (int i = 0; i < 3; ++i) {
         hair_asset* asset = NULL;
         if (hair_test_read(&test, &imports[i], bytes, size, &asset)) continue;
         size_t needed = 0;
         assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_HAIR, NULL, 0, &needed), HAIR_OK);
-        void*       written = malloc(needed);
-        hair_asset* again   = NULL;
+        void* written = malloc(needed);
+        hair_asset* again = NULL;
         assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_HAIR, written, needed, &needed), HAIR_OK);
         assert_int_equal(hair_test_read(&test, &imports[0], written, needed, &again), HAIR_OK);
         assert_int_equal(again->strands.vertex_count, asset->strands.vertex_count);
@@ -110,7 +110,7 @@ static void every_flipped_bit_is_survived(void** state)
     assert_in_range(flip_every_bit(hair_test_hair(2), 128), 850, 1024 - 4 * 32 - 1);
     for (size_t i = 0; i < FORMATS; ++i) {
         struct hair_test_file file = formats[i].make();
-        size_t                size = formats[i].header ? formats[i].header : file.size;
+        size_t size = formats[i].header ? formats[i].header : file.size;
         assert_in_range(flip_every_bit(file, size), 100, 8 * size - 64);
     }
     // The data too: any position, any text, any number.
@@ -144,10 +144,10 @@ static void hostile_hair_is_refused(void** state)
     assert_false(takes_hair(3, 12, 1)); // No points.
     assert_false(takes_hair(3, 12, 0));
     assert_false(takes_hair(3, 12, 4));
-    assert_false(takes_hair(2, 16, 0));          // d_segments
+    assert_false(takes_hair(2, 16, 0)); // d_segments
     assert_false(takes_hair(2, 16, 0xffffffff)); // Plus one wraps to 0.
     assert_false(takes_hair(2, 16, 0x55555557)); // Plus one, times 3 strands, wraps to 8.
-    assert_true(takes_hair(3, 16, 0xffffffff));  // Not in force.
+    assert_true(takes_hair(3, 16, 0xffffffff)); // Not in force.
     assert_true(takes_hair(3, 12, 0xffffffe0 | 3));
     assert_true(takes_hair(3, 20, 0x7fc00000)); // NaN where nothing is read.
 }
@@ -186,7 +186,7 @@ static void strands_of_65535_segments_are_read(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_hair(2);
-    file.size                  = 128;
+    file.size = 128;
     hair_test_set_u32(&file, 4, 2);
     hair_test_set_u32(&file, 8, 2 * 65536);
     hair_test_set_u32(&file, 12, 3);
@@ -197,7 +197,7 @@ static void strands_of_65535_segments_are_read(void** state)
         hair_test_put_float(&file, 0);
     }
     hair_import import = hair_test_import();
-    hair_asset* asset  = NULL;
+    hair_asset* asset = NULL;
     assert_int_equal(hair_test_read(&test, &import, file.bytes, file.size, &asset), HAIR_OK);
     assert_int_equal(asset->strands.vertices[1], 256);
     assert_int_equal(asset->repairs.resampled, 2);
@@ -220,7 +220,7 @@ static void hostile_tfx_is_refused(void** state)
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
         assert_false(takes_tfx(hair_test_tfx4(), 8, counts[i])); // Vertices of each strand.
         assert_false(takes_tfx(hair_test_tfx3(), 8, counts[i]));
-        if (counts[i] == 1) continue;                            // One strand is fine.
+        if (counts[i] == 1) continue; // One strand is fine.
         assert_false(takes_tfx(hair_test_tfx4(), 4, counts[i])); // Strands.
         assert_false(takes_tfx(hair_test_tfx3(), 4, counts[i]));
     }
@@ -262,10 +262,10 @@ static void claims_of_short_files_take_no_memory(void** state)
 static void memory_stays_within_its_bound(void** state)
 {
     (void)state;
-    const uint32_t        count    = 1500000;
-    const char            strand[] = "strand numVerts 2\n0 0 0\n1 0 0\n";
-    struct hair_test_file hair     = hair_test_hair(0);
-    struct hair_test_file text     = {0};
+    const uint32_t count = 1500000;
+    const char strand[] = "strand numVerts 2\n0 0 0\n1 0 0\n";
+    struct hair_test_file hair = hair_test_hair(0);
+    struct hair_test_file text = {0};
     hair_test_set_u32(&hair, 4, count);
     hair_test_set_u32(&hair, 8, 2 * count);
     hair_test_set_u32(&hair, 12, 2);
@@ -278,7 +278,7 @@ static void memory_stays_within_its_bound(void** state)
     const struct hair_test_file files[2] = {hair, text};
     for (int i = 0; i < 2; ++i) {
         hair_import import = hair_test_import();
-        hair_asset* asset  = NULL;
+        hair_asset* asset = NULL;
         assert_int_equal(hair_test_read(&test, &import, files[i].bytes, files[i].size, &asset), HAIR_OK);
         assert_int_equal(asset->strands.strand_count, count);
         assert_true(test.peak <= 2 * files[i].size); // Well within what hair_asset.h promises.
@@ -290,14 +290,14 @@ static void memory_stays_within_its_bound(void** state)
 static void more_strands_than_a_groom_can_hold_need_a_share(void** state)
 {
     (void)state;
-    const uint32_t        most = 4194304;
+    const uint32_t most = 4194304;
     struct hair_test_file file = hair_test_hair(0);
     hair_test_set_u32(&file, 12, 2);
     hair_test_set_u32(&file, 16, 1);
     for (uint32_t i = 0; i <= most; ++i) hair_test_put(&file, (const float[6]){0, 0, 0, 1, 0, 0}, 24);
     for (uint32_t more = 0; more < 3; ++more) {
         hair_import import = hair_test_import();
-        hair_asset* asset  = NULL;
+        hair_asset* asset = NULL;
         if (more == 2) import.share = 0.5f;
         hair_test_set_u32(&file, 4, most + (more > 0));
         hair_test_set_u32(&file, 8, 2 * (most + (more > 0)));
@@ -313,17 +313,17 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     (void)state;
     struct hair_test_file files[] = {hair_test_hair(31), hair_test_tfx4(), hair_test_tfx3(),
                                      hair_test_tfx2()};
-    hair_import           import  = hair_test_import();
-    import.strand_vertices        = 2;
-    import.share                  = 0.4f;
+    hair_import import = hair_test_import();
+    import.strand_vertices = 2;
+    import.share = 0.4f;
     for (size_t i = 0; i < 4; ++i) {
         uint32_t failures = 0;
         for (uint32_t refuse = 1;; ++refuse, ++failures) {
-            hair_asset* asset  = NULL;
-            test.allocations   = 0;
-            test.refuse        = refuse;
+            hair_asset* asset = NULL;
+            test.allocations = 0;
+            test.refuse = refuse;
             hair_result result = hair_test_read(&test, &import, files[i].bytes, files[i].size, &asset);
-            test.refuse        = 0;
+            test.refuse = 0;
             if (result == HAIR_OK) {
                 hair_asset_free(asset);
                 break;

@@ -92,10 +92,10 @@ static void half_the_thickness_at_the_root_is_the_radius(void** state)
 {
     (void)state;
     for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
-        hair_import import    = hair_test_import();
-        import.tip_first      = tip_first;
-        import.scale          = 0.01f;
-        hair_asset*     asset = read_with(&import, hair_test_hair(31));
+        hair_import import = hair_test_import();
+        import.tip_first = tip_first;
+        import.scale = 0.01f;
+        hair_asset* asset = read_with(&import, hair_test_hair(31));
         const uint32_t* roots = tip_first ? (uint32_t[3]){2, 4, 8} : (uint32_t[3]){0, 3, 5};
         for (uint32_t i = 0; i < 3; ++i)
             assert_float_equal(asset->strands.radii[i], 0.01f * 0.005f * (float)(1 + roots[i]), 1e-9);
@@ -146,14 +146,14 @@ static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** 
 {
     (void)state;
     for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
-        struct hair_test_file file   = hair_test_hair(31);
-        hair_import           import = hair_test_import();
-        import.tip_first             = tip_first;
+        struct hair_test_file file = hair_test_hair(31);
+        hair_import import = hair_test_import();
+        import.tip_first = tip_first;
         for (uint32_t i = 0; i < 27; ++i)
             hair_test_set_float(&file, file.size - 4 * (27 - i), color_of(i / 3, i % 3));
-        hair_asset*  asset      = read_with(&import, file);
-        uint32_t     ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
-        const float* colors     = asset->strands.colors;
+        hair_asset* asset = read_with(&import, file);
+        uint32_t ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
+        const float* colors = asset->strands.colors;
         assert_non_null(colors);
         for (uint32_t i = 0; i < 9; ++i) { // of each strand, channel
             const float* own = colors + 3 * HAIR_STRAND_COLORS * (i / 3) + i % 3;
@@ -235,7 +235,7 @@ static void tfx_needs_nothing_but_positions(void** state)
     hair_test_set_u32(&file, 20, 0);
     hair_test_set_u32(&file, 24, 0);
     hair_test_set_u32(&file, 28, 0);
-    file.size         = 160 + 24 + 12 + 192;
+    file.size = 160 + 24 + 12 + 192;
     hair_asset* asset = read_file(file);
     assert_strands(asset, (uint32_t[3]){4, 4, 4});
     hair_asset_free(asset);
@@ -255,13 +255,13 @@ static void tfx_of_any_number_of_vertices_is_read(void** state)
 static void import_options_are_used(void** state)
 {
     (void)state;
-    hair_import import     = hair_test_import();
-    import.scale           = 0.01f;
-    import.up              = HAIR_UP_Z;
-    import.tip_first       = 1;
+    hair_import import = hair_test_import();
+    import.scale = 0.01f;
+    import.up = HAIR_UP_Z;
+    import.tip_first = 1;
     import.strand_vertices = 16;
-    import.share           = 0.34f;
-    hair_asset* asset      = read_with(&import, hair_test_tfx3());
+    import.share = 0.34f;
+    hair_asset* asset = read_with(&import, hair_test_tfx3());
     assert_int_equal(asset->strands.strand_count, 1);
     assert_int_equal(asset->strands.vertices[0], 16);
     assert_int_equal(asset->file_strands, 3);
@@ -314,9 +314,9 @@ static void hair_reads_back_bit_for_bit(void** state)
 static void tfx_reads_back_bit_for_bit(void** state)
 {
     (void)state;
-    hair_asset* asset           = read_file(hair_test_tfx3());
+    hair_asset* asset = read_file(hair_test_tfx3());
     asset->strands.positions[4] = 0.1f / 3;
-    struct hair_test_file file  = write_file(asset, HAIR_FORMAT_TFX4);
+    struct hair_test_file file = write_file(asset, HAIR_FORMAT_TFX4);
     assert_int_equal(file.size, 160 + 12 * 16 + 3 * 8);
     // The two vertices at the root are held.
     const unsigned char one[4] = {0, 0, 0x80, 0x3f}, zero[4] = {0};
@@ -331,7 +331,7 @@ static void tfx_reads_back_bit_for_bit(void** state)
 static void formats_that_cannot_hold_the_strands_are_refused(void** state)
 {
     (void)state;
-    size_t      size  = 77;
+    size_t size = 77;
     hair_asset* asset = read_file(hair_test_hair(1 | 2));
     assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX4, NULL, 0, &size), HAIR_ERROR_ARGUMENT);
     assert_non_null(strstr(test.sentence, "strand 0 has 3"));
@@ -342,10 +342,10 @@ static void formats_that_cannot_hold_the_strands_are_refused(void** state)
     hair_asset_free(asset);
 
     for (uint32_t count = 2; count <= 256; ++count) {
-        hair_import import     = hair_test_import();
+        hair_import import = hair_test_import();
         import.strand_vertices = count;
-        asset                  = read_with(&import, hair_test_hair(1 | 2));
-        int fits               = count == 4 || count == 8 || count == 16 || count == 32 || count == 64;
+        asset = read_with(&import, hair_test_hair(1 | 2));
+        int fits = count == 4 || count == 8 || count == 16 || count == 32 || count == 64;
         assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX4, NULL, 0, &size),
                          fits ? HAIR_OK : HAIR_ERROR_ARGUMENT);
         hair_asset_free(asset);
@@ -357,7 +357,7 @@ static struct hair_test_file load(const char* name)
     char path[256];
     snprintf(path, sizeof path, "../shared/data/tressfx/%s", name);
     struct hair_test_file file = {0};
-    FILE*                 in   = fopen(path, "rb");
+    FILE* in = fopen(path, "rb");
     if (!in) return file;
     unsigned char buffer[4096];
     for (size_t got; (got = fread(buffer, 1, sizeof buffer, in)) > 0;) hair_test_put(&file, buffer, got);
@@ -372,7 +372,7 @@ static void real_haircuts_are_read(void** state)
     static const struct {
         const char* name;
         hair_format format;
-        uint32_t    strands, each;
+        uint32_t strands, each;
     } real[] = {{"ponytail_back.tfx", HAIR_FORMAT_TFX3, 517, 16},
                 {"ponytail_front_top.tfx", HAIR_FORMAT_TFX3, 876, 16},
                 {"ponytail_side.tfx", HAIR_FORMAT_TFX3, 3066, 16},
@@ -382,8 +382,8 @@ static void real_haircuts_are_read(void** state)
         struct hair_test_file file = load(real[i].name);
         if (!file.bytes) continue;
         hair_import import = hair_test_import();
-        import.scale       = 0.01f;
-        hair_asset* asset  = read_with(&import, file);
+        import.scale = 0.01f;
+        hair_asset* asset = read_with(&import, file);
         assert_int_equal(asset->format, real[i].format);
         assert_int_equal(asset->file_strands, real[i].strands);
         assert_int_equal(asset->file_vertices, real[i].strands * real[i].each);

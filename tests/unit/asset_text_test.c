@@ -31,7 +31,7 @@ static int finish(void** state)
 static hair_asset* read_text(const char* text)
 {
     hair_import import = hair_test_import();
-    hair_asset* asset  = NULL;
+    hair_asset* asset = NULL;
     assert_int_equal(hair_test_read(&test, &import, text, strlen(text), &asset), HAIR_OK);
     assert_int_equal(asset->format, HAIR_FORMAT_TFX2);
     assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
@@ -41,7 +41,7 @@ static hair_asset* read_text(const char* text)
 static void refuse_text(const char* text, const char* why)
 {
     hair_import import = hair_test_import();
-    hair_asset* asset  = NULL;
+    hair_asset* asset = NULL;
     assert_int_equal(hair_test_read(&test, &import, text, strlen(text), &asset), HAIR_ERROR_FILE);
     if (!strstr(test.sentence, why)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, why);
 }
@@ -122,7 +122,7 @@ static void the_files_own_placement_is_used(void** state)
     // Quarter turns about x, y and z, then about z before x: the y axis goes to -x, and stays there.
     const struct {
         const char* rotation;
-        float       y[3];
+        float y[3];
     } turns[] = {{"1.5707963 0 0", {0, 0, 1}},
                  {"0 1.5707963 0", {0, 1, 0}},
                  {"0 0 1.5707963", {-1, 0, 0}},
@@ -225,10 +225,10 @@ static void random_numbers_give_the_float_that_was_printed(void** state)
     srand(3);
     for (int i = 0; i < 200000; ++i) {
         uint32_t bits = (uint32_t)rand() * 2654435761u ^ (uint32_t)rand();
-        float    want;
+        float want;
         memcpy(&want, &bits, sizeof want);
         if (!isfinite(want)) continue;
-        char   text[64];
+        char text[64];
         double value;
         snprintf(text, sizeof text, "%.9g", (double)want);
         assert_true(number_of(text, &value));

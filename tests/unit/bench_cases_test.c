@@ -30,7 +30,7 @@ static void curved_hair_is_compared_with_the_reference(void** state)
     json_t* root = hair_test_shell_json("w.json");
     json_t* rows = json_object_get(root, "rows");
     json_t* row;
-    size_t  i, defaults = 0;
+    size_t i, defaults = 0;
     json_array_foreach(rows, i, row)
     {
         const char* method = json_string_value(json_object_get(row, "method"));
@@ -52,7 +52,7 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
     json_t* root = hair_test_shell_json("s.json");
     json_t* rows = json_object_get(root, "rows");
     json_t* row;
-    size_t  i;
+    size_t i;
     json_array_foreach(rows, i, row)
     {
         if (!json_is_true(json_object_get(row, "pass")))
@@ -78,8 +78,8 @@ static void physics_cases_are_measured_against_what_is_known(void** state)
         snprintf(command, sizeof command,
                  "$T physics --quick --case %s --method accurate --json $D/p.json --csv /dev/null", names[i]);
         expect(0, command, "");
-        json_t*       root = hair_test_shell_json("p.json");
-        const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
+        json_t* root = hair_test_shell_json("p.json");
+        const json_t* row = json_array_get(json_object_get(root, "rows"), 0);
         if (!json_is_true(json_object_get(row, "pass"))) fail_msg("%s", names[i]);
         assert_true(number(row, "relative_error") > 0);
         json_decref(root);

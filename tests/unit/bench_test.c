@@ -116,7 +116,7 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
     snprintf(path, sizeof path, "%s/a.csv", hair_test_folder());
     json_t* root = hair_test_shell_json("a.json");
     json_t* rows = json_object_get(root, "rows");
-    FILE*   csv  = fopen(path, "r");
+    FILE* csv = fopen(path, "r");
     assert_non_null(csv);
     assert_string_equal(json_string_value(json_object_get(root, "suite")), "accuracy");
     assert_non_null(json_string_value(json_object_get(root, "version")));
@@ -127,7 +127,7 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
         snprintf(keys[count], sizeof keys[count], "%s", field);
     }
     assert_true(count > 20);
-    size_t  i;
+    size_t i;
     json_t* row;
     json_array_foreach(rows, i, row)
     {
@@ -159,8 +159,8 @@ static void a_row_says_what_was_measured_and_how(void** state)
     expect(0,
            "$T accuracy --quick --method accurate --case shake --strands 4 --json $D/r.json --csv /dev/null",
            "");
-    json_t*       root = hair_test_shell_json("r.json");
-    const json_t* row  = json_array_get(json_object_get(root, "rows"), 0);
+    json_t* root = hair_test_shell_json("r.json");
+    const json_t* row = json_array_get(json_object_get(root, "rows"), 0);
     assert_string_equal(json_string_value(json_object_get(row, "solver")), "accurate");
     assert_true(json_number_value(json_object_get(row, "young")) == 3e9);
     assert_true(json_number_value(json_object_get(row, "substeps")) == 16);
@@ -196,7 +196,7 @@ static void the_other_suites_run(void** state)
 
 static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)
 {
-    size_t  i;
+    size_t i;
     json_t* row;
     json_array_foreach(rows, i,
                        row) if (!strcmp(json_string_value(json_object_get(row, "primitive")), primitive) &&
@@ -217,8 +217,8 @@ static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** st
     json_t* root = hair_test_shell_json("r.json");
     json_t* rows = json_object_get(root, "rows");
     json_t *one = find_row(rows, "ribbons", 32, 1), *many = find_row(rows, "ribbons", 32, 4);
-    json_t *lines  = find_row(rows, "lines", 32, 4), *row;
-    double  halves = number(one, "halves_differ");
+    json_t *lines = find_row(rows, "lines", 32, 4), *row;
+    double halves = number(one, "halves_differ");
     assert_true(halves > 0 && halves < 0.01);
     assert_true(number(many, "psnr") > number(one, "psnr") + 3);
     assert_true(number(many, "flip") < number(one, "flip"));
@@ -261,14 +261,14 @@ static void the_front_is_what_nothing_beats(void** state)
     add(&rows, "a", 16, 3, 0.2, "here"); // Worse in the same time.
     add(&rows, "a", 16, 9, 0.0, "here");
     add(&rows, "a", 16, 0.1, 0.0, "elsewhere"); // On another machine.
-    add(&rows, "a", 32, 9, 0.9, "here");        // Of other strands.
+    add(&rows, "a", 32, 9, 0.9, "here"); // Of other strands.
     add(&rows, "a", 32, 1, NAN, "here");
     add(&rows, "a", 32, INFINITY, 0, "here");
     add(&rows, "b", 32, 9, 0.9, "here"); // Of another case.
     bench_mark_front(rows.rows, "ms", "rms_error");
     for (size_t i = 0; marks[i]; ++i) {
         const json_t* front = json_object_get(json_array_get(rows.rows, i), "front");
-        char          mark  = json_is_null(front) ? '-' : json_is_true(front) ? 't' : 'f';
+        char mark = json_is_null(front) ? '-' : json_is_true(front) ? 't' : 'f';
         if (mark != marks[i]) fail_msg("row %zu is %c, not %c", i, mark, marks[i]);
     }
     bench_rows_free(&rows);
@@ -278,8 +278,8 @@ static void what_csv_must_quote_is_quoted(void** state)
 {
     (void)state;
     static const char* const two[] = {"a", "b", NULL};
-    struct bench_rows        rows;
-    char                     text[64] = {0};
+    struct bench_rows rows;
+    char text[64] = {0};
     bench_rows_create(&rows, two);
     bench_set_text(bench_rows_add(&rows), "a", "x, \"y\"");
     bench_set_number(bench_rows_add(&rows), "b", 0.1);
@@ -297,7 +297,7 @@ static void the_frequency_of_a_swing_is_found(void** state)
     (void)state;
     double samples[360];
     for (int k = 0; k < 360; ++k) {
-        double t   = k / 60.0;
+        double t = k / 60.0;
         samples[k] = exp(-0.1 * t) * cos(13.7 * t) + 0.5 * cos(41 * t + 1) + 0.1;
     }
     double found = bench_frequency(samples, 360, 1.0 / 60, 10, 20);

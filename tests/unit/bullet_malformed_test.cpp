@@ -15,7 +15,7 @@ static hair_result take(const btCollisionShape& shape)
 {
     assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
     const uint32_t before = test.host.errors;
-    hair_result    result = hair_bullet_take_shape(test.bullet, &shape, nullptr);
+    hair_result result = hair_bullet_take_shape(test.bullet, &shape, nullptr);
     assert_true(result == HAIR_OK || test.host.errors > before); // Never without a sentence.
     return result;
 }
@@ -23,8 +23,8 @@ static hair_result take(const btCollisionShape& shape)
 // An error, or solids of finite numbers.
 static bool is_borne(const btCollisionShape& shape)
 {
-    hair_result       result = take(shape);
-    uint32_t          count;
+    hair_result result = take(shape);
+    uint32_t count;
     const hair_solid* list = hair_bullet_solids(test.bullet, &count);
     if (result == HAIR_ERROR_ARGUMENT) return count == 0;
     bool ok = result == HAIR_OK;
@@ -47,7 +47,7 @@ static void refused(const btCollisionShape& shape, const char* words)
 
 static std::vector<std::unique_ptr<btCollisionShape>> make_all(btScalar size)
 {
-    const btVector3                                all(size, size, size);
+    const btVector3 all(size, size, size);
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     shapes.emplace_back(new btSphereShape(size));
     shapes.emplace_back(new btBoxShape(all));
@@ -67,7 +67,7 @@ static void no_number_leads_to_solids_that_are_not_finite(void**)
 {
     hair_bullet_set_resolution(test.bullet, 8);
     const btScalar numbers[] = {0, -1, none, inf, -inf, huge, tiny, btScalar(1e7), btScalar(0.1)};
-    uint32_t       taken = 0, count = 0;
+    uint32_t taken = 0, count = 0;
     for (btScalar size : numbers)
         for (btScalar other : numbers)
             for (int what = 0; what < 3; ++what)
@@ -109,9 +109,9 @@ static void meshes_with_vertices_that_are_no_numbers_are_errors(void**)
 static void meshes_scaled_to_nothing_are_errors(void**)
 {
     std::unique_ptr<btTriangleMesh> mesh(tetrahedron(1));
-    btBvhTriangleMeshShape          shape(mesh.get(), true);
-    const btVector3                 nothing(0, 0, 0);
-    btScaledBvhTriangleMeshShape    scaled(&shape, nothing);
+    btBvhTriangleMeshShape shape(mesh.get(), true);
+    const btVector3 nothing(0, 0, 0);
+    btScaledBvhTriangleMeshShape scaled(&shape, nothing);
     refused(scaled, "has triangles that make no form");
     scaled.setLocalScaling(btVector3(none, 1, 1));
     assert_int_equal(take(scaled), HAIR_ERROR_ARGUMENT);
@@ -128,7 +128,7 @@ static void meshes_scaled_to_nothing_are_errors(void**)
 static void degenerate_triangles_are_left_out(void**)
 {
     std::unique_ptr<btTriangleMesh> mesh(tetrahedron(1));
-    const btVector3                 a(0, 0, 0), b(1, 0, 0), c(btScalar(0.5), 0, 0);
+    const btVector3 a(0, 0, 0), b(1, 0, 0), c(btScalar(0.5), 0, 0);
     for (int i = 0; i < 1000; ++i) mesh->addTriangle(a, b, i % 2 ? b : a);
     btBvhTriangleMeshShape shape(mesh.get(), true);
     assert_int_equal(take(shape), HAIR_OK);
@@ -162,7 +162,7 @@ static void height_fields_that_are_no_numbers_are_errors(void**)
 
 static void a_hull_of_millions_of_points_is_an_error(void**)
 {
-    std::vector<btVector3>  points(1048576 + 7, btVector3(1, 2, 3));
+    std::vector<btVector3> points(1048576 + 7, btVector3(1, 2, 3));
     btConvexPointCloudShape cloud(points.data(), static_cast<int>(points.size()), btVector3(1, 1, 1));
     refused(cloud, "has 1048576 points or more");
     test.host.errors = 0;
@@ -171,14 +171,14 @@ static void a_hull_of_millions_of_points_is_an_error(void**)
 // As many triangles as it is told, of no memory.
 struct many : btConcaveShape {
     explicit many(int count) : count(count) { m_shapeType = TRIANGLE_MESH_SHAPE_PROXYTYPE; }
-    int              count;
-    mutable int      rounds  = 0;
-    btVector3        scaling = btVector3(1, 1, 1);
-    void             setLocalScaling(const btVector3& scale) override { scaling = scale; }
+    int count;
+    mutable int rounds = 0;
+    btVector3 scaling = btVector3(1, 1, 1);
+    void setLocalScaling(const btVector3& scale) override { scaling = scale; }
     const btVector3& getLocalScaling() const override { return scaling; }
-    void             calculateLocalInertia(btScalar, btVector3&) const override {}
-    const char*      getName() const override { return "MANY"; }
-    void             getAabb(const btTransform&, btVector3& lower, btVector3& upper) const override
+    void calculateLocalInertia(btScalar, btVector3&) const override {}
+    const char* getName() const override { return "MANY"; }
+    void getAabb(const btTransform&, btVector3& lower, btVector3& upper) const override
     {
         lower.setValue(-1, -1, -1), upper.setValue(1, 1, 1);
     }
@@ -186,8 +186,8 @@ struct many : btConcaveShape {
     {
         ++rounds;
         for (int i = 0; i < count; ++i) {
-            const btScalar x           = btScalar(2) * btScalar(i) / btScalar(count) - 1;
-            btVector3      triangle[3] = {btVector3(x, 0, 0), btVector3(x, 1, 0), btVector3(x, 0, 1)};
+            const btScalar x = btScalar(2) * btScalar(i) / btScalar(count) - 1;
+            btVector3 triangle[3] = {btVector3(x, 0, 0), btVector3(x, 1, 0), btVector3(x, 0, 1)};
             callback->processTriangle(triangle, 0, i);
         }
     }
@@ -202,7 +202,7 @@ static void a_mesh_of_no_triangles_is_an_error(void**)
 // They are counted before any is kept, and once.
 static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
 {
-    many       mesh(10000000);
+    many mesh(10000000);
     const auto begun = std::chrono::steady_clock::now();
     refused(mesh, "has 10000000 triangles, more than 5592405");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
@@ -217,12 +217,12 @@ static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
 static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
 {
     btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher           dispatcher(&configuration);
-    btDbvtBroadphase                broadphase;
-    btCollisionWorld                world(&dispatcher, &broadphase, &configuration);
-    btSphereShape                   ball(btScalar(0.1));
-    many                            mesh(10000000);
-    btCollisionObject               objects[2];
+    btCollisionDispatcher dispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btCollisionWorld world(&dispatcher, &broadphase, &configuration);
+    btSphereShape ball(btScalar(0.1));
+    many mesh(10000000);
+    btCollisionObject objects[2];
     objects[0].setCollisionShape(&mesh), objects[1].setCollisionShape(&ball);
     world.addCollisionObject(&objects[0]), world.addCollisionObject(&objects[1]);
     const float lower[] = {-1, -1, -1}, upper[] = {1, 1, 1};

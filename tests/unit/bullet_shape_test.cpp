@@ -23,8 +23,8 @@ static void take(const btCollisionShape& shape, const btTransform& where)
 
 struct error {
     double worst = 0, squares = 0;
-    int    count = 0;
-    void   add(double off)
+    int count = 0;
+    void add(double off)
     {
         worst = std::fmax(worst, std::fabs(off));
         squares += off * off;
@@ -36,10 +36,10 @@ struct error {
 static error compare(const char* what, const btConvexShape& shape, double limit, double band)
 {
     randoms random;
-    error   error;
+    error error;
     for (int round = 0; round < 4; ++round) {
         const btTransform where = random.transform(1);
-        btVector3         lower, upper;
+        btVector3 lower, upper;
         take(shape, where);
         shape.getAabb(where, lower, upper);
         const btVector3 middle = (lower + upper) / 2, half = (upper - lower) / 2;
@@ -61,22 +61,22 @@ static error compare(const char* what, const btConvexShape& shape, double limit,
 
 static void primitives_are_as_far_as_gjk_says(void**)
 {
-    btSphereShape          sphere(btScalar(0.3));
-    btBoxShape             box(btVector3(btScalar(0.3), btScalar(0.2), btScalar(0.4)));
-    btCapsuleShape         capsule_y(btScalar(0.1), btScalar(0.5));
-    btCapsuleShapeX        capsule_x(btScalar(0.1), btScalar(0.5));
-    btCapsuleShapeZ        capsule_z(btScalar(0.1), btScalar(0.5));
-    btCylinderShape        cylinder_y(btVector3(btScalar(0.2), btScalar(0.4), btScalar(0.2)));
-    btCylinderShapeX       cylinder_x(btVector3(btScalar(0.4), btScalar(0.2), btScalar(0.2)));
-    btCylinderShapeZ       cylinder_z(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.4)));
-    btConeShape            cone_y(btScalar(0.2), btScalar(0.5));
-    btConeShapeX           cone_x(btScalar(0.2), btScalar(0.5));
-    btConeShapeZ           cone_z(btScalar(0.2), btScalar(0.5));
-    btConvexInternalShape* shapes[]  = {&sphere,    &box,        &capsule_y,  &capsule_x,
-                                        &capsule_z, &cylinder_y, &cylinder_x, &cylinder_z,
-                                        &cone_y,    &cone_x,     &cone_z};
-    const btScalar         margins[] = {btScalar(0.04), btScalar(0.01)}, scales[] = {1, btScalar(0.7)};
-    double                 worst = 0;
+    btSphereShape sphere(btScalar(0.3));
+    btBoxShape box(btVector3(btScalar(0.3), btScalar(0.2), btScalar(0.4)));
+    btCapsuleShape capsule_y(btScalar(0.1), btScalar(0.5));
+    btCapsuleShapeX capsule_x(btScalar(0.1), btScalar(0.5));
+    btCapsuleShapeZ capsule_z(btScalar(0.1), btScalar(0.5));
+    btCylinderShape cylinder_y(btVector3(btScalar(0.2), btScalar(0.4), btScalar(0.2)));
+    btCylinderShapeX cylinder_x(btVector3(btScalar(0.4), btScalar(0.2), btScalar(0.2)));
+    btCylinderShapeZ cylinder_z(btVector3(btScalar(0.2), btScalar(0.2), btScalar(0.4)));
+    btConeShape cone_y(btScalar(0.2), btScalar(0.5));
+    btConeShapeX cone_x(btScalar(0.2), btScalar(0.5));
+    btConeShapeZ cone_z(btScalar(0.2), btScalar(0.5));
+    btConvexInternalShape* shapes[] = {&sphere,    &box,        &capsule_y,  &capsule_x,
+                                       &capsule_z, &cylinder_y, &cylinder_x, &cylinder_z,
+                                       &cone_y,    &cone_x,     &cone_z};
+    const btScalar margins[] = {btScalar(0.04), btScalar(0.01)}, scales[] = {1, btScalar(0.7)};
+    double worst = 0;
     for (btConvexInternalShape* shape : shapes)
         for (btScalar margin : margins)
             for (btScalar scale : scales) {
@@ -92,7 +92,7 @@ static void primitives_are_as_far_as_gjk_says(void**)
 
 static void boxes_and_cylinders_may_be_scaled_unevenly(void**)
 {
-    btBoxShape      box(btVector3(btScalar(0.3), btScalar(0.2), btScalar(0.4)));
+    btBoxShape box(btVector3(btScalar(0.3), btScalar(0.2), btScalar(0.4)));
     btCylinderShape cylinder(btVector3(btScalar(0.2), btScalar(0.4), btScalar(0.2)));
     box.setLocalScaling(btVector3(2, 1, btScalar(0.5)));
     cylinder.setLocalScaling(btVector3(2, btScalar(0.5), 2));
@@ -113,16 +113,16 @@ static void compare_form(const char* what, const btConvexShape& shape)
 {
     take(shape, btTransform::getIdentity());
     const double voxel = voxel_of(solids(1)[0]);
-    const error  error = compare(what, shape, std::fmax(0.9 * voxel, GJK_ERROR),
-                                 static_cast<double>(shape.getMargin()) + 2 * voxel);
-    const double rms   = std::sqrt(error.squares / error.count);
+    const error error = compare(what, shape, std::fmax(0.9 * voxel, GJK_ERROR),
+                                static_cast<double>(shape.getMargin()) + 2 * voxel);
+    const double rms = std::sqrt(error.squares / error.count);
     print_message("    %s: off by up to %.3f voxels, rms %.3f\n", what, error.worst / voxel, rms / voxel);
     assert_true(rms <= 0.25 * voxel);
 }
 
 static void convex_shapes_are_as_far_as_gjk_says(void**)
 {
-    randoms                random;
+    randoms random;
     std::vector<btVector3> points;
     for (int i = 0; i < 40; ++i) points.push_back(random.vector(btScalar(0.3)));
     btConvexHullShape hull(&points[0].x(), static_cast<int>(points.size()));
@@ -147,9 +147,9 @@ static void convex_shapes_are_as_far_as_gjk_says(void**)
 
 static void spheres_together_are_as_far_as_gjk_says(void**)
 {
-    const btVector3 at[]    = {btVector3(0, 0, 0), btVector3(btScalar(0.3), 0, 0),
-                               btVector3(0, btScalar(0.3), btScalar(0.1)), btVector3(0, 0, btScalar(0.4))};
-    const btScalar  even[]  = {btScalar(0.1), btScalar(0.1), btScalar(0.1), btScalar(0.1)},
+    const btVector3 at[] = {btVector3(0, 0, 0), btVector3(btScalar(0.3), 0, 0),
+                            btVector3(0, btScalar(0.3), btScalar(0.1)), btVector3(0, 0, btScalar(0.4))};
+    const btScalar even[] = {btScalar(0.1), btScalar(0.1), btScalar(0.1), btScalar(0.1)},
                    uneven[] = {btScalar(0.1), btScalar(0.2), btScalar(0.05), btScalar(0.12)};
     btMultiSphereShape one(at, uneven, 1), two(at, even, 2), four(at, even, 4), others(at, uneven, 4);
     compare("one sphere", one, GJK_ERROR, 1);
@@ -165,9 +165,9 @@ static void spheres_together_are_as_far_as_gjk_says(void**)
 // Triangle by triangle.
 struct brute : btTriangleCallback {
     btVector3 point;
-    btScalar  margin   = 0;
-    double    distance = INFINITY;
-    void      processTriangle(btVector3* t, int, int) override
+    btScalar margin = 0;
+    double distance = INFINITY;
+    void processTriangle(btVector3* t, int, int) override
     {
         btTriangleShape triangle(t[0], t[1], t[2]);
         triangle.setMargin(margin);
@@ -179,7 +179,7 @@ static void add_ball(btTriangleMesh* mesh, btScalar radius, int rows)
 {
     auto at = [&](int row, int column) {
         const btScalar polar = SIMD_PI * btScalar(row) / btScalar(rows),
-                       turn  = SIMD_PI * btScalar(column % (2 * rows)) / btScalar(rows);
+                       turn = SIMD_PI * btScalar(column % (2 * rows)) / btScalar(rows);
         if (row == 0 || row == rows) return btVector3(0, row ? -radius : radius, 0);
         return btVector3(radius * btSin(polar) * btSin(turn), radius * btCos(polar),
                          radius * btSin(polar) * btCos(turn));
@@ -194,17 +194,17 @@ static void add_ball(btTriangleMesh* mesh, btScalar radius, int rows)
 
 static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar reach)
 {
-    randoms   random;
+    randoms random;
     btVector3 lower, upper;
     take(shape, btTransform::getIdentity());
     const double voxel = voxel_of(solids(1)[0]);
     shape.getAabb(btTransform::getIdentity(), lower, upper);
     double worst = 0;
-    int    count = 0;
+    int count = 0;
     for (int i = 0; i < 1000; ++i) {
         const btVector3 p = (lower + upper) / 2 + (upper - lower) * random.vector(reach);
-        brute           exact;
-        exact.point  = p;
+        brute exact;
+        exact.point = p;
         exact.margin = shape.getMargin();
         shape.processAllTriangles(&exact, lower, upper);
         const double own = nearest(p);
@@ -226,7 +226,7 @@ static void triangle_meshes_are_as_far_as_their_triangles(void**)
     mesh.setMargin(btScalar(0.02));
     compare_mesh("mesh", mesh, btScalar(0.6));
     assert_true(nearest(btVector3(0, 0, 0)) < -0.38);
-    const hair_form*             form = solids(1)[0].form;
+    const hair_form* form = solids(1)[0].form;
     btScaledBvhTriangleMeshShape twice(&mesh, btVector3(2, 2, 2)),
         uneven(&mesh, btVector3(1, 2, btScalar(0.5)));
     compare_mesh("mesh twice as large", twice, btScalar(0.6));
@@ -257,13 +257,13 @@ static void a_plane_is_all_that_is_below(void**)
 {
     randoms random;
     for (int i = 0; i < 20; ++i) {
-        const btVector3    normal = (random.vector(1) + btVector3(0, btScalar(0.01), 0)).normalized();
+        const btVector3 normal = (random.vector(1) + btVector3(0, btScalar(0.01), 0)).normalized();
         btStaticPlaneShape plane(normal, random.next(-1, 1));
-        const btTransform  where = random.transform(1);
+        const btTransform where = random.transform(1);
         take(plane, where);
         for (int k = 0; k < 20; ++k) {
-            const btVector3 p     = random.vector(2);
-            const double    exact = normal.dot(where.inverse() * p) - plane.getPlaneConstant();
+            const btVector3 p = random.vector(2);
+            const double exact = normal.dot(where.inverse() * p) - plane.getPlaneConstant();
             if (std::fabs(nearest(p) - exact) > 2e-6) fail_msg("%g is not %g", nearest(p), exact);
         }
     }
@@ -274,11 +274,11 @@ static void a_plane_is_all_that_is_below(void**)
 
 static void compounds_are_their_children_wherever_they_are(void**)
 {
-    randoms           random;
-    btBoxShape        box(btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.1)));
-    btSphereShape     sphere(btScalar(0.1));
-    btCapsuleShapeX   capsule(btScalar(0.05), btScalar(0.3));
-    btCompoundShape   inner, outer;
+    randoms random;
+    btBoxShape box(btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.1)));
+    btSphereShape sphere(btScalar(0.1));
+    btCapsuleShapeX capsule(btScalar(0.05), btScalar(0.3));
+    btCompoundShape inner, outer;
     const btTransform a = random.transform(btScalar(0.3)), b = random.transform(btScalar(0.3)),
                       c = random.transform(btScalar(0.3)), d = random.transform(btScalar(0.3)),
                       where = random.transform(1);
@@ -296,15 +296,15 @@ static void compounds_are_their_children_wherever_they_are(void**)
     };
     double worst = 0;
     for (int i = 0; i < 300; ++i) {
-        const btVector3 p     = where * random.vector(1);
-        const double    exact = std::fmin(
-               gjk(&box, where * grown(c) * grown(a), p),
-               std::fmin(gjk(&sphere, where * grown(c) * grown(b), p), gjk(&capsule, where * grown(d), p)));
+        const btVector3 p = where * random.vector(1);
+        const double exact = std::fmin(
+            gjk(&box, where * grown(c) * grown(a), p),
+            std::fmin(gjk(&sphere, where * grown(c) * grown(b), p), gjk(&capsule, where * grown(d), p)));
         if (exact > 0) worst = std::fmax(worst, std::fabs(nearest(p) - exact));
     }
     print_message("    off by up to %.2g m\n", worst);
     assert_true(worst < 3e-4);
-    btEmptyShape    nothing;
+    btEmptyShape nothing;
     btCompoundShape hollow;
     take(nothing, where);
     solids(0);
@@ -350,7 +350,7 @@ struct soft : btSphereShape {
 
 static void malformed_shapes_are_errors(void**)
 {
-    const btScalar    nan = NAN, inf = INFINITY;
+    const btScalar nan = NAN, inf = INFINITY;
     btConvexHullShape empty, far, wrong;
     refused(empty, "Convex of type 4 has no points");
     wrong.addPoint(btVector3(0, 0, 0), false), wrong.addPoint(btVector3(nan, 1, 0), false),
@@ -384,10 +384,10 @@ static void malformed_shapes_are_errors(void**)
     btSphereShape ball(1);
     self.addChildShape(btTransform::getIdentity(), &ball);
     btCompoundShapeChild& child = self.getChildList()[0];
-    child.m_childShape          = &self;
+    child.m_childShape = &self;
     refused(self, "is nested deeper than 16");
     child.m_childShape = &ball;
-    float matrix[16]   = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
+    float matrix[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
     assert_int_equal(hair_bullet_take_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);
     matrix[0] = NAN;
     assert_int_equal(hair_bullet_take_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);

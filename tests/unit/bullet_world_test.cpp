@@ -6,9 +6,9 @@
 
 struct world {
     btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher           dispatcher{&configuration};
-    btDbvtBroadphase                broadphase;
-    btCollisionWorld                bullet{&dispatcher, &broadphase, &configuration};
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btCollisionWorld bullet{&dispatcher, &broadphase, &configuration};
 
     std::vector<btCollisionObject*> objects;
 
@@ -40,10 +40,10 @@ static void take(const world& world, int groups)
 
 static void only_what_touches_the_bounds_is_taken(void**)
 {
-    world         world;
-    randoms       random;
+    world world;
+    randoms random;
     btSphereShape ball(btScalar(0.1));
-    uint32_t      touching = 0;
+    uint32_t touching = 0;
     for (int i = 0; i < 2000; ++i) {
         const btVector3 at = random.vector(2);
         world.add(&ball, at);
@@ -59,17 +59,17 @@ static void only_what_touches_the_bounds_is_taken(void**)
 // Also when objects go and come, which moves others within the world's own list.
 static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
 {
-    world           world;
-    randoms         random;
-    btSphereShape   ball(btScalar(0.1));
-    btBoxShape      box(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1)));
+    world world;
+    randoms random;
+    btSphereShape ball(btScalar(0.1));
+    btBoxShape box(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1)));
     btCompoundShape both;
     both.addChildShape(btTransform::getIdentity(), &ball);
     both.addChildShape(btTransform::getIdentity(), &ball);
     for (int i = 0; i < 30; ++i)
         world.add(i % 3 ? static_cast<btCollisionShape*>(&box) : &both, random.vector(btScalar(0.4)));
     take(world, -1);
-    const hair_solid*       list = solids(40);
+    const hair_solid* list = solids(40);
     std::vector<hair_solid> before(list, list + 40);
     for (int i = 0; i < 40; ++i)
         for (int k = 0; k < i; ++k) assert_true(before[i].key != before[k].key);
@@ -78,7 +78,7 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
     world.add(&ball, btVector3(0, 0, 0));
     world.bullet.updateAabbs();
     take(world, -1);
-    list        = solids(40);
+    list = solids(40);
     uint32_t at = 0;
     for (const hair_solid& one : before) { // All but the one that has gone, in the same order.
         bool is_gone = true;
@@ -95,8 +95,8 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
 
 static void groups_friction_and_contact_response_are_heeded(void**)
 {
-    world              world;
-    btSphereShape      ball(btScalar(0.1));
+    world world;
+    btSphereShape ball(btScalar(0.1));
     btCollisionObject* rough = world.add(&ball, btVector3(0, 0, 0), 1);
     btCollisionObject* ghost = world.add(&ball, btVector3(0, 0, 0), 1);
     world.add(&ball, btVector3(0, 0, 0), 64);
@@ -116,15 +116,15 @@ static void groups_friction_and_contact_response_are_heeded(void**)
 
 static void a_solid_moves_with_its_object(void**)
 {
-    world              world;
-    randoms            random;
-    btBoxShape         box(btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.1)));
+    world world;
+    randoms random;
+    btBoxShape box(btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.1)));
     btCollisionObject* object = world.add(&box, btVector3(0, 0, 0));
     for (int i = 0; i < 20; ++i) {
         object->setWorldTransform(random.transform(btScalar(0.4)));
         world.bullet.updateAabbs();
         take(world, -1);
-        const hair_solid*  solid = solids(1);
+        const hair_solid* solid = solids(1);
         const btTransform& where = object->getWorldTransform();
         const btQuaternion q(solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]);
         for (int k = 0; k < 3; ++k) assert_true(solid->position[k] == where.getOrigin()[k]);
@@ -139,8 +139,8 @@ struct soft : btSphereShape {
 // The rest of the world still counts.
 static void what_can_be_no_solid_is_warned_of_once_and_left_out(void**)
 {
-    world         world;
-    soft          body;
+    world world;
+    soft body;
     btSphereShape ball(btScalar(0.1));
     world.add(&body, btVector3(0, 0, 0));
     btCollisionObject* other = world.add(&ball, btVector3(0, 0, 0));
@@ -158,11 +158,11 @@ static void what_can_be_no_solid_is_warned_of_once_and_left_out(void**)
 
 static void arguments_are_checked(void**)
 {
-    world             world;
-    hair_bullet*      other = nullptr;
+    world world;
+    hair_bullet* other = nullptr;
     btCollisionObject bare;
-    const float       nan[] = {0, NAN, 0}, least[] = {1, 1, 1}, far[] = {0, INFINITY, 0};
-    const size_t      wrong = sizeof(btScalar) == 4 ? 8 : 4;
+    const float nan[] = {0, NAN, 0}, least[] = {1, 1, 1}, far[] = {0, INFINITY, 0};
+    const size_t wrong = sizeof(btScalar) == 4 ? 8 : 4;
     assert_int_equal(hair_bullet_create(&test.host.host, wrong, &other), HAIR_ERROR_VERSION);
     assert_non_null(std::strstr(test.host.sentence, "btScalar is of 8 bytes, that of libhair_bullet of 4"));
     assert_null(other);
@@ -198,8 +198,8 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
         assert_int_equal(hair_bullet_take_shape(test.bullet, &hull, nullptr), HAIR_OK);
         return solids(1)[0].form;
     };
-    const hair_form* form   = take_hull();
-    const uint32_t   blocks = test.host.blocks, made = test.host.allocations;
+    const hair_form* form = take_hull();
+    const uint32_t blocks = test.host.blocks, made = test.host.allocations;
     assert_ptr_equal(take_hull(), form);
     assert_true(test.host.allocations - made < 10); // Its points only.
     hull.setLocalScaling(btVector3(2, 2, 2));
@@ -217,23 +217,23 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
 
 static void every_refused_allocation_is_borne(void**)
 {
-    world             world;
+    world world;
     btConvexHullShape hull(corners, 5, 3 * sizeof(btScalar));
-    btSphereShape     ball(btScalar(0.1));
+    btSphereShape ball(btScalar(0.1));
     world.add(&hull, btVector3(0, 0, 0));
     for (int i = 0; i < 40; ++i) world.add(&ball, btVector3(0, 0, 0));
     uint32_t n = 0, refusals = 0;
     for (bool goes_on = true; goes_on;) {
-        hair_bullet* bullet   = nullptr;
+        hair_bullet* bullet = nullptr;
         test.host.allocations = 0;
-        test.host.refuse      = ++n;
-        hair_result    result = hair_bullet_create(&test.host.host, sizeof(btScalar), &bullet);
+        test.host.refuse = ++n;
+        hair_result result = hair_bullet_create(&test.host.host, sizeof(btScalar), &bullet);
         const uint32_t blocks = test.host.blocks;
         if (!result) hair_bullet_set_resolution(bullet, 8);
         if (!result) result = hair_bullet_take_world(bullet, &world.bullet, lower, upper, -1);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_MEMORY);
         refusals += result == HAIR_ERROR_MEMORY;
-        goes_on          = test.host.allocations >= n;
+        goes_on = test.host.allocations >= n;
         test.host.refuse = 0;
         if (bullet) { // And then it goes on.
             uint32_t count = 0;
@@ -258,15 +258,15 @@ static double cost(const world& world)
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 0; i < 100; ++i) take(world, -1);
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
-        least                                      = std::fmin(least, passed.count() / 100);
+        least = std::fmin(least, passed.count() / 100);
     }
     return least;
 }
 
 static void ten_thousand_objects_cost_as_much_as_the_dozen_that_touch(void**)
 {
-    world         few, many;
-    randoms       random;
+    world few, many;
+    randoms random;
     btSphereShape ball(btScalar(0.1));
     for (int i = 0; i < 12; ++i) {
         const btVector3 at = random.vector(btScalar(0.4));

@@ -24,7 +24,7 @@
 // A ball of fur. One of three lights shines, in red.
 static void write_scene(const char* name, int light, const char* shadow)
 {
-    char  path[512];
+    char path[512];
     FILE* file;
     snprintf(path, sizeof path, "%s/%s.json", hair_test_folder(), name);
     file = fopen(path, "w");
@@ -51,8 +51,8 @@ static void write_scene(const char* name, int light, const char* shadow)
 static double brightness(const char* name)
 {
     static uint8_t pixels[3 * WIDTH * HEIGHT];
-    char           command[512], path[512];
-    png_image      image = {.version = PNG_IMAGE_VERSION};
+    char command[512], path[512];
+    png_image image = {.version = PNG_IMAGE_VERSION};
     snprintf(command, sizeof command, "$T $D/%s.json --samples 1 --quiet " BLACK " -o $D/%s.png", name, name);
     hair_test_shell_expect(0, command, "");
     snprintf(path, sizeof path, "%s/%s.png", hair_test_folder(), name);

@@ -137,8 +137,8 @@ static void every_number_of_the_physics_can_be_set(void** state)
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         static const char of[] = "hair_physics.";
         if (strncmp(names[i], of, sizeof of - 1)) continue;
-        char        line[64];
-        const char* name    = names[i] + sizeof of - 1;
+        char line[64];
+        const char* name = names[i] + sizeof of - 1;
         const char* bracket = strchr(name, '[');
         if (bracket)
             snprintf(line, sizeof line, "\n  %.*s.%c ", (int)(bracket - name), name, "xyz"[bracket[1] - '0']);
@@ -434,15 +434,14 @@ static void each_solver_can_be_asked_for(void** state)
 {
     (void)state;
     static const char* const solvers[] = {"direct", "accurate", "follow", "redblack"};
-    static const char* const passes[]  = {"mixed", "mixed", "follow", "redblack"};
+    static const char* const passes[] = {"mixed", "mixed", "follow", "redblack"};
     for (int i = 0; i < 4; ++i) {
         char command[256], method[64];
         snprintf(command, sizeof command, "$T " SMALL " --frames 0:2 --solver %s --stats -", solvers[i]);
         snprintf(method, sizeof method, "\"method\": \"sim/%s", passes[i]);
         expect(0, command, method);
     }
-    expect(0, "$T " SMALL " --frames 0:2 --set mapping=group --stats -",
-           "\"method\": \"sim/mixed_32");
+    expect(0, "$T " SMALL " --frames 0:2 --set mapping=group --stats -", "\"method\": \"sim/mixed_32");
     expect(0, "$T " SMALL " --frames 0:2 --set mapping=thread --stats -",
            "\"method\": \"sim/mixed_thread_32");
 }

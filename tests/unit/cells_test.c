@@ -9,10 +9,10 @@
 #define MOST 3000
 
 static struct hair_test_host test;
-static struct hair_solids    solids;
-static struct hair_cells     cells;
-static hair_solid            given[MOST];
-static uint32_t              seed;
+static struct hair_solids solids;
+static struct hair_cells cells;
+static hair_solid given[MOST];
+static uint32_t seed;
 
 static const struct hair_pose before = {{10, -3, 2}, {0, 0, 0, 1}}, now = {{10.02, -3, 2.01}, {0, 0, 0, 1}};
 static struct hair_cells_desc usual = {0.6f, 0.03f, 0.001f, -0.3f, UINT32_MAX};
@@ -44,7 +44,7 @@ static void move(hair_solid* solid, float way, float angle)
     hair_quat q = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
     hair_quat r = hair_quat_normalize(
         (hair_quat){random_in(-angle, angle), random_in(-angle, angle), random_in(-angle, angle), 2});
-    q                  = hair_quat_normalize(hair_quat_multiply(r, q));
+    q = hair_quat_normalize(hair_quat_multiply(r, q));
     solid->rotation[0] = q.x, solid->rotation[1] = q.y, solid->rotation[2] = q.z, solid->rotation[3] = q.w;
     for (int k = 0; k < 3; ++k) solid->position[k] += random_in(-way, way);
 }
@@ -58,10 +58,10 @@ static void set(uint32_t count)
 static void scatter(uint32_t count, float size)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        given[i]       = hair_solid_default();
+        given[i] = hair_solid_default();
         given[i].shape = (hair_shape)(i % (i % 60 == 5 ? 6 : 5));
         for (int k = 0; k < 3; ++k) {
-            given[i].size[k]     = random_in(0.2f * size, size);
+            given[i].size[k] = random_in(0.2f * size, size);
             given[i].position[k] = (float)before.position[k] + random_in(-0.5f, 0.5f);
         }
         given[i].rounding = random_in(0, 0.2f * size);
@@ -85,10 +85,10 @@ static int fill(const struct hair_cells_desc* desc)
 static uint32_t cell_of(hair_vec3 place)
 {
     const float at[] = {place.x - cells.lower.x, place.y - cells.lower.y, place.z - cells.lower.z};
-    uint32_t    i[3];
+    uint32_t i[3];
     for (int k = 0; k < 3; ++k) {
         float cell = fminf(fmaxf(at[k] * (1 / cells.size), 0), (float)cells.cells[k]);
-        i[k]       = (uint32_t)cell < cells.cells[k] - 1 ? (uint32_t)cell : cells.cells[k] - 1;
+        i[k] = (uint32_t)cell < cells.cells[k] - 1 ? (uint32_t)cell : cells.cells[k] - 1;
     }
     return i[0] + cells.cells[0] * (i[1] + cells.cells[1] * i[2]);
 }
@@ -111,10 +111,10 @@ static double distance_of(const struct hair_contact* contact, const hair_solid* 
                           hair_vec3 place)
 {
     const struct hair_body* body = &contact->body;
-    hair_vec4               at   = mix(body->position[0], body->position[1], share);
-    hair_vec4               r    = mix(body->rotation[0], body->rotation[1], share);
-    hair_quat               turn = hair_quat_normalize((hair_quat){r.x, r.y, r.z, r.w});
-    hair_vec3    p     = hair_rotate(hair_quat_conjugate(turn), hair_sub(place, hair_v3(at.x, at.y, at.z)));
+    hair_vec4 at = mix(body->position[0], body->position[1], share);
+    hair_vec4 r = mix(body->rotation[0], body->rotation[1], share);
+    hair_quat turn = hair_quat_normalize((hair_quat){r.x, r.y, r.z, r.w});
+    hair_vec3 p = hair_rotate(hair_quat_conjugate(turn), hair_sub(place, hair_v3(at.x, at.y, at.z)));
     const double own[] = {(double)p.x, (double)p.y, (double)p.z};
     return hair_distance_to_shape(solid->shape, solid->size, own, NULL) - (double)solid->rounding;
 }
@@ -124,7 +124,7 @@ static void check(const struct hair_cells_desc* desc, uint32_t places)
     uint32_t met = 0;
     for (uint32_t n = 0; n < places; ++n) {
         hair_vec3 place = hair_v3(random_in(-0.6f, 0.6f), random_in(-0.6f, 0.6f), random_in(-0.6f, 0.6f));
-        uint32_t  cell  = cell_of(place);
+        uint32_t cell = cell_of(place);
         for (uint32_t i = 0; i < cells.contacts; ++i)
             for (int s = 0; s < 5; ++s) {
                 float share = desc->share_start + (1 - desc->share_start) * (float)s / 4;
@@ -151,7 +151,7 @@ static void nothing_that_can_be_met_is_missing_in_a_list(void** state)
         check(&usual, 3000);
     }
     struct hair_cells_desc anywhere = usual; // A root that nothing holds.
-    anywhere.reach                  = 1e4f;
+    anywhere.reach = 1e4f;
     fill(&anywhere);
     check(&anywhere, 3000);
 }
@@ -160,11 +160,11 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < 500; ++i) {
-        given[i]             = hair_solid_default();
+        given[i] = hair_solid_default();
         given[i].position[0] = 10 + 0.0005f * (float)((i * 77) % 500);
         given[i].position[1] = -3;
         given[i].position[2] = 2;
-        given[i].size[0]     = 0.001f;
+        given[i].size[0] = 0.001f;
     }
     set(500);
     hair_solids_settle(&solids);
@@ -181,7 +181,7 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
     set(500);
     hair_solids_settle(&solids);
     struct hair_cells_desc few = usual;
-    few.most_rounds            = 250;
+    few.most_rounds = 250;
     fill(&few);
     assert_int_equal(cells.longest, 20);
 }
@@ -192,7 +192,7 @@ static void lists_are_made_again_only_when_something_has_moved(void** state)
     scatter(100, 0.02f);
     assert_int_equal(fill(&usual), 1);
     struct hair_cells_desc later = usual;
-    later.share_start            = -0.1f;
+    later.share_start = -0.1f;
     assert_int_equal(fill(&usual), 0);
     assert_int_equal(fill(&later), 1); // It moves: from when on matters.
     hair_solids_settle(&solids);
@@ -214,7 +214,7 @@ static void as_many_and_as_large_as_may_be_take_bounded_room(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < MOST; ++i) {
-        given[i]       = hair_solid_default();
+        given[i] = hair_solid_default();
         given[i].shape = i % 2 ? HAIR_SHAPE_PLANE : HAIR_SHAPE_BOX;
         for (int k = 0; k < 3; ++k) given[i].size[k] = 1e6f, given[i].position[k] = i % 3 ? 0 : 1e9f;
     }

@@ -56,7 +56,7 @@ static void a_stiff_elastica_leaves_its_clamp_straight(void** state)
 {
     (void)state;
     for (int k = -7; k <= 7; ++k) {
-        double                         angle = 0.2 * k, sinks = 1e-5 / 8 * cos(angle);
+        double angle = 0.2 * k, sinks = 1e-5 / 8 * cos(angle);
         struct hair_reference_elastica e = hair_reference_elastica(1e-5, 0, angle);
         hair_test_near("across", (size_t)(k + 7), e.across, cos(angle) - sinks * sin(angle), 1e-10);
         hair_test_near("down", (size_t)(k + 7), e.down, sin(angle) + sinks * cos(angle), 1e-10);
@@ -77,8 +77,8 @@ static void critical_weights_come_from_zeros_of_bessel_functions(void** state)
 static void the_hanging_chain_swings_as_bessel_says(void** state)
 {
     (void)state;
-    static const double zeros[]    = {2.4048255577, 5.5200781103, 8.6537279129};
-    static const double hertz[]    = {1.094328, 2.511940, 3.937923};
+    static const double zeros[] = {2.4048255577, 5.5200781103, 8.6537279129};
+    static const double hertz[] = {1.094328, 2.511940, 3.937923};
     static const double heavy[][4] = {{1, 1.05642248, 4.08168676, 7.73750314},
                                       {10, 1.00793371, 10.2764263, 20.4041314},
                                       {100, 1.00082912, 31.52606, 63.00445}};
@@ -98,7 +98,7 @@ static void linkages_swing_as_their_table_says(void** state)
     (void)state;
     static const double half[] = {3.76111581, 3.76490768, 3.76578662};
     static const double full[] = {3.70543446, 3.73620681, 3.75124771};
-    double              length[63], mass[63];
+    double length[63], mass[63];
     for (uint32_t k = 0; k < 3; ++k) {
         uint32_t links = (16u << k) - 1;
         for (uint32_t i = 0; i < links; ++i) length[i] = mass[i] = 1.0 / links;
@@ -159,7 +159,7 @@ static void linkages_fall_as_their_table_says(void** state)
     static const double times[] = {0.25, 0.25, 0.5};
     for (uint32_t k = 0; k < 2; ++k) {
         uint32_t links = 2u << k;
-        double   length[4], mass[4], angle[4], rate[4] = {0, 0, 0, 0};
+        double length[4], mass[4], angle[4], rate[4] = {0, 0, 0, 0};
         for (uint32_t i = 0; i < links; ++i) length[i] = 0.3 / links, mass[i] = 1, angle[i] = PI / 2;
         for (int at = 0; at < 3; ++at) {
             hair_reference_linkage_advance(links, length, mass, 9.81, times[at], (uint32_t)(400 * times[at]),

@@ -8,9 +8,9 @@
 
 struct sample {
     hair_made made;
-    float     share;
-    uint32_t  count;
-    float     newer; // not in the struct of an older caller
+    float share;
+    uint32_t count;
+    float newer; // not in the struct of an older caller
 };
 
 static const struct hair_field rows[] = {
@@ -68,9 +68,9 @@ static void what_an_older_caller_does_not_know_has_its_default(void** state)
 {
     (void)state;
     struct sample old = defaults(), own;
-    old.made.size     = offsetof(struct sample, newer);
-    old.newer         = NAN;
-    old.count         = 77;
+    old.made.size = offsetof(struct sample, newer);
+    old.newer = NAN;
+    old.count = 77;
     assert_int_equal(take(&old, &own), HAIR_OK);
     assert_int_equal(own.count, 77);
     assert_true(own.newer == -1);
@@ -81,11 +81,11 @@ static void what_only_a_newer_caller_knows_is_not_read(void** state)
     (void)state;
     struct {
         struct sample known;
-        float         future[50];
+        float future[50];
     } larger;
     struct sample own[2];
     memset(&larger, 0xff, sizeof larger);
-    larger.known           = defaults();
+    larger.known = defaults();
     larger.known.made.size = sizeof larger;
     memset(own, 0x55, sizeof own);
     struct sample beyond = own[1];
@@ -97,7 +97,7 @@ static void both_ends_of_a_range_are_inside(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
-    sample.share         = 0.1f; // below 0.1 as a double
+    sample.share = 0.1f; // below 0.1 as a double
     assert_int_equal(take(&sample, &own), HAIR_OK);
     sample.share = 0.9f;
     sample.count = 4000000000u;
@@ -109,14 +109,14 @@ static void a_number_outside_is_named_with_its_range(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
-    sample.share         = 1.5f;
+    sample.share = 1.5f;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
     assert_string_equal(test.sentence, "sample.share is 1.5, not in [0.1, 0.9]");
-    sample       = defaults();
+    sample = defaults();
     sample.count = 1;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
     assert_string_equal(test.sentence, "sample.count is 1, not in [2, 4e+09]");
-    sample       = defaults();
+    sample = defaults();
     sample.share = NAN;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
     sample.share = INFINITY;
@@ -132,10 +132,10 @@ static void what_no_default_function_filled_in_is_refused(void** state)
     assert_int_equal(take(&zero, &own), HAIR_ERROR_VERSION);
     assert_string_equal(test.sentence, "sample.made is (0, 0), not from sample_default()");
     struct sample other = defaults();
-    other.made.version  = HAIR_VERSION + 10000;
+    other.made.version = HAIR_VERSION + 10000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
     assert_non_null(strstr(test.sentence, "of another major version"));
-    other           = defaults();
+    other = defaults();
     other.made.size = 5000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
 }
@@ -144,7 +144,7 @@ static void another_minor_version_is_taken(void** state)
 {
     (void)state;
     struct sample other = defaults(), own;
-    other.made.version  = HAIR_VERSION_MAJOR * 10000 + 9999;
+    other.made.version = HAIR_VERSION_MAJOR * 10000 + 9999;
     assert_int_equal(take(&other, &own), HAIR_OK);
 }
 

@@ -16,8 +16,8 @@
 #include <unistd.h>
 
 struct ear {
-    char     last_error[512];
-    char     all[4096];
+    char last_error[512];
+    char all[4096];
     uint32_t allocations, refuse_at;
 };
 
@@ -59,7 +59,7 @@ static void a_new_context_is_current_and_is_opengl_4_5_core(void** state)
 {
     (void)state;
     hair_egl* egl = made();
-    GLint     major, minor, profile;
+    GLint major, minor, profile;
     glGetIntegerv(GL_MAJOR_VERSION, &major);
     glGetIntegerv(GL_MINOR_VERSION, &minor);
     glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
@@ -71,9 +71,9 @@ static void a_new_context_is_current_and_is_opengl_4_5_core(void** state)
 static void the_log_names_the_device_that_was_taken(void** state)
 {
     (void)state;
-    struct ear ear  = {0};
-    hair_host  host = host_of(&ear);
-    hair_egl*  egl;
+    struct ear ear = {0};
+    hair_host host = host_of(&ear);
+    hair_egl* egl;
     assert_int_equal(hair_egl_create(&host, -1, &egl), HAIR_OK);
     assert_non_null(strstr(ear.all, "taken: "));
     assert_non_null(strstr(ear.all, (const char*)glGetString(GL_RENDERER)));
@@ -86,9 +86,9 @@ static void a_device_out_of_range_is_an_argument_error(void** state)
     (void)state;
     static const int wrong[] = {-2, 64, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
-        struct ear ear  = {0};
-        hair_host  host = host_of(&ear);
-        hair_egl*  egl  = NULL;
+        struct ear ear = {0};
+        hair_host host = host_of(&ear);
+        hair_egl* egl = NULL;
         assert_int_equal(hair_egl_create(&host, wrong[i], &egl), HAIR_ERROR_ARGUMENT);
         assert_null(egl);
         assert_non_null(strstr(ear.last_error, "device"));
@@ -108,7 +108,7 @@ static void a_destroyed_context_leaves_none_current(void** state)
 static void destroying_one_context_leaves_another_of_the_same_device_working(void** state)
 {
     (void)state;
-    hair_egl* first  = made();
+    hair_egl* first = made();
     hair_egl* second = made();
     hair_egl_destroy(first);
     assert_int_equal(hair_egl_make_current(second), HAIR_OK);
@@ -125,8 +125,8 @@ static void destroying_one_context_leaves_another_of_the_same_device_working(voi
 static void destroying_a_context_that_is_not_current_leaves_the_current_one(void** state)
 {
     (void)state;
-    hair_egl*  first   = made();
-    hair_egl*  second  = made();
+    hair_egl* first = made();
+    hair_egl* second = made();
     EGLContext current = eglGetCurrentContext();
     hair_egl_destroy(first);
     assert_ptr_equal(eglGetCurrentContext(), current);
@@ -157,9 +157,9 @@ static void functions_are_found_by_name(void** state)
 static void refused_memory_is_a_memory_error(void** state)
 {
     (void)state;
-    struct ear ear  = {.refuse_at = 1};
-    hair_host  host = host_of(&ear);
-    hair_egl*  egl  = NULL;
+    struct ear ear = {.refuse_at = 1};
+    hair_host host = host_of(&ear);
+    hair_egl* egl = NULL;
     assert_int_equal(hair_egl_create(&host, -1, &egl), HAIR_ERROR_MEMORY);
     assert_null(egl);
     assert_non_null(strstr(ear.last_error, "out of memory"));
@@ -168,9 +168,9 @@ static void refused_memory_is_a_memory_error(void** state)
 // Mesa chooses its driver once in a process, so this one is asked for in a child.
 static int exit_code_of_an_old_driver(void)
 {
-    struct ear ear  = {0};
-    hair_host  host = host_of(&ear);
-    hair_egl*  egl  = NULL;
+    struct ear ear = {0};
+    hair_host host = host_of(&ear);
+    hair_egl* egl = NULL;
     if (hair_egl_create(&host, -1, &egl) != HAIR_ERROR_OPENGL || egl) return 1;
     if (!strstr(ear.last_error, "no EGL device gives OpenGL 4.5 core: ")) return 2;
     if (!strstr(ear.last_error, "older than OpenGL 4.5 core")) return 3;
@@ -180,7 +180,7 @@ static int exit_code_of_an_old_driver(void)
 static void a_driver_that_is_too_old_is_an_opengl_error_with_the_reasons(void** state)
 {
     const char* program = *state;
-    pid_t       child   = fork();
+    pid_t child = fork();
     if (child == 0) {
         setenv("GALLIUM_DRIVER", "softpipe", 1);
         setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);

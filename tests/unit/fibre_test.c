@@ -20,10 +20,10 @@ static void a_fibre_that_absorbs_nothing_loses_no_light(void** state)
 {
     (void)state;
     static hair_fibre_table table;
-    static const float      roughness[] = {0.1f, 0.3f, 0.6f, 1};
+    static const float roughness[] = {0.1f, 0.3f, 0.6f, 1};
     for (int r = 0; r < 4; ++r) {
         struct hair_fibre fibre = usual;
-        fibre.around            = roughness[r];
+        fibre.around = roughness[r];
         hair_fibre_fill(&fibre, table);
         for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
             double sum = 0;
@@ -74,19 +74,19 @@ static double fresnel(double in, double out, double index)
 static double trace(double h, int legs, double index, double* share, double* path)
 {
     struct vec p = {sqrt(1 - h * h), h}, d = {-1, 0};
-    double     in = -dot(p, d), out = sqrt(1 - (1 - in * in) / (index * index)), f = fresnel(in, out, index);
+    double in = -dot(p, d), out = sqrt(1 - (1 - in * in) / (index * index)), f = fresnel(in, out, index);
     *path = 0;
     if (legs == 0) {
         *share = f;
-        d      = (struct vec){d.x + 2 * in * p.x, d.y + 2 * in * p.y};
+        d = (struct vec){d.x + 2 * in * p.x, d.y + 2 * in * p.y};
         return atan2(d.y, d.x);
     }
-    *share         = 1 - f;
+    *share = 1 - f;
     struct vec way = {d.x / index + (in / index - out) * p.x, d.y / index + (in / index - out) * p.y};
     for (int leg = 1;; ++leg) {
         double far = -2 * dot(p, way);
         *path += far;
-        p           = (struct vec){p.x + far * way.x, p.y + far * way.y};
+        p = (struct vec){p.x + far * way.x, p.y + far * way.y};
         double meet = dot(p, way), leave = sqrt(1 - (1 - meet * meet) * index * index);
         double r = fresnel(leave, meet, index); // As coming the other way, which is the same.
         if (leg == legs) {
@@ -112,19 +112,19 @@ static void lobes_lie_where_rays_traced_through_a_circle_leave_it(void** state)
     for (int i = 0; i < HAIR_FIBRE_COLUMNS; i += 7)
         for (int legs = 0; legs < 3; ++legs) {
             double sum = 0, far = 0;
-            int    rays = 20000;
+            int rays = 20000;
             for (int k = 0; k < rays; ++k) {
                 double share, path,
                     angle = trace((k + 0.5) / rays * 2 - 1, legs, (double)usual.index, &share, &path);
-                double x  = PI * i / (HAIR_FIBRE_COLUMNS - 1) - angle;
+                double x = PI * i / (HAIR_FIBRE_COLUMNS - 1) - angle;
                 x -= 2 * PI * floor((x + PI) / (2 * PI));
                 double e = exp(-fabs(x) / scale), density = e / (scale * (1 + e) * (1 + e)) / cut;
                 sum += share * density / rays;
                 far += share * density * path / rays;
             }
             const hair_vec4 *w = &table[0][HAIR_FIBRE_ROWS - 1][i], *l = &table[1][HAIR_FIBRE_ROWS - 1][i];
-            double           density = (double)(legs == 0 ? w->x : legs == 1 ? w->y : w->z);
-            most                     = fmax(most, fabs(density - sum));
+            double density = (double)(legs == 0 ? w->x : legs == 1 ? w->y : w->z);
+            most = fmax(most, fabs(density - sum));
             hair_test_near("density", (size_t)(3 * i + legs), density, sum, 5e-4);
             if (legs)
                 hair_test_near("path", (size_t)(3 * i + legs), (double)(legs == 1 ? l->x : l->y), far / sum,

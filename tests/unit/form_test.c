@@ -27,19 +27,19 @@ static int stop(void** state)
 static hair_form_desc desc_of(const struct hair_test_mesh* mesh, uint32_t resolution)
 {
     hair_form_desc desc = hair_form_desc_default();
-    desc.host           = &test.host;
-    desc.positions      = mesh->positions;
-    desc.triangles      = mesh->triangles;
-    desc.vertex_count   = mesh->vertex_count;
+    desc.host = &test.host;
+    desc.positions = mesh->positions;
+    desc.triangles = mesh->triangles;
+    desc.vertex_count = mesh->vertex_count;
     desc.triangle_count = mesh->triangle_count;
-    desc.resolution     = resolution;
+    desc.resolution = resolution;
     return desc;
 }
 
 static hair_form* form_of(const struct hair_test_mesh* mesh, uint32_t resolution)
 {
     hair_form_desc desc = desc_of(mesh, resolution);
-    hair_form*     form = NULL;
+    hair_form* form = NULL;
     assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
     return form;
 }
@@ -78,9 +78,9 @@ static void compare(const char* what, const hair_form* form, hair_shape shape, c
 static void a_box_of_triangles_is_as_far_as_a_box(void** state)
 {
     (void)state;
-    const float           size[3] = {0.3f, 0.2f, 0.11f};
-    struct hair_test_mesh mesh    = hair_test_box_mesh(size);
-    hair_form*            form    = form_of(&mesh, 48);
+    const float size[3] = {0.3f, 0.2f, 0.11f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(size);
+    hair_form* form = form_of(&mesh, 48);
     assert_int_equal(form->info.closed, 1);
     compare("box", form, HAIR_SHAPE_BOX, size, 1e-3);
     hair_form_destroy(form);
@@ -91,9 +91,9 @@ static void a_box_of_triangles_is_as_far_as_a_box(void** state)
 static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0, 0};
-    struct hair_test_mesh mesh    = hair_test_ball_mesh(0.1f, 64, 128);
-    hair_form*            form    = form_of(&mesh, 40);
+    const float size[3] = {0.1f, 0, 0};
+    struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 64, 128);
+    hair_form* form = form_of(&mesh, 40);
     assert_int_equal(form->info.closed, 1);
     double sag = 0.1 * (1 - cos(3.14159265 / 64)) / (double)form->voxel;
     compare("ball", form, HAIR_SHAPE_SPHERE, size, 1.1 * sag + 1e-3);
@@ -104,10 +104,10 @@ static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
 static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.1f, 0.1f};
-    struct hair_test_mesh mesh    = hair_test_box_mesh(size);
+    const float size[3] = {0.1f, 0.1f, 0.1f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(size);
     for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
-        uint32_t a            = mesh.triangles[3 * i];
+        uint32_t a = mesh.triangles[3 * i];
         mesh.triangles[3 * i] = mesh.triangles[3 * i + 1], mesh.triangles[3 * i + 1] = a;
     }
     hair_form* form = form_of(&mesh, 16);
@@ -120,12 +120,12 @@ static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
 static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.15f, 0.1f};
+    const float size[3] = {0.1f, 0.15f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size), soup = {0};
     soup.triangle_count = mesh.triangle_count;
-    soup.vertex_count   = 3 * mesh.triangle_count;
-    soup.positions      = malloc(soup.vertex_count * 3 * sizeof(float));
-    soup.triangles      = malloc(soup.vertex_count * sizeof(uint32_t));
+    soup.vertex_count = 3 * mesh.triangle_count;
+    soup.positions = malloc(soup.vertex_count * 3 * sizeof(float));
+    soup.triangles = malloc(soup.vertex_count * sizeof(uint32_t));
     for (uint32_t i = 0; i < soup.vertex_count; ++i) {
         soup.triangles[i] = i;
         memcpy(soup.positions + 3 * i, mesh.positions + 3 * mesh.triangles[i], 3 * sizeof(float));
@@ -142,12 +142,12 @@ static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
 static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.1f, 0.1f}, bare[3] = {0, 0, 0};
+    const float size[3] = {0.1f, 0.1f, 0.1f}, bare[3] = {0, 0, 0};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
     --mesh.triangle_count;
     hair_form_desc desc = desc_of(&mesh, 32);
-    desc.thickness      = 0.03f;
-    hair_form* form     = NULL;
+    desc.thickness = 0.03f;
+    hair_form* form = NULL;
     assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
     assert_int_equal(test.warnings, 1);
     assert_int_equal(form->info.closed, 0);
@@ -164,10 +164,10 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
 static void what_lies_in_a_hollow_is_outside(void** state)
 {
     (void)state;
-    struct hair_test_mesh mesh  = hair_test_ball_mesh(0.1f, 16, 32),
+    struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32),
                           inner = hair_test_ball_mesh(0.05f, 16, 32);
     hair_test_mesh_append(&mesh, &inner, 1);
-    hair_form*   form      = form_of(&mesh, 32);
+    hair_form* form = form_of(&mesh, 32);
     const double middle[3] = {0, 0, 0}, wall[3] = {0.075, 0, 0}, out[3] = {0.2, 0, 0};
     assert_int_equal(form->info.closed, 1);
     hair_test_near("middle", 0, hair_distance_to_form(form, middle, NULL), 0.05, 2e-3);
@@ -184,7 +184,7 @@ static void two_balls_through_each_other_have_one_inside(void** state)
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32), other = hair_test_ball_mesh(0.1f, 16, 32);
     for (uint32_t i = 0; i < other.vertex_count; ++i) other.positions[3 * i] += 0.1f;
     hair_test_mesh_append(&mesh, &other, 0);
-    hair_form*   form      = form_of(&mesh, 32);
+    hair_form* form = form_of(&mesh, 32);
     const double middle[3] = {0.05, 0, 0}, left[3] = {-0.05, 0, 0};
     assert_true(hair_distance_to_form(form, middle, NULL) < -0.03);
     assert_true(hair_distance_to_form(form, left, NULL) < -0.04);
@@ -197,8 +197,8 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 32, 64);
-    hair_form*            form = form_of(&mesh, 32);
-    uint32_t              seed = 3;
+    hair_form* form = form_of(&mesh, 32);
+    uint32_t seed = 3;
     for (int i = 0; i < 1000; ++i) {
         double p[3], gradient[3], far = 0;
         for (int k = 0; k < 3; ++k) p[k] = 2 * (double)hair_random(&seed) - 1;
@@ -217,9 +217,9 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
 static void a_form_lives_as_long_as_who_holds_it(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.1f, 0.1f};
-    struct hair_test_mesh mesh    = hair_test_box_mesh(size);
-    hair_form*            form    = form_of(&mesh, 8);
+    const float size[3] = {0.1f, 0.1f, 0.1f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(size);
+    hair_form* form = form_of(&mesh, 8);
     hair_form_hold(form);
     hair_form_destroy(form);
     assert_true(test.blocks > 0);
@@ -244,9 +244,9 @@ static void refused(const hair_form_desc* desc, const char* words)
 static void what_is_no_mesh_is_refused(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.1f, 0.1f};
-    struct hair_test_mesh mesh    = hair_test_box_mesh(size);
-    hair_form_desc        good = desc_of(&mesh, 16), desc = good;
+    const float size[3] = {0.1f, 0.1f, 0.1f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(size);
+    hair_form_desc good = desc_of(&mesh, 16), desc = good;
     desc.positions = NULL;
     refused(&desc, "positions is NULL");
     desc = good, desc.triangles = NULL;
@@ -282,16 +282,16 @@ static void what_is_no_mesh_is_refused(void** state)
 static void degenerate_triangles_are_borne(void** state)
 {
     (void)state;
-    float          positions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
-    uint32_t       triangles[] = {0, 1, 2, 1, 2, 3, 0, 0, 1};
-    hair_form_desc desc        = hair_form_desc_default();
-    hair_form*     form        = NULL;
-    desc.host                  = &test.host;
-    desc.positions             = positions;
-    desc.triangles             = triangles;
-    desc.vertex_count          = 4;
-    desc.triangle_count        = 3;
-    desc.resolution            = 32;
+    float positions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
+    uint32_t triangles[] = {0, 1, 2, 1, 2, 3, 0, 0, 1};
+    hair_form_desc desc = hair_form_desc_default();
+    hair_form* form = NULL;
+    desc.host = &test.host;
+    desc.positions = positions;
+    desc.triangles = triangles;
+    desc.vertex_count = 4;
+    desc.triangle_count = 3;
+    desc.resolution = 32;
     assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
     assert_int_equal(form->info.unused, 2);
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
@@ -308,16 +308,16 @@ static void random_meshes_make_finite_forms(void** state)
     (void)state;
     uint32_t seed = 1, made = 0;
     for (int n = 0; n < 60; ++n) {
-        float    positions[60];
+        float positions[60];
         uint32_t triangles[90];
         for (int i = 0; i < 60; ++i)
             positions[i] = ldexpf(hair_random(&seed) - 0.5f, n % 3 ? 0 : (int)(40 * hair_random(&seed)) - 20);
         for (int i = 0; i < 90; ++i) triangles[i] = (uint32_t)(20 * hair_random(&seed));
         hair_form_desc desc = hair_form_desc_default();
-        hair_form*     form = NULL;
+        hair_form* form = NULL;
         desc.host = &test.host, desc.positions = positions, desc.triangles = triangles;
         desc.vertex_count = 20, desc.triangle_count = 30, desc.resolution = 12;
-        desc.voxel     = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
+        desc.voxel = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
         desc.thickness = n % 5 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
         desc.thickness = fminf(desc.thickness, 1e6f), desc.voxel = fminf(desc.voxel, 1e6f);
         if (desc.voxel > 0 && desc.voxel < 0.01f) desc.voxel = 0; // Fine grids take long.
@@ -336,15 +336,15 @@ static void random_meshes_make_finite_forms(void** state)
 static void every_refused_allocation_is_borne(void** state)
 {
     (void)state;
-    const float           size[3] = {0.1f, 0.1f, 0.1f};
-    struct hair_test_mesh mesh    = hair_test_box_mesh(size);
-    hair_form_desc        desc    = desc_of(&mesh, 8);
-    hair_form*            form    = NULL;
-    uint32_t              n       = 0;
+    const float size[3] = {0.1f, 0.1f, 0.1f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(size);
+    hair_form_desc desc = desc_of(&mesh, 8);
+    hair_form* form = NULL;
+    uint32_t n = 0;
     for (hair_result result = HAIR_ERROR_MEMORY; result;) {
         test.allocations = 0;
-        test.refuse      = ++n;
-        result           = hair_form_create(&desc, &form);
+        test.refuse = ++n;
+        result = hair_form_create(&desc, &form);
         if (result) assert_int_equal(test.blocks, 0);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_MEMORY);
     }

@@ -58,8 +58,8 @@ static void the_nearest_are_those_that_a_scan_finds(void** state)
                 hair_tree_build(&test.host, (struct hair_cloud){points, dimensions}, COUNT, &tree), HAIR_OK);
             for (uint32_t i = 0; i < 100; ++i) {
                 struct hair_near near[8];
-                float            point[12];
-                uint32_t         seed = 1000 + i;
+                float point[12];
+                uint32_t seed = 1000 + i;
                 for (uint32_t a = 0; a < dimensions; ++a) point[a] = hair_random(&seed);
                 for (uint32_t j = 0; j < COUNT; ++j)
                     squared[j] = distance_squared(points + dimensions * j, point, dimensions);
@@ -75,12 +75,12 @@ static void the_nearest_are_those_that_a_scan_finds(void** state)
 static void a_search_that_knows_a_near_point_finds_a_nearer_one_or_keeps_it(void** state)
 {
     (void)state;
-    static float     points[COUNT * 3];
+    static float points[COUNT * 3];
     struct hair_tree tree;
     strew(points, 3, 100, 1);
     assert_int_equal(hair_tree_build(&test.host, (struct hair_cloud){points, 3}, COUNT, &tree), HAIR_OK);
     for (uint32_t i = 0; i < COUNT; ++i) {
-        float            point[3] = {points[3 * i] + 0.001f, points[3 * i + 1], points[3 * i + 2]};
+        float point[3] = {points[3 * i] + 0.001f, points[3 * i + 1], points[3 * i + 2]};
         struct hair_near blind, known = {i, distance_squared(points + 3 * i, point, 3)};
         hair_tree_nearest(&tree, point, &blind, 0, 1);
         assert_int_equal(hair_tree_nearest(&tree, point, &known, 1, 1), 1);
@@ -92,7 +92,7 @@ static void a_search_that_knows_a_near_point_finds_a_nearer_one_or_keeps_it(void
 static void as_many_are_found_as_there_are(void** state)
 {
     (void)state;
-    float            points[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[] = {1.9f, 0, 0};
+    float points[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[] = {1.9f, 0, 0};
     struct hair_near near[8];
     struct hair_tree tree;
     assert_int_equal(hair_tree_build(&test.host, (struct hair_cloud){points, 3}, 3, &tree), HAIR_OK);
@@ -106,7 +106,7 @@ static void as_many_are_found_as_there_are(void** state)
 static void a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weight(void** state)
 {
     (void)state;
-    static float    points[COUNT * 3];
+    static float points[COUNT * 3];
     static uint32_t order[COUNT], weights[COUNT];
     for (uint32_t steps = 1; steps < 5000; steps *= 4)
         for (uint32_t target = 0; target < 4 * COUNT; target += 37) {
@@ -114,9 +114,9 @@ static void a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weigh
             strew(points, 3, steps, target);
             for (uint32_t i = 0; i < COUNT; ++i) order[i] = i, weights[i] = 1 + hair_hash(++seed) % 3;
             struct hair_cloud cloud = {points, 3};
-            uint32_t          front = hair_cloud_split(cloud, order, COUNT, 1, weights, target);
+            uint32_t front = hair_cloud_split(cloud, order, COUNT, 1, weights, target);
             assert_in_range(front, 1, COUNT - 1);
-            float    most   = -1;
+            float most = -1;
             uint64_t weight = 0;
             for (uint32_t i = 0; i < COUNT; ++i) {
                 float x = points[3 * order[i] + 1];
@@ -138,14 +138,14 @@ static void a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weigh
 static void the_widest_axis_is_the_one_along_which_points_reach_farthest(void** state)
 {
     (void)state;
-    float             points[] = {0, 0, 0, 1, -3, 2, 0.5f, 1, 1};
-    uint32_t          order[]  = {0, 1, 2};
-    struct hair_cloud cloud    = {points, 3};
+    float points[] = {0, 0, 0, 1, -3, 2, 0.5f, 1, 1};
+    uint32_t order[] = {0, 1, 2};
+    struct hair_cloud cloud = {points, 3};
     assert_int_equal(hair_cloud_widest(cloud, order, 3), 1);
     uint32_t two[] = {0, 2};
     assert_int_equal(hair_cloud_widest(cloud, two, 2), 1);
     uint32_t others[] = {2, 0};
-    points[7]         = 0;
+    points[7] = 0;
     assert_int_equal(hair_cloud_widest(cloud, others, 2), 2);
 }
 

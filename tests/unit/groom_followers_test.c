@@ -50,39 +50,39 @@ static hair_vec3 root_of(const hair_groom* groom, uint32_t guide)
 static hair_vec3 straight(float t, uint32_t strand, const void* user)
 {
     (void)user;
-    uint32_t  random = hair_hash(strand);
-    hair_vec3 root   = {0.1f * hair_random(&random), 0, 0.1f * hair_random(&random)};
-    float     length = 0.15f + 0.1f * root.x + 0.02f * hair_random(&random);
-    hair_vec3 along  = {4 * root.x - 0.2f, -1, 3 * root.z};
+    uint32_t random = hair_hash(strand);
+    hair_vec3 root = {0.1f * hair_random(&random), 0, 0.1f * hair_random(&random)};
+    float length = 0.15f + 0.1f * root.x + 0.02f * hair_random(&random);
+    hair_vec3 along = {4 * root.x - 0.2f, -1, 3 * root.z};
     return hair_add(root, hair_scale(hair_normalize(along, along), length * t));
 }
 
 // Waves of 4 cm that shift over the scalp, and swing out by 4 mm.
 static hair_vec3 wavy(float t, uint32_t strand, const void* user)
 {
-    hair_vec3 p     = straight(t, strand, user);
-    hair_vec3 root  = straight(0, strand, user);
-    float     s     = hair_distance(root, p);
-    float     phase = 160 * s + 40 * root.x + 20 * root.z;
+    hair_vec3 p = straight(t, strand, user);
+    hair_vec3 root = straight(0, strand, user);
+    float s = hair_distance(root, p);
+    float phase = 160 * s + 40 * root.x + 20 * root.z;
     return hair_add(p, hair_scale(hair_v3(sinf(phase), 0, cosf(phase)), 0.004f * fminf(30 * s, 1)));
 }
 
 // What `strands_are` HAIR_STRANDS_ALL makes of strands, against the strands: found by their roots.
 struct fit {
     double rms, worst, root; // as shares of each strand's length; root: m
-    double own;              // rms when every follower were a copy of its guide, moved to its root
+    double own; // rms when every follower were a copy of its guide, moved to its root
 };
 
 static double find_strand(const struct hair_test_strands* strands, hair_vec3 root, const float** found,
                           uint32_t* vertices)
 {
-    double       least = INFINITY;
-    const float* p     = strands->positions;
+    double least = INFINITY;
+    const float* p = strands->positions;
     for (uint32_t i = 0; i < strands->count; p += 3 * strands->vertices[i++]) {
         double d = (double)hair_distance(root, hair_load3(p));
         if (d >= least) continue;
-        least     = d;
-        *found    = p;
+        least = d;
+        *found = p;
         *vertices = strands->vertices[i];
     }
     return least;
@@ -91,14 +91,14 @@ static double find_strand(const struct hair_test_strands* strands, hair_vec3 roo
 static struct fit measure_fit(const hair_groom* groom, const struct hair_test_strands* strands)
 {
     struct fit fit = {0};
-    double     sum = 0, own_sum = 0;
+    double sum = 0, own_sum = 0;
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        const float*                strand   = NULL;
-        uint32_t                    vertices = 0;
-        hair_vec3                   root     = hair_test_single(groom, follower, 0);
-        fit.root                             = fmax(fit.root, find_strand(strands, root, &strand, &vertices));
-        struct hair_follower copy            = *follower;
+        const float* strand = NULL;
+        uint32_t vertices = 0;
+        hair_vec3 root = hair_test_single(groom, follower, 0);
+        fit.root = fmax(fit.root, find_strand(strands, root, &strand, &vertices));
+        struct hair_follower copy = *follower;
         for (int k = 1; k < 4; ++k) copy.offset[k] = copy.offset[0];
 
         double length = 0, along = 0, squared = 0, own = 0;
@@ -124,9 +124,9 @@ static struct fit measure_fit(const hair_groom* groom, const struct hair_test_st
 static struct fit fit_strands(const char* name, const struct hair_test_strands* strands, uint32_t guides)
 {
     hair_groom_desc desc = hair_test_groom_desc(&test, strands);
-    desc.guide_count     = guides;
-    hair_groom* groom    = make(&desc);
-    struct fit  fit      = measure_fit(groom, strands);
+    desc.guide_count = guides;
+    hair_groom* groom = make(&desc);
+    struct fit fit = measure_fit(groom, strands);
     printf("%-8s %5u strands of %3u guides: rms error %.3f %% of the length, worst strand %.2f %%; copies of "
            "guides: "
            "%.2f %%\n",
@@ -169,18 +169,18 @@ static void strands_of_a_real_haircut_are_followed_closely(void** state)
         return;
     }
     static unsigned char bytes[1 << 21];
-    size_t               size = fread(bytes, 1, sizeof bytes, file);
+    size_t size = fread(bytes, 1, sizeof bytes, file);
     fclose(file);
     hair_asset_desc asset_desc = hair_asset_desc_default();
-    asset_desc.host            = &test.host;
-    hair_asset* asset          = NULL;
+    asset_desc.host = &test.host;
+    hair_asset* asset = NULL;
     assert_int_equal(hair_asset_read(&asset_desc, bytes, size, &asset), HAIR_OK);
     hair_asset_info info = hair_asset_info_default();
     hair_asset_describe(asset, &info);
     struct hair_test_strands strands = hair_test_strands_make(info.strand_count, info.most);
     memcpy(strands.positions, info.positions, 3 * info.vertex_count * sizeof(float));
     memcpy(strands.vertices, info.strand_vertices, info.strand_count * sizeof(uint32_t));
-    strands.count  = info.strand_count;
+    strands.count = info.strand_count;
     struct fit fit = fit_strands("mohawk", &strands, 0);
     assert_true(fit.rms < 0.02);
     hair_test_strands_free(&strands);
@@ -191,9 +191,9 @@ static void guides_follow_themselves_without_an_offset(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(500);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    hair_groom*              groom   = make(&desc);
-    uint32_t                 own     = 0;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    hair_groom* groom = make(&desc);
+    uint32_t own = 0;
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
         assert_true(follower->multi == 0 && follower->weight1 == 0 && follower->weight2 == 0);
@@ -219,19 +219,19 @@ static void strands_of_different_vertex_counts_are_followed_in_one_groom(void** 
 static void a_follower_is_as_long_as_its_strand(void** state)
 {
     (void)state;
-    float           positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 6, 0};
-    uint32_t        vertices[]  = {2, 2, 2};
-    hair_groom_desc desc        = hair_groom_desc_default();
-    desc.host                   = &test.host;
-    desc.positions              = positions;
-    desc.strand_vertices        = vertices;
-    desc.strand_count           = 3;
-    desc.guide_count            = 1;
-    hair_groom* groom           = make(&desc);
+    float positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 6, 0};
+    uint32_t vertices[] = {2, 2, 2};
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host = &test.host;
+    desc.positions = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count = 3;
+    desc.guide_count = 1;
+    hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 3; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        hair_vec3                   root     = hair_test_single(groom, follower, 0);
-        float                       length   = positions[6 * (int)(root.x + 0.5f) + 4];
+        hair_vec3 root = hair_test_single(groom, follower, 0);
+        float length = positions[6 * (int)(root.x + 0.5f) + 4];
         assert_float_equal(follower->length_ratio * groom->guides[0].arc_length, length, 1e-5);
         assert_float_equal(hair_test_single(groom, follower, 1).y, length, 1e-5);
     }
@@ -244,11 +244,11 @@ static void without_followers_asked_for_each_guide_is_drawn(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    desc.strands_are                 = HAIR_STRANDS_GUIDES;
-    desc.follower_count              = 0;
-    hair_groom* groom                = make(&desc);
-    bool        drawn[100]           = {false};
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.follower_count = 0;
+    hair_groom* groom = make(&desc);
+    bool drawn[100] = {false};
     assert_int_equal(groom->info.follower_count, 100);
     for (uint32_t i = 0; i < 100; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
@@ -265,15 +265,15 @@ static void followers_surround_their_guides_evenly_within_the_clump_radius(void*
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    desc.strands_are                 = HAIR_STRANDS_GUIDES;
-    desc.follower_count              = 5050;
-    desc.clump_radius                = 0.004f;
-    hair_groom* groom                = make(&desc);
-    uint32_t    own[100] = {0}, inner = 0, side[4] = {0};
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.follower_count = 5050;
+    desc.clump_radius = 0.004f;
+    hair_groom* groom = make(&desc);
+    uint32_t own[100] = {0}, inner = 0, side[4] = {0};
     for (uint32_t i = 0; i < 5050; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        hair_vec3                   offset   = xyz(follower->offset[0]);
+        hair_vec3 offset = xyz(follower->offset[0]);
         ++own[follower->guide0];
         assert_true(offset.y == 0);
         assert_true(hair_length(offset) <= 0.004f);
@@ -317,16 +317,16 @@ static hair_vec3 sparse(float t, uint32_t strand, const void* user)
 
 struct grown {
     struct hair_test_strands strands;
-    struct hair_test_scalp   scalp;
-    hair_groom_desc          desc;
+    struct hair_test_scalp scalp;
+    hair_groom_desc desc;
 };
 
 static struct grown prepare(uint32_t cells, uint32_t guide_cells, uint32_t followers,
                             hair_vec3 (*point)(float t, uint32_t strand, const void* user))
 {
-    uint32_t     guides = (guide_cells + 1) * (guide_cells + 1);
-    struct grown grown  = {
-         hair_test_strands_make(guides, 6), hair_test_scalp_make(cells, 0.2f), {.host = NULL}};
+    uint32_t guides = (guide_cells + 1) * (guide_cells + 1);
+    struct grown grown = {
+        hair_test_strands_make(guides, 6), hair_test_scalp_make(cells, 0.2f), {.host = NULL}};
     for (uint32_t i = 0; i < guides; ++i) hair_test_strands_add(&grown.strands, 6, point, &guide_cells);
     grown.desc = hair_test_groom_desc(&test, &grown.strands);
     hair_test_set_scalp(&grown.desc, &grown.scalp);
@@ -356,7 +356,7 @@ static void grown_roots_lie_on_the_scalp_by_either_interpolation(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, upright);
-    hair_groom*  groom = make(&grown.desc);
+    hair_groom* groom = make(&grown.desc);
     assert_rooted(groom);
     hair_groom_destroy(groom);
     free_grown(&grown);
@@ -372,14 +372,14 @@ static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_bet
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, upright);
-    hair_groom*  groom = make(&grown.desc);
-    uint32_t     first = 0;
+    hair_groom* groom = make(&grown.desc);
+    uint32_t first = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        float                       w1 = follower->weight1, w2 = follower->weight2;
-        hair_vec3                   p = hair_add(hair_scale(root_of(groom, follower->guide0), 1 - w1 - w2),
-                                                 hair_add(hair_scale(root_of(groom, follower->guide1), w1),
-                                                          hair_scale(root_of(groom, follower->guide2), w2)));
+        float w1 = follower->weight1, w2 = follower->weight2;
+        hair_vec3 p = hair_add(hair_scale(root_of(groom, follower->guide0), 1 - w1 - w2),
+                               hair_add(hair_scale(root_of(groom, follower->guide1), w1),
+                                        hair_scale(root_of(groom, follower->guide2), w2)));
         assert_true(hair_distance(p, hair_test_multi(groom, follower, 0)) < 1e-6f);
         assert_true(follower->multi == 1);
         first += 1 - w1 - w2 >= fmaxf(w1, w2);
@@ -393,12 +393,12 @@ static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_bet
 static void followers_are_between_guides_that_surround_them_where_corners_have_none(void** state)
 {
     (void)state;
-    struct grown grown  = prepare(9, 4, 4000, sparse);
-    hair_groom*  groom  = make(&grown.desc);
-    uint32_t     inside = 0, surrounded = 0;
+    struct grown grown = prepare(9, 4, 4000, sparse);
+    hair_groom* groom = make(&grown.desc);
+    uint32_t inside = 0, surrounded = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        hair_vec3                   p        = hair_test_multi(groom, follower, 0);
+        hair_vec3 p = hair_test_multi(groom, follower, 0);
         hair_vec3 own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
         assert_true(hair_distance(p, root_of(groom, follower->guide0)) < 0.15f);
         if (p.x < 0.005f || p.z < 0.005f) continue;
@@ -414,19 +414,19 @@ static void followers_are_between_guides_that_surround_them_where_corners_have_n
 static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
 {
     (void)state;
-    struct grown    grown = prepare(8, 8, 40000, upright);
-    hair_groom*     groom = make(&grown.desc);
+    struct grown grown = prepare(8, 8, 40000, upright);
+    hair_groom* groom = make(&grown.desc);
     static uint32_t count[1600];
     memset(count, 0, sizeof count);
     for (uint32_t i = 0; i < 40000; ++i) {
         hair_vec3 p = hair_test_multi(groom, &groom->followers[i], 0);
-        int       x = (int)fminf(p.x * 200, 39), z = (int)fminf(p.z * 200, 39);
+        int x = (int)fminf(p.x * 200, 39), z = (int)fminf(p.z * 200, 39);
         ++count[40 * z + x];
     }
     double squared = 0, most = 0, least = 100;
     for (int i = 0; i < 1600; ++i) {
         squared += (count[i] - 25.0) * (count[i] - 25.0) / 1600;
-        most  = fmax(most, count[i]);
+        most = fmax(most, count[i]);
         least = fmin(least, count[i]);
     }
     printf("followers per cell: 25 +- %.1f, from %.0f to %.0f\n", sqrt(squared), least, most);
@@ -440,12 +440,12 @@ static void nothing_is_blended_across_a_parting(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, parted);
-    hair_groom*  groom = make(&grown.desc);
-    uint32_t     apart = 0;
+    hair_groom* groom = make(&grown.desc);
+    uint32_t apart = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        float                       rise     = hair_test_multi(groom, follower, 1).y;
-        bool                        up       = root_of(groom, follower->guide0).x < 0.0999f;
+        float rise = hair_test_multi(groom, follower, 1).y;
+        bool up = root_of(groom, follower->guide0).x < 0.0999f;
         assert_float_equal(rise, (up ? 0.1f : -0.1f) * follower->length_ratio, 1e-5);
         apart += follower->weight1 == 0 || follower->weight2 == 0;
     }
@@ -457,11 +457,11 @@ static void nothing_is_blended_across_a_parting(void** state)
 static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere(void** state)
 {
     (void)state;
-    struct grown grown       = prepare(4, 4, 4000, upright);
-    float        density[25] = {0}; // Columns of 0, 0, 1/2, 1, 1
+    struct grown grown = prepare(4, 4, 4000, upright);
+    float density[25] = {0}; // Columns of 0, 0, 1/2, 1, 1
     for (int i = 0; i < 25; ++i) density[i] = fminf(fmaxf(0.5f * (float)(i % 5) - 0.5f, 0), 1);
     grown.desc.scalp_density = density;
-    hair_groom* groom        = make(&grown.desc);
+    hair_groom* groom = make(&grown.desc);
     assert_int_equal(groom->info.follower_count, 4000);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
@@ -481,10 +481,10 @@ static void triangles_of_other_densities_share_no_patch(void** state)
 {
     (void)state;
     struct grown grown = prepare(20, 4, 4000, sparse); // Five followers on a triangle.
-    float        density[441];
+    float density[441];
     for (int i = 0; i < 441; ++i) density[i] = i % 21 < 10 ? 0.25f : 0.75f;
     grown.desc.scalp_density = density;
-    hair_groom* groom        = make(&grown.desc);
+    hair_groom* groom = make(&grown.desc);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
         for (uint32_t j = 0; j < patch.count; ++j) {
@@ -511,10 +511,10 @@ static void the_scalp_is_scaled_and_turned_as_the_strands_are(void** state)
         hair_store3(p, hair_v3(100 * p[0], -100 * p[2], 100 * p[1]));
     }
     hair_import import = hair_import_default();
-    import.scale       = 0.01f;
-    import.up          = HAIR_UP_Z;
-    grown.desc.import  = &import;
-    hair_groom* groom  = make(&grown.desc);
+    import.scale = 0.01f;
+    import.up = HAIR_UP_Z;
+    grown.desc.import = &import;
+    hair_groom* groom = make(&grown.desc);
     assert_float_equal(groom->info.upper[1], 0.1, 1e-6);
     assert_rooted(groom);
     hair_groom_destroy(groom);
@@ -527,7 +527,7 @@ static void one_guide_or_two_are_enough_for_a_scalp(void** state)
     struct grown grown = prepare(3, 1, 500, sparse);
     for (uint32_t guides = 1; guides <= 2; ++guides) {
         grown.desc.strand_count = guides;
-        hair_groom* groom       = make(&grown.desc);
+        hair_groom* groom = make(&grown.desc);
         assert_rooted(groom);
         for (uint32_t i = 0; i < 500; ++i) {
             float w1 = groom->followers[i].weight1, w2 = groom->followers[i].weight2;

@@ -67,10 +67,10 @@ static void strands_given_as_guides_are_the_guides_in_their_order(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    desc.strands_are                 = HAIR_STRANDS_GUIDES;
-    desc.guide_count                 = 10;
-    hair_groom* groom                = make(&desc);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.guide_count = 10;
+    hair_groom* groom = make(&desc);
     assert_int_equal(groom->info.guide_count, 100);
     const float* p = strands.positions;
     for (uint32_t i = 0; i < 100; p += 3 * strands.vertices[i++])
@@ -88,9 +88,9 @@ static void guides_are_as_many_as_asked_for_or_one_in_ten(void** state)
                  {500, 7, 7}, {500, 1, 1}, {500, 9999, 500}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         struct hair_test_strands strands = hair_test_fur(cases[i].strands);
-        hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-        desc.guide_count                 = cases[i].asked;
-        hair_groom* groom                = make(&desc);
+        hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+        desc.guide_count = cases[i].asked;
+        hair_groom* groom = make(&desc);
         assert_int_equal(groom->info.guide_count, cases[i].given);
         hair_groom_destroy(groom);
         hair_test_strands_free(&strands);
@@ -111,15 +111,15 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     struct hair_test_strands strands = hair_test_strands_make(1000, 8);
     for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 8, few_stand, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.guide_count     = 20;
-    hair_groom* groom    = make(&desc);
-    uint32_t    standing = 0, hanging = 0;
+    desc.guide_count = 20;
+    hair_groom* groom = make(&desc);
+    uint32_t standing = 0, hanging = 0;
     for (uint32_t i = 0; i < 20; ++i) *(vertex(groom, i, 7).y > 0 ? &standing : &hanging) += 1;
     assert_in_range(standing, 1, 4);
     assert_int_equal(hanging, 20 - standing);
     for (uint32_t i = 0; i < 1000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        bool                        stands   = hair_test_single(groom, follower, 1).y > 0;
+        bool stands = hair_test_single(groom, follower, 1).y > 0;
         assert_int_equal(stands, vertex(groom, follower->guide0, 7).y > 0);
     }
     hair_groom_destroy(groom);
@@ -132,12 +132,12 @@ static void guides_lie_more_evenly_than_by_chance(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(10000);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    hair_groom*              groom   = make(&desc);
-    double                   sum     = 0;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    hair_groom* groom = make(&desc);
+    double sum = 0;
     for (uint32_t i = 0; i < 10000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        hair_vec3                   root     = hair_test_single(groom, follower, 0);
+        hair_vec3 root = hair_test_single(groom, follower, 0);
         sum += (double)hair_distance(root, vertex(groom, follower->guide0, 0)) / 10000;
     }
     printf("guides are %.2f of their spacing away\n", sum * sqrt(1000));
@@ -151,7 +151,7 @@ static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
 {
     (void)user;
     uint32_t random = hair_hash(strand);
-    float    size = strand % 2 ? 0.1f : 0.01f, x = strand % 2 ? 0.2f : 0;
+    float size = strand % 2 ? 0.1f : 0.01f, x = strand % 2 ? 0.2f : 0;
     return hair_v3(x + size * hair_random(&random), 0.1f * t, size * hair_random(&random));
 }
 
@@ -162,9 +162,9 @@ static void guides_go_where_strands_differ_more_than_where_they_are_many(void** 
     struct hair_test_strands strands = hair_test_strands_make(4000, 4);
     for (int i = 0; i < 4000; ++i) hair_test_strands_add(&strands, 4, wide_and_narrow, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.guide_count     = 230;
-    hair_groom* groom    = make(&desc);
-    uint32_t    narrow   = 0;
+    desc.guide_count = 230;
+    hair_groom* groom = make(&desc);
+    uint32_t narrow = 0;
     for (uint32_t i = 0; i < 230; ++i) narrow += vertex(groom, i, 0).x < 0.1f;
     assert_in_range(narrow, 5, 20);
     hair_groom_destroy(groom);
@@ -174,21 +174,21 @@ static void guides_go_where_strands_differ_more_than_where_they_are_many(void** 
 static void strands_that_are_all_alike_are_shared_out_too(void** state)
 {
     (void)state;
-    float                    count   = 1;
+    float count = 1;
     struct hair_test_strands strands = hair_test_strands_make(300, 5);
     for (int i = 0; i < 300; ++i) {
         hair_test_strands_add(&strands, 5, hedgehog, &count);
         strands.count -= 1; // The same strand again.
         strands.vertices[i] = 5;
     }
-    strands.count        = 300;
+    strands.count = 300;
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.guide_count     = 100;
-    hair_groom* groom    = make(&desc);
+    desc.guide_count = 100;
+    hair_groom* groom = make(&desc);
     assert_int_equal(groom->info.guide_count, 100);
     assert_int_equal(groom->info.follower_count, 300);
-    uint32_t drawn     = 0;
-    bool     seen[100] = {false};
+    uint32_t drawn = 0;
+    bool seen[100] = {false};
     for (uint32_t i = 0; i < 300; ++i) {
         drawn += !seen[groom->followers[i].guide0];
         seen[groom->followers[i].guide0] = true;
@@ -207,10 +207,10 @@ static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_m
     for (int i = 0; i < 8; ++i) hair_test_strands_add(&strands, given[i], curl, NULL);
     for (int k = 0; k < 8; ++k) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-        desc.strands_are     = HAIR_STRANDS_GUIDES;
-        desc.guide_vertices  = asked[k];
-        hair_groom* groom    = make(&desc);
-        uint32_t    first = 0, most = 0;
+        desc.strands_are = HAIR_STRANDS_GUIDES;
+        desc.guide_vertices = asked[k];
+        hair_groom* groom = make(&desc);
+        uint32_t first = 0, most = 0;
         for (uint32_t i = 0; i < 8; ++i) {
             uint32_t kept = given[i] < 4 ? 4 : given[i];
             if (kept > asked[k]) kept = asked[k];
@@ -249,14 +249,14 @@ static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samp
     hair_test_strands_add(&strands, 32, curl, NULL);
     hair_test_strands_add(&strands, 200, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    hair_groom* groom    = make(&desc);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    hair_groom* groom = make(&desc);
     assert_float_equal(groom->guides[0].arc_length / length_of(strands.positions, 3), 1, 1e-6);
     assert_float_equal(groom->guides[1].arc_length / length_of(strands.positions + 9, 32), 1, 1e-6);
 
     double turn = 12.566 / 31, around = 0.02 * 12.566,
            share = around * around / (around * around + 0.2 * 0.2);
-    double loss  = 1 - groom->guides[2].arc_length / length_of(strands.positions + 3 * 35, 200);
+    double loss = 1 - groom->guides[2].arc_length / length_of(strands.positions + 3 * 35, 200);
     printf("200 vertices brought down to 32: %.2f %% shorter\n", 100 * loss);
     assert_float_equal(loss, share * turn * turn / 24, 0.1 * turn * turn / 24);
     hair_groom_destroy(groom);
@@ -266,12 +266,12 @@ static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samp
 static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** state)
 {
     (void)state;
-    float                    count   = 1000;
+    float count = 1000;
     struct hair_test_strands strands = hair_test_strands_make(1000, 5);
     for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    hair_groom* groom    = make(&desc);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 1000; ++i) {
         hair_quat q = frame_of(&groom->guides[i]);
         hair_vec3 along =
@@ -288,16 +288,16 @@ static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** st
 static void root_frames_vary_as_smoothly_as_the_roots(void** state)
 {
     (void)state;
-    float                    count   = 4000;
+    float count = 4000;
     struct hair_test_strands strands = hair_test_strands_make(2000, 5);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    hair_groom* groom    = make(&desc);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 2000; ++i)
         for (uint32_t j = 0; j < i; ++j) {
             hair_quat a = frame_of(&groom->guides[i]), b = frame_of(&groom->guides[j]);
-            float along  = hair_distance(hair_rotate(a, hair_v3(0, 1, 0)), hair_rotate(b, hair_v3(0, 1, 0)));
+            float along = hair_distance(hair_rotate(a, hair_v3(0, 1, 0)), hair_rotate(b, hair_v3(0, 1, 0)));
             float across = hair_distance(hair_rotate(a, hair_v3(1, 0, 0)), hair_rotate(b, hair_v3(1, 0, 0)));
             if (along < 0.1f) assert_true(across < 1.5f * along);
         }
@@ -318,17 +318,17 @@ static void lengths_and_directions_give_the_guide_back(void** state)
     struct hair_test_strands strands = hair_test_strands_make(20, 60);
     for (uint32_t i = 0; i < 20; ++i) hair_test_strands_add(&strands, 3 + 3 * i, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    hair_groom* groom    = make(&desc);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 20; ++i) {
-        const struct hair_rest* rest  = groom->rest + groom->guides[i].first;
-        hair_quat               frame = frame_of(&groom->guides[i]);
-        hair_vec3               at = xyz(rest[0].position), before = hair_rotate(frame, hair_v3(0, 1, 0));
+        const struct hair_rest* rest = groom->rest + groom->guides[i].first;
+        hair_quat frame = frame_of(&groom->guides[i]);
+        hair_vec3 at = xyz(rest[0].position), before = hair_rotate(frame, hair_v3(0, 1, 0));
         for (uint32_t j = 0; j + 1 < groom->guides[i].count; ++j) {
             hair_vec3 to = hair_rotate(frame, xyz(rest[j].direction));
             assert_float_equal(hair_length(xyz(rest[j].direction)), 1, 1e-6);
-            frame  = hair_quat_multiply(hair_quat_between(before, to), frame);
-            at     = hair_add(at, hair_scale(to, rest[j].position.w));
+            frame = hair_quat_multiply(hair_quat_between(before, to), frame);
+            at = hair_add(at, hair_scale(to, rest[j].position.w));
             before = to;
             assert_true(hair_distance(at, xyz(rest[j + 1].position)) < 5e-6f);
             assert_float_equal(fabsf(same_turn(frame, rest[j].frame)), 1, 1e-6);
@@ -345,9 +345,9 @@ static void rest_distances_are_those_between_vertices_and_none_at_the_tip(void**
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(1, 20);
     hair_test_strands_add(&strands, 20, curl, NULL);
-    hair_groom_desc         desc  = hair_test_groom_desc(&test, &strands);
-    hair_groom*             groom = make(&desc);
-    const struct hair_rest* rest  = groom->rest;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    hair_groom* groom = make(&desc);
+    const struct hair_rest* rest = groom->rest;
     for (uint32_t i = 0; i < 20; ++i) {
         float one = i < 19 ? hair_distance(vertex(groom, 0, i), vertex(groom, 0, i + 1)) : 0;
         float two = i < 18 ? hair_distance(vertex(groom, 0, i), vertex(groom, 0, i + 2)) : 0;
@@ -370,13 +370,13 @@ static hair_vec3 zigzag(float t, uint32_t strand, const void* user)
 static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 {
     (void)state;
-    struct hair_test_strands strands    = hair_test_strands_make(3, 256);
-    static const uint32_t    vertices[] = {4, 32, 241}; // Of 240 segments 41 samples take every sixth vertex.
+    struct hair_test_strands strands = hair_test_strands_make(3, 256);
+    static const uint32_t vertices[] = {4, 32, 241}; // Of 240 segments 41 samples take every sixth vertex.
     for (int i = 0; i < 3; ++i) hair_test_strands_add(&strands, vertices[i], zigzag, &vertices[i]);
     for (uint32_t guide_vertices = 2; guide_vertices <= HAIR_MAX_GUIDE_VERTICES; ++guide_vertices) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-        desc.guide_vertices  = guide_vertices;
-        hair_groom* groom    = make(&desc);
+        desc.guide_vertices = guide_vertices;
+        hair_groom* groom = make(&desc);
         for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
             const struct hair_guide* guide = &groom->guides[i];
             assert_in_range(guide->count, guide_vertices < 4 ? guide_vertices : 4, guide_vertices);
@@ -397,7 +397,7 @@ static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 static hair_vec3 bunch(float t, uint32_t strand, const void* user)
 {
     uint32_t i = (uint32_t)(t * *(const float*)user + 0.5f);
-    float    d = 2e-5f * (float)i;
+    float d = 2e-5f * (float)i;
     if (strand == 0) return hair_v3(0, t == 1 ? -1 : -d, 0);
     if (strand == 1) return hair_v3(1, t == 0 ? 0 : -1 - d, 0);
     return hair_v3(2, -0.1f * (float)(i / 2) - (i % 2 ? 2e-5f : 0), 0);
@@ -406,12 +406,12 @@ static hair_vec3 bunch(float t, uint32_t strand, const void* user)
 static void vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does(void** state)
 {
     (void)state;
-    const float              last    = 23;
+    const float last = 23;
     struct hair_test_strands strands = hair_test_strands_make(3, 24);
     for (int k = 0; k < 3; ++k) hair_test_strands_add(&strands, 24, bunch, &last);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    hair_groom* groom    = make(&desc);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    hair_groom* groom = make(&desc);
     for (uint32_t g = 0; g < 3; ++g) {
         float mean = groom->guides[g].arc_length / last;
         assert_int_equal(groom->guides[g].count, 24);

@@ -17,12 +17,12 @@ static struct hair_test_host test;
 
 // Desc and arrays of one case.
 struct hostile {
-    float           positions[3 * VERTICES], scalp[3 * SCALP], density[SCALP];
-    float           radii[STRANDS], colors[3 * VERTICES];
-    uint32_t        vertices[STRANDS], triangles[3 * 2 * SCALP];
-    hair_import     import;
+    float positions[3 * VERTICES], scalp[3 * SCALP], density[SCALP];
+    float radii[STRANDS], colors[3 * VERTICES];
+    uint32_t vertices[STRANDS], triangles[3 * 2 * SCALP];
+    hair_import import;
     hair_groom_desc desc;
-    uint32_t        random;
+    uint32_t random;
 };
 
 static uint32_t below(struct hostile* h, uint32_t limit)
@@ -42,14 +42,14 @@ static void invent(struct hostile* h, uint32_t seed)
 {
     static const uint32_t wilds[] = {0, 1, 10, 60};
     memset(h, 0, sizeof *h);
-    h->random     = seed;
+    h->random = seed;
     uint32_t wild = wilds[below(h, 4)], left = VERTICES;
-    h->import       = hair_import_default();
+    h->import = hair_import_default();
     h->import.scale = below(h, 3) ? 1 : powf(10, (float)below(h, 13) - 6);
-    h->import.up    = (hair_up)below(h, 3);
-    h->desc         = hair_groom_desc_default();
-    h->desc.host    = &test.host;
-    h->desc.import  = &h->import;
+    h->import.up = (hair_up)below(h, 3);
+    h->desc = hair_groom_desc_default();
+    h->desc.host = &test.host;
+    h->desc.import = &h->import;
 
     h->desc.strand_count = 1 + below(h, STRANDS);
     for (uint32_t i = 0; i < h->desc.strand_count; ++i) {
@@ -61,14 +61,14 @@ static void invent(struct hostile* h, uint32_t seed)
     // Strands that stand still, and strands that run to and fro.
     for (uint32_t i = 6; i < 3 * VERTICES; ++i)
         if (seed % 3 == 1 && below(h, 2)) h->positions[i] = h->positions[i - 6];
-    h->desc.positions       = h->positions;
+    h->desc.positions = h->positions;
     h->desc.strand_vertices = h->vertices;
-    h->desc.strands_are     = (hair_strands_are)below(h, 2);
-    h->desc.guide_count     = below(h, 2) * below(h, 50);
-    h->desc.guide_vertices  = 2 + below(h, below(h, 4) ? 63 : 255);
-    h->desc.follower_count  = below(h, 500);
-    h->desc.clump_radius    = hair_random(&h->random);
-    h->desc.seed            = seed;
+    h->desc.strands_are = (hair_strands_are)below(h, 2);
+    h->desc.guide_count = below(h, 2) * below(h, 50);
+    h->desc.guide_vertices = 2 + below(h, below(h, 4) ? 63 : 255);
+    h->desc.follower_count = below(h, 500);
+    h->desc.clump_radius = hair_random(&h->random);
+    h->desc.seed = seed;
 
     for (uint32_t i = 0; i < 3 * VERTICES; ++i)
         h->colors[i] = below(h, 2000) || !wild ? hair_random(&h->random) : number(h, 100);
@@ -79,7 +79,7 @@ static void invent(struct hostile* h, uint32_t seed)
     h->desc.color_count = below(h, 2) * below(h, VERTICES / STRANDS);
 
     if (below(h, 2)) return;
-    h->desc.scalp_vertex_count   = 3 + below(h, SCALP - 2);
+    h->desc.scalp_vertex_count = 3 + below(h, SCALP - 2);
     h->desc.scalp_triangle_count = 1 + below(h, 2 * SCALP);
     for (uint32_t i = 0; i < 3 * SCALP; ++i) h->scalp[i] = number(h, wild / 10);
     for (uint32_t i = 0; i < SCALP; ++i) h->density[i] = wild ? hair_random(&h->random) : (float)below(h, 2);
@@ -87,7 +87,7 @@ static void invent(struct hostile* h, uint32_t seed)
     if (seed % 17 == 0) h->triangles[2] = UINT32_MAX;
     h->desc.scalp_positions = h->scalp;
     h->desc.scalp_triangles = h->triangles;
-    h->desc.scalp_density   = below(h, 2) ? h->density : NULL;
+    h->desc.scalp_density = below(h, 2) ? h->density : NULL;
 }
 
 static void assert_finite(const void* floats, size_t count)
@@ -124,7 +124,7 @@ static void any_numbers_are_refused_or_make_a_sound_groom(void** state)
 {
     (void)state;
     static struct hostile hostile;
-    uint32_t              made = 0, refused = 0;
+    uint32_t made = 0, refused = 0;
     for (uint32_t seed = 1; seed <= 3000; ++seed) {
         hair_groom* groom = NULL;
         hair_test_host_init(&test);

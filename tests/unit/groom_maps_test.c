@@ -31,10 +31,10 @@ static int finish(void** state)
 // Guides at the scalp's vertices, straight up, and followers between them; or all strands given.
 struct grown {
     struct hair_test_strands strands;
-    struct hair_test_scalp   scalp;
-    float                    uvs[2 * VERTICES];
-    hair_map_set             set[4];
-    hair_groom_desc          desc;
+    struct hair_test_scalp scalp;
+    float uvs[2 * VERTICES];
+    hair_map_set set[4];
+    hair_groom_desc desc;
 };
 
 static hair_vec3 at_vertex(float t, uint32_t strand, const void* user)
@@ -48,14 +48,14 @@ static hair_vec3 strewn(float t, uint32_t strand, const void* user)
 {
     (void)user;
     uint32_t random = hair_hash(strand);
-    float    x      = SIDE * hair_random(&random);
+    float x = SIDE * hair_random(&random);
     return hair_v3(x, 0.001f + 0.1f * t, SIDE * hair_random(&random)); // A little above the scalp.
 }
 
 static void prepare(struct grown* grown, uint32_t followers, int all)
 {
     uint32_t count = all ? followers : VERTICES;
-    *grown         = (struct grown){.scalp = hair_test_scalp_make(CELLS, SIDE)};
+    *grown = (struct grown){.scalp = hair_test_scalp_make(CELLS, SIDE)};
     grown->strands = hair_test_strands_make(count, 6);
     for (uint32_t i = 0; i < count; ++i)
         hair_test_strands_add(&grown->strands, 6, all ? strewn : at_vertex, NULL);
@@ -64,7 +64,7 @@ static void prepare(struct grown* grown, uint32_t followers, int all)
     if (all) grown->desc.strands_are = HAIR_STRANDS_ALL;
     grown->desc.follower_count = followers;
     for (uint32_t i = 0; i < VERTICES; ++i) {
-        grown->uvs[2 * i]     = grown->scalp.positions[3 * i] / SIDE;
+        grown->uvs[2 * i] = grown->scalp.positions[3 * i] / SIDE;
         grown->uvs[2 * i + 1] = grown->scalp.positions[3 * i + 2] / SIDE;
     }
     grown->desc.scalp_uvs = grown->uvs;
@@ -115,8 +115,8 @@ static void count_columns(const hair_groom* groom, float share, double count[10]
 {
     memset(count, 0, 10 * sizeof *count);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
-        struct hair_patch patch  = groom->patches[i];
-        float             wanted = wanted_of(&patch, patch.map_density.x, share);
+        struct hair_patch patch = groom->patches[i];
+        float wanted = wanted_of(&patch, patch.map_density.x, share);
         for (uint32_t k = 0; (float)k < wanted; ++k) {
             int column = (int)fminf(fmaxf(10 * root_of(groom, patch.first + k).x / SIDE, 0), 9);
             count[column] += (double)fminf(wanted - (float)k, 1);
@@ -131,12 +131,12 @@ static void nothing_is_drawn_where_an_image_is_black(void** state)
     for (int all = 0; all < 2; ++all) {
         struct grown grown;
         prepare(&grown, 4000, all);
-        grown.set[0].density   = image(grey, 1, 1);
-        grown.set[1].density   = image(bands, 10, 1);
+        grown.set[0].density = image(grey, 1, 1);
+        grown.set[1].density = image(bands, 10, 1);
         grown.desc.map_sets[0] = &grown.set[0];
         grown.desc.map_sets[1] = &grown.set[1];
-        hair_groom* groom      = make(&grown.desc);
-        uint32_t    sum        = 0;
+        hair_groom* groom = make(&grown.desc);
+        uint32_t sum = 0;
         for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
             struct hair_patch patch = groom->patches[i];
             assert_int_equal(patch.first, sum);
@@ -159,11 +159,11 @@ static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(vo
 {
     (void)state;
     static const float ramp[2] = {0, 1};
-    struct grown       grown;
+    struct grown grown;
     prepare(&grown, 8000, 0);
-    grown.set[0].density   = image(ramp, 2, 1); // 0 up to a quarter, 1 from three quarters on
+    grown.set[0].density = image(ramp, 2, 1); // 0 up to a quarter, 1 from three quarters on
     grown.desc.map_sets[0] = &grown.set[0];
-    hair_groom* groom      = make(&grown.desc);
+    hair_groom* groom = make(&grown.desc);
     for (int k = 1; k <= 4; ++k) {
         double count[10];
         count_columns(groom, 0.25f * (float)k, count);
@@ -180,19 +180,19 @@ static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(vo
 static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
 {
     (void)state;
-    float        stripes[40];
+    float stripes[40];
     struct grown grown;
     prepare(&grown, 8000, 0);
     for (int i = 0; i < 40; ++i) stripes[i] = i % 4 < 2 ? 0.55f : 0.75f;
-    grown.set[0].density   = image(stripes, 40, 1);
+    grown.set[0].density = image(stripes, 40, 1);
     grown.desc.map_sets[0] = &grown.set[0];
-    hair_groom* groom      = make(&grown.desc);
+    hair_groom* groom = make(&grown.desc);
     assert_true(groom->info.patch_count < 200);
     for (int k = 1; k <= 4; ++k) {
         double drawn[2] = {0}, all[2] = {0};
         for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
-            struct hair_patch patch  = groom->patches[i];
-            float             wanted = wanted_of(&patch, patch.map_density.x, 0.25f * (float)k);
+            struct hair_patch patch = groom->patches[i];
+            float wanted = wanted_of(&patch, patch.map_density.x, 0.25f * (float)k);
             for (uint32_t j = 0; j < patch.count; ++j) {
                 int stripe = (int)(10 * root_of(groom, patch.first + j).x / SIDE * 2) & 1;
                 all[stripe] += 1;
@@ -210,20 +210,20 @@ static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
 static void a_linear_map_is_the_same_as_image_and_by_vertices(void** state)
 {
     (void)state;
-    float        values[VERTICES], wide[200];
+    float values[VERTICES], wide[200];
     struct grown grown;
     prepare(&grown, 3000, 0);
     for (int i = 0; i < VERTICES; ++i) values[i] = 0.1f + 0.8f * grown.uvs[2 * i];
     for (int i = 0; i < 200; ++i) wide[i] = 0.1f + 0.8f * ((float)i + 0.5f) / 200;
-    grown.desc.map_sets[0]  = &grown.set[0];
-    grown.set[0].thickness  = (hair_map){HAIR_MAP_VERTICES, values, 0, 0};
+    grown.desc.map_sets[0] = &grown.set[0];
+    grown.set[0].thickness = (hair_map){HAIR_MAP_VERTICES, values, 0, 0};
     hair_groom* by_vertices = make(&grown.desc);
-    grown.set[0].thickness  = image(wide, 200, 1);
-    hair_groom* by_image    = make(&grown.desc);
-    grown.desc.map_sets[0]  = NULL;
-    hair_groom* plain       = make(&grown.desc);
+    grown.set[0].thickness = image(wide, 200, 1);
+    hair_groom* by_image = make(&grown.desc);
+    grown.desc.map_sets[0] = NULL;
+    hair_groom* plain = make(&grown.desc);
     for (uint32_t i = 0; i < 3000; ++i) {
-        float u         = root_of(plain, i).x / SIDE;
+        float u = root_of(plain, i).x / SIDE;
         float thickness = by_vertices->followers[i].offset[0].w / plain->followers[i].offset[0].w;
         assert_float_equal(thickness, 0.1f + 0.8f * u, 1e-4);
         assert_float_equal(by_image->followers[i].offset[0].w, by_vertices->followers[i].offset[0].w, 0.004);
@@ -248,14 +248,14 @@ static void patches_tell_of_every_set(void** state)
 {
     (void)state;
     static const float left[2] = {1, 0}, right[2] = {0, 1}, thick[4] = {0.5f, 2, 0.5f, 2};
-    float              values[TRIANGLES];
-    struct grown       grown;
+    float values[TRIANGLES];
+    struct grown grown;
     prepare(&grown, 6000, 0);
     for (uint32_t i = 0; i < TRIANGLES; ++i) values[i] = i % 2 ? 1 : 0.3f;
-    grown.set[0].density   = image(left, 2, 1);
-    grown.set[1].density   = image(right, 2, 1);
+    grown.set[0].density = image(left, 2, 1);
+    grown.set[1].density = image(right, 2, 1);
     grown.set[1].thickness = image(thick, 2, 2);
-    grown.set[2].density   = (hair_map){HAIR_MAP_TRIANGLES, values, 0, 0};
+    grown.set[2].density = (hair_map){HAIR_MAP_TRIANGLES, values, 0, 0};
     for (int i = 0; i < 3; ++i) grown.desc.map_sets[i] = &grown.set[i];
     hair_groom* groom = make(&grown.desc);
     assert_int_equal(groom->map_sets, 3);
@@ -266,7 +266,7 @@ static void patches_tell_of_every_set(void** state)
             sum[set] += (double)(of_set(&patch->map_density, set) * (float)patch->count);
         assert_float_equal(patch->map_density.w, patch->map_density.z, 0); // What the last says.
         for (uint32_t k = 0; k < patch->count; ++k) {
-            float u    = root_of(groom, patch->first + k).x / SIDE;
+            float u = root_of(groom, patch->first + k).x / SIDE;
             float ramp = fminf(fmaxf(2 * u - 0.5f, 0), 1);
             assert_float_equal(patch->map_density.x, 1 - ramp, 0.2501);
             assert_float_equal(patch->map_density.y, ramp, 0.2501);
@@ -285,39 +285,39 @@ static void patches_tell_of_every_set(void** state)
 static void maps_are_refused_by_set_index_value_and_range(void** state)
 {
     (void)state;
-    float        values[VERTICES] = {0};
+    float values[VERTICES] = {0};
     struct grown grown;
     prepare(&grown, 100, 0);
-    hair_map_set* set      = &grown.set[0];
+    hair_map_set* set = &grown.set[0];
     grown.desc.map_sets[1] = &grown.set[1];
     assert_refused(&grown.desc, "map_sets[0] is NULL but [1] is not");
     grown.desc.map_sets[0] = set;
-    set->density           = (hair_map){HAIR_MAP_VERTICES, NULL, 0, 0};
+    set->density = (hair_map){HAIR_MAP_VERTICES, NULL, 0, 0};
     assert_refused(&grown.desc, "map_sets[0]->density.values is NULL");
     set->density.of = (hair_map_of)7;
     assert_refused(&grown.desc, "map_sets[0]->density.of is 7, not in [0, 3]");
     set->density = (hair_map){HAIR_MAP_VERTICES, values, 0, 0};
-    values[7]    = 1.5f;
+    values[7] = 1.5f;
     assert_refused(&grown.desc, "map_sets[0]->density.values[7] is 1.5, not in [0, 1]");
     values[7] = NAN;
     assert_refused(&grown.desc, "map_sets[0]->density.values[7] is");
-    values[7]              = 0;
+    values[7] = 0;
     grown.set[1].thickness = image(values, 4, 2);
-    values[6]              = 4.5f;
-    set->density           = (hair_map){0};
+    values[6] = 4.5f;
+    set->density = (hair_map){0};
     assert_refused(&grown.desc, "map_sets[1]->thickness.values[6] is 4.5, not in [0, 4]");
     grown.set[1].thickness = image(values, 0, 2);
     assert_refused(&grown.desc, "map_sets[1]->thickness is an image of 0 by 2, not of [1, 16384] each");
     grown.set[1].thickness = image(values, 2, 1);
-    grown.desc.scalp_uvs   = NULL;
+    grown.desc.scalp_uvs = NULL;
     assert_refused(&grown.desc, "scalp_uvs is NULL but map_sets[1]->thickness is an image");
     grown.desc.scalp_uvs = grown.uvs;
-    grown.uvs[9]         = INFINITY;
+    grown.uvs[9] = INFINITY;
     assert_refused(&grown.desc, "scalp_uvs: vertex 4 has inf, not in [-1e6, 1e6]");
     grown.desc.scalp_positions = NULL;
     assert_refused(&grown.desc, "scalp_positions is NULL");
     hair_groom_desc plain = hair_test_groom_desc(&test, &grown.strands);
-    plain.map_sets[0]     = set;
+    plain.map_sets[0] = set;
     assert_refused(&plain, "scalp_positions is NULL but map_sets[0] is not");
     free_grown(&grown);
 }
@@ -332,13 +332,13 @@ static void no_memory_is_lost_whichever_allocation_is_refused(void** state)
         grown.set[0].density = grown.set[0].thickness = image(noise, 3, 3);
         grown.desc.map_sets[0] = grown.desc.map_sets[1] = &grown.set[0];
         for (uint32_t n = 1;; ++n) {
-            hair_groom* groom      = NULL;
-            test.allocations       = 0;
-            test.refuse            = n;
-            hair_result result     = hair_groom_create(&grown.desc, &groom);
-            int         went_round = test.allocations < n;
-            test.refuse            = 0;
-            test.errors            = 0;
+            hair_groom* groom = NULL;
+            test.allocations = 0;
+            test.refuse = n;
+            hair_result result = hair_groom_create(&grown.desc, &groom);
+            int went_round = test.allocations < n;
+            test.refuse = 0;
+            test.errors = 0;
             hair_groom_destroy(groom);
             assert_int_equal(test.blocks, 0);
             if (went_round) {

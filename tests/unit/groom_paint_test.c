@@ -30,10 +30,10 @@ static int finish(void** state)
 static hair_groom* make(struct hair_test_strands* strands, hair_groom_desc* desc, float* colors, float* radii)
 {
     hair_groom* groom = NULL;
-    *desc             = hair_test_groom_desc(&test, strands);
+    *desc = hair_test_groom_desc(&test, strands);
     for (uint32_t i = 0, first = 0; i < COUNT; first += strands->vertices[i++]) {
-        const float* root   = strands->positions + 3 * first;
-        float        own[6] = {root[0], 0.5f, 0, 0, 0, root[2]};
+        const float* root = strands->positions + 3 * first;
+        float own[6] = {root[0], 0.5f, 0, 0, 0, root[2]};
         memcpy(colors + 6 * i, own, sizeof own);
         radii[i] = 1 + root[0];
     }
@@ -45,15 +45,15 @@ static hair_groom* make(struct hair_test_strands* strands, hair_groom_desc* desc
 static void followers_of_strands_have_what_these_have(void** state)
 {
     (void)state;
-    static float             colors[6 * COUNT], radii[COUNT];
+    static float colors[6 * COUNT], radii[COUNT];
     struct hair_test_strands strands = hair_test_fur(COUNT);
-    hair_groom_desc          desc;
-    hair_groom*              groom = make(&strands, &desc, colors, radii);
-    double                   mean  = 0;
+    hair_groom_desc desc;
+    hair_groom* groom = make(&strands, &desc, colors, radii);
+    double mean = 0;
     for (uint32_t i = 0; i < COUNT; ++i) mean += (double)radii[i] / COUNT;
     assert_int_equal(groom->info.follower_count, COUNT);
     for (uint32_t i = 0; i < COUNT; ++i) {
-        hair_vec3       root  = hair_test_single(groom, &groom->followers[i], 0);
+        hair_vec3 root = hair_test_single(groom, &groom->followers[i], 0);
         const uint16_t* paint = groom->paint + 4 * PLACES * i;
         assert_float_equal(paint[0] / 65535.0, root.x, 1e-4);
         assert_float_equal(paint[1] / 65535.0, 0.5, 1e-4);
@@ -69,21 +69,21 @@ static void followers_of_strands_have_what_these_have(void** state)
 static void followers_between_guides_have_what_lies_between(void** state)
 {
     (void)state;
-    static float             colors[6 * COUNT], radii[COUNT];
+    static float colors[6 * COUNT], radii[COUNT];
     struct hair_test_strands strands = hair_test_fur(COUNT);
-    struct hair_test_scalp   scalp   = hair_test_scalp_make(8, 1);
-    hair_groom_desc          desc;
-    hair_groom*              groom = make(&strands, &desc, colors, radii);
+    struct hair_test_scalp scalp = hair_test_scalp_make(8, 1);
+    hair_groom_desc desc;
+    hair_groom* groom = make(&strands, &desc, colors, radii);
     hair_groom_destroy(groom);
     hair_test_set_scalp(&desc, &scalp);
-    desc.strands_are    = HAIR_STRANDS_GUIDES;
+    desc.strands_are = HAIR_STRANDS_GUIDES;
     desc.follower_count = 2000;
     assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
-        const struct hair_follower* f     = &groom->followers[i];
-        const uint16_t*             paint = groom->paint + 4 * PLACES * i;
-        double   red = 0, weight[3] = {1 - (double)f->weight1 - (double)f->weight2, (double)f->weight1,
-                                       (double)f->weight2};
+        const struct hair_follower* f = &groom->followers[i];
+        const uint16_t* paint = groom->paint + 4 * PLACES * i;
+        double red = 0, weight[3] = {1 - (double)f->weight1 - (double)f->weight2, (double)f->weight1,
+                                     (double)f->weight2};
         uint32_t guide[3] = {f->guide0, f->guide1, f->guide2};
         for (int k = 0; k < 3; ++k)
             red += weight[k] * (double)groom->rest[groom->guides[guide[k]].first].position.x;
@@ -98,8 +98,8 @@ static void without_any_nothing_is_kept(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(COUNT);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    hair_groom*              groom   = NULL;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    hair_groom* groom = NULL;
     assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
     assert_null(groom->paint);
     hair_groom_destroy(groom);
@@ -109,11 +109,11 @@ static void without_any_nothing_is_kept(void** state)
 static void wrong_values_are_named(void** state)
 {
     (void)state;
-    static const float       bad[] = {NAN, INFINITY, -1e-3f, 1e7f};
-    static float             colors[6 * COUNT], radii[COUNT];
+    static const float bad[] = {NAN, INFINITY, -1e-3f, 1e7f};
+    static float colors[6 * COUNT], radii[COUNT];
     struct hair_test_strands strands = hair_test_fur(COUNT);
-    hair_groom_desc          desc;
-    hair_groom*              groom = make(&strands, &desc, colors, radii);
+    hair_groom_desc desc;
+    hair_groom* groom = make(&strands, &desc, colors, radii);
     hair_groom_destroy(groom);
     groom = NULL;
     for (int i = 0; i < 4; ++i) {

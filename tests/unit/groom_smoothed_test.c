@@ -23,9 +23,9 @@ static hair_vec3 curved(float t, uint32_t strand, const void* user)
 static struct hair_test_host host;
 
 struct fixture {
-    hair_groom*                   groom;
+    hair_groom* groom;
     struct hair_reference_sample* samples;
-    uint32_t                      each; // samples of a guide
+    uint32_t each; // samples of a guide
 };
 
 // A third of the strands has more vertices than any guide may.
@@ -37,20 +37,20 @@ static struct fixture start(uint32_t guide_vertices)
     for (uint32_t i = 0; i < 100; ++i)
         hair_test_strands_add(&strands, i % 3 ? 3 + i % 32 : 256, curved, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&host, &strands);
-    desc.guide_count     = 20;
-    desc.guide_vertices  = guide_vertices;
+    desc.guide_count = 20;
+    desc.guide_vertices = guide_vertices;
     assert_int_equal(hair_groom_create(&desc, &fixture.groom), HAIR_OK);
     hair_test_strands_free(&strands);
 
     // At rest, with the head where the groom is.
-    hair_groom*                    groom = fixture.groom;
+    hair_groom* groom = fixture.groom;
     static struct hair_step_params params;
     params.rotation_before = params.rotation_after = params.rotation_now = (hair_vec4){0, 0, 0, 1};
     params.smooth_vertices = fixture.each = 2 * (groom->most_vertices - 1) + 1;
     fixture.samples = calloc((size_t)groom->info.guide_count * fixture.each, sizeof *fixture.samples);
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
-        const struct hair_guide*     guide = &groom->guides[i];
-        const struct hair_rest*      rest  = groom->rest + guide->first;
+        const struct hair_guide* guide = &groom->guides[i];
+        const struct hair_rest* rest = groom->rest + guide->first;
         struct hair_reference_vertex vertex[HAIR_MAX_GUIDE_VERTICES];
         memset(vertex, 0, sizeof vertex);
         for (uint32_t j = 0; j < guide->count; ++j) {
@@ -84,15 +84,15 @@ static void assert_vec3(hair_vec3 a, const double b[3], double tolerance)
 static void compare_guides(const struct fixture* fixture)
 {
     for (uint32_t i = 0; i < fixture->groom->info.guide_count; ++i) {
-        struct hair_smoothed     smoothed;
-        const struct hair_guide* guide   = &fixture->groom->guides[i];
-        double                   segment = (double)guide->arc_length / (guide->count - 1);
+        struct hair_smoothed smoothed;
+        const struct hair_guide* guide = &fixture->groom->guides[i];
+        double segment = (double)guide->arc_length / (guide->count - 1);
         hair_smooth_guide(fixture->groom, i, &smoothed);
         assert_int_equal(smoothed.count, fixture->each);
         for (uint32_t k = 0; k < fixture->each; ++k) {
             const struct hair_reference_sample* sample = fixture->samples + (size_t)i * fixture->each + k;
-            const double*                       q      = sample->frame;
-            hair_quat                           p      = smoothed.frame[k];
+            const double* q = sample->frame;
+            hair_quat p = smoothed.frame[k];
             assert_vec3(smoothed.position[k], sample->position, 1e-6);
             assert_vec3(smoothed.tangent[k], sample->tangent, fmax(1e-4, 1e-6 / segment));
             double together =
@@ -104,9 +104,9 @@ static void compare_guides(const struct fixture* fixture)
 
 static void compare_followers(const struct fixture* fixture)
 {
-    hair_look look  = hair_look_default();
+    hair_look look = hair_look_default();
     look.tip_strays = look.strays = 0;
-    look.interpolation            = HAIR_INTERPOLATION_SINGLE;
+    look.interpolation = HAIR_INTERPOLATION_SINGLE;
     for (uint32_t i = 0; i < fixture->groom->info.follower_count; ++i)
         for (uint32_t j = 0; j <= 16; ++j) {
             const struct hair_follower* follower = &fixture->groom->followers[i];

@@ -47,17 +47,17 @@ static void assert_refused(const hair_groom_desc* desc, const char* words)
 // One for each of the four sources of followers.
 struct example {
     struct hair_test_strands strands;
-    struct hair_test_scalp   scalp;
-    hair_groom_desc          desc[4];
+    struct hair_test_scalp scalp;
+    hair_groom_desc desc[4];
 };
 
 static struct example make_example(uint32_t strands)
 {
     struct example example = {hair_test_fur(strands), hair_test_scalp_make(4, 1), {{.host = NULL}}};
     for (int i = 0; i < 4; ++i) example.desc[i] = hair_test_groom_desc(&test, &example.strands);
-    example.desc[1].strands_are    = HAIR_STRANDS_GUIDES;
+    example.desc[1].strands_are = HAIR_STRANDS_GUIDES;
     example.desc[1].follower_count = 0;
-    example.desc[2].strands_are    = HAIR_STRANDS_GUIDES;
+    example.desc[2].strands_are = HAIR_STRANDS_GUIDES;
     example.desc[2].follower_count = 3000;
     hair_test_set_scalp(&example.desc[3], &example.scalp);
     example.desc[3].follower_count = 5000;
@@ -73,13 +73,13 @@ static void free_example(struct example* example)
 static void strands_of_which_none_can_be_used_are_refused(void** state)
 {
     (void)state;
-    float           positions[] = {0, 0, 0, 1, NAN, 0, 2, 0, 0, 2, 1e-7f, 0};
-    uint32_t        vertices[]  = {2, 2};
-    hair_groom_desc desc        = hair_groom_desc_default();
-    desc.host                   = &test.host;
-    desc.positions              = positions;
-    desc.strand_vertices        = vertices;
-    desc.strand_count           = 2;
+    float positions[] = {0, 0, 0, 1, NAN, 0, 2, 0, 0, 2, 1e-7f, 0};
+    uint32_t vertices[] = {2, 2};
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host = &test.host;
+    desc.positions = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count = 2;
     assert_refused(&desc,
                    "none of 2 strands can be used: 1 have fewer than two vertices left, 1 are too short; 1 "
                    "vertices were not finite");
@@ -88,13 +88,13 @@ static void strands_of_which_none_can_be_used_are_refused(void** state)
 static void vertices_beyond_counting_are_refused(void** state)
 {
     (void)state;
-    float           positions[6] = {0};
-    uint32_t        vertices[]   = {UINT32_MAX, 1};
-    hair_groom_desc desc         = hair_groom_desc_default();
-    desc.host                    = &test.host;
-    desc.positions               = positions;
-    desc.strand_vertices         = vertices;
-    desc.strand_count            = 2;
+    float positions[6] = {0};
+    uint32_t vertices[] = {UINT32_MAX, 1};
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host = &test.host;
+    desc.positions = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count = 2;
     assert_refused(&desc, "hair_groom_desc.strand_vertices add up to 4294967296");
 }
 
@@ -102,8 +102,8 @@ static void more_guides_than_262144_are_refused(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(HAIR_MAX_GUIDES + 1);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    desc.strands_are                 = HAIR_STRANDS_GUIDES;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
     assert_refused(&desc, "262145 guides, not in [1, 262144]");
     hair_test_strands_free(&strands);
 }
@@ -111,9 +111,9 @@ static void more_guides_than_262144_are_refused(void** state)
 static void a_scalp_is_refused_by_index_value_and_range(void** state)
 {
     (void)state;
-    struct example  example = make_example(10);
-    hair_groom_desc desc    = example.desc[3];
-    float           density[25];
+    struct example example = make_example(10);
+    hair_groom_desc desc = example.desc[3];
+    float density[25];
     for (int i = 0; i < 25; ++i) density[i] = 1;
     desc.scalp_density = density;
 
@@ -121,10 +121,10 @@ static void a_scalp_is_refused_by_index_value_and_range(void** state)
     assert_refused(&desc, "scalp_density[7] is 1.5, not in [0, 1]");
     density[7] = NAN;
     assert_refused(&desc, "scalp_density[7] is");
-    density[7]                 = 1;
+    density[7] = 1;
     example.scalp.triangles[5] = 25;
     assert_refused(&desc, "scalp_triangles[5] is 25, not in [0, 24]");
-    example.scalp.triangles[5]  = 0;
+    example.scalp.triangles[5] = 0;
     example.scalp.positions[10] = INFINITY;
     assert_refused(&desc, "scalp_positions: vertex 3 is (");
     free_example(&example);
@@ -133,10 +133,10 @@ static void a_scalp_is_refused_by_index_value_and_range(void** state)
 static void a_scalp_where_nothing_can_grow_is_refused(void** state)
 {
     (void)state;
-    struct example  example     = make_example(10);
-    hair_groom_desc desc        = example.desc[3];
-    float           density[25] = {0};
-    desc.scalp_density          = density;
+    struct example example = make_example(10);
+    hair_groom_desc desc = example.desc[3];
+    float density[25] = {0};
+    desc.scalp_density = density;
     assert_refused(&desc, "none of 32 has an area and a scalp_density above 0");
     free_example(&example);
 }
@@ -147,7 +147,7 @@ static void patches_cover_every_follower_once_and_none_is_too_large(void** state
     struct example example = make_example(700);
     for (int source = 0; source < 4; ++source) {
         hair_groom* groom = make(&example.desc[source]);
-        uint32_t    next  = 0;
+        uint32_t next = 0;
         for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
             assert_int_equal(groom->patches[i].first, next);
             assert_in_range(groom->patches[i].count, 1, HAIR_MAX_ISOLINES);
@@ -162,8 +162,8 @@ static void patches_cover_every_follower_once_and_none_is_too_large(void** state
 static void followers_are_as_many_as_asked_for(void** state)
 {
     (void)state;
-    struct example example   = make_example(700);
-    uint32_t       wanted[4] = {700, 700, 3000, 5000};
+    struct example example = make_example(700);
+    uint32_t wanted[4] = {700, 700, 3000, 5000};
     for (int source = 0; source < 4; ++source) {
         hair_groom* groom = make(&example.desc[source]);
         assert_int_equal(groom->info.follower_count, wanted[source]);
@@ -210,7 +210,7 @@ static void the_same_seed_gives_the_same_bytes_and_another_gives_others(void** s
     struct example example = make_example(700);
     for (int source = 0; source < 4; ++source) {
         hair_groom_desc other = example.desc[source];
-        other.seed            = 2;
+        other.seed = 2;
         hair_groom *a = make(&example.desc[source]), *b = make(&example.desc[source]), *c = make(&other);
         assert_false(differ(a, b));
         assert_true(differ(a, c));
@@ -229,7 +229,7 @@ static void memory_may_run_out_anywhere_and_nothing_is_left_behind(void** state)
         for (uint32_t n = 1;; ++n) {
             hair_groom* groom = NULL;
             hair_test_host_init(&test);
-            test.refuse        = n;
+            test.refuse = n;
             hair_result result = hair_groom_create(&example.desc[source], &groom);
             if (!result) {
                 assert_true(n > 10); // The refusals were reached.
@@ -248,14 +248,14 @@ static void memory_may_run_out_anywhere_and_nothing_is_left_behind(void** state)
 static void a_groom_describes_its_strands(void** state)
 {
     (void)state;
-    float           positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 9, 9, 9};
-    uint32_t        vertices[]  = {2, 2, 1};
-    hair_groom_desc desc        = hair_groom_desc_default();
-    desc.host                   = &test.host;
-    desc.positions              = positions;
-    desc.strand_vertices        = vertices;
-    desc.strand_count           = 3;
-    hair_groom* groom           = make(&desc);
+    float positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 9, 9, 9};
+    uint32_t vertices[] = {2, 2, 1};
+    hair_groom_desc desc = hair_groom_desc_default();
+    desc.host = &test.host;
+    desc.positions = positions;
+    desc.strand_vertices = vertices;
+    desc.strand_count = 3;
+    hair_groom* groom = make(&desc);
 
     const hair_groom_info* info = &groom->info;
     assert_int_equal(info->strand_count, 2);
@@ -284,9 +284,9 @@ static void fur_of_50000_strands_needs_no_head_and_fills_its_patches(void** stat
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(50000);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    double                   before  = now();
-    hair_groom*              groom   = make(&desc);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    double before = now();
+    hair_groom* groom = make(&desc);
     double fill = (double)groom->info.follower_count / HAIR_MAX_ISOLINES / groom->info.patch_count;
     printf("50,000 strands, %u guides: %.0f ms, %.1f MB at most, patches %.0f %% full\n",
            groom->info.guide_count, 1e3 * (now() - before), 1e-6 * (double)test.peak, 100 * fill);
@@ -301,14 +301,14 @@ static void followers_of_a_patch_are_neighbours(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(20000);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    hair_groom*              groom   = make(&desc);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    hair_groom* groom = make(&desc);
     // 64 of 20,000 strands on a square metre take a square of 57 mm.
     double sum = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
-        hair_vec3         first = hair_test_single(groom, &groom->followers[patch.first], 0);
-        double            most  = 0;
+        hair_vec3 first = hair_test_single(groom, &groom->followers[patch.first], 0);
+        double most = 0;
         for (uint32_t j = 1; j < patch.count; ++j)
             most = fmax(most,
                         hair_distance(first, hair_test_single(groom, &groom->followers[patch.first + j], 0)));
@@ -325,10 +325,10 @@ static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(500);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    desc.strands_are                 = HAIR_STRANDS_GUIDES;
-    desc.follower_count              = 5000;
-    hair_groom* groom                = make(&desc);
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.follower_count = 5000;
+    hair_groom* groom = make(&desc);
     // Of ten followers of a guide, some but not all are in the first half of the patch.
     uint32_t *first = calloc(500, sizeof *first), split = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i)
@@ -351,10 +351,10 @@ static void followers_differ_in_their_seeds_and_with_the_seed_of_the_groom(void*
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(2000);
-    hair_groom_desc          desc    = hair_test_groom_desc(&test, &strands);
-    static uint32_t          seeds[4000];
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    static uint32_t seeds[4000];
     for (uint32_t seed = 0; seed < 2; ++seed) {
-        desc.seed         = seed;
+        desc.seed = seed;
         hair_groom* groom = make(&desc);
         for (uint32_t i = 0; i < 2000; ++i) seeds[2000 * seed + i] = groom->followers[i].seed;
         hair_groom_destroy(groom);
@@ -371,16 +371,16 @@ static void built_in_haircuts_become_grooms(void** state)
     (void)state;
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
         hair_style_desc style_desc = hair_style_desc_default();
-        style_desc.host            = &test.host;
-        style_desc.style           = (hair_style)style;
-        hair_asset* asset          = NULL;
+        style_desc.host = &test.host;
+        style_desc.style = (hair_style)style;
+        hair_asset* asset = NULL;
         assert_int_equal(hair_asset_generate(&style_desc, &asset), HAIR_OK);
         hair_groom_desc desc = hair_groom_desc_default();
-        desc.host            = &test.host;
+        desc.host = &test.host;
         assert_int_equal(hair_asset_fill(asset, &desc), HAIR_OK);
-        double      before = now();
-        hair_groom* groom  = make(&desc);
-        uint32_t    parted = 0;
+        double before = now();
+        hair_groom* groom = make(&desc);
+        uint32_t parted = 0;
         for (uint32_t i = 0; i < groom->info.follower_count; ++i)
             parted += groom->followers[i].weight1 == 0 || groom->followers[i].weight2 == 0;
         printf("%-9s %4u guides %5u patches, %4.1f %% of the followers at a parting, %.0f ms\n",

@@ -25,7 +25,7 @@ static double at(const float* gusts, int x, int y, int z, int c)
 
 static double between(const float* gusts, const double place[3], int c)
 {
-    int    low[3];
+    int low[3];
     double part[3], sum = 0;
     for (int k = 0; k < 3; ++k) low[k] = (int)floor(place[k]), part[k] = place[k] - low[k];
     for (int i = 0; i < 8; ++i) {
@@ -38,10 +38,10 @@ static double between(const float* gusts, const double place[3], int c)
 
 static void its_standard_deviation_is_1_where_it_is_read(void** state)
 {
-    struct hair_test_host* host      = *state;
-    float*                 gusts     = make(host, 1);
-    uint32_t               random    = 5;
-    double                 square[3] = {0, 0, 0}, mean[3] = {0, 0, 0}, all = 0;
+    struct hair_test_host* host = *state;
+    float* gusts = make(host, 1);
+    uint32_t random = 5;
+    double square[3] = {0, 0, 0}, mean[3] = {0, 0, 0}, all = 0;
     for (int i = 0; i < 100000; ++i) {
         double place[3];
         for (int k = 0; k < 3; ++k) place[k] = N * (double)hair_random(&random);
@@ -62,12 +62,12 @@ static void its_standard_deviation_is_1_where_it_is_read(void** state)
 // Of the waves themselves, whose derivative along an axis this is.
 static void no_air_comes_from_nowhere(void** state)
 {
-    struct hair_test_host* host  = *state;
-    float*                 gusts = make(host, 1);
-    double                 slope[N], divergence = 0, size = 0;
+    struct hair_test_host* host = *state;
+    float* gusts = make(host, 1);
+    double slope[N], divergence = 0, size = 0;
     for (int k = 1; k < N; ++k) slope[k] = (k % 2 ? -0.5 : 0.5) / tan(k * PI / N);
     for (int i = 0; i < N * N * N; ++i) {
-        int    x = i % N, y = i / N % N, z = i / N / N;
+        int x = i % N, y = i / N % N, z = i / N / N;
         double by[3] = {0, 0, 0};
         for (int k = 1; k < N; ++k) {
             by[0] += slope[k] * at(gusts, x - k, y, z, 0);
@@ -86,8 +86,8 @@ static void no_air_comes_from_nowhere(void** state)
 // their length.
 static void its_spectrum_is_von_karmans(void** state)
 {
-    struct hair_test_host* host     = *state;
-    double                 power[7] = {0}, scale = 0;
+    struct hair_test_host* host = *state;
+    double power[7] = {0}, scale = 0;
     for (uint32_t seed = 1; seed <= 4; ++seed) {
         float* gusts = make(host, seed);
         for (int line = 0; line < N * N; ++line)
@@ -115,8 +115,8 @@ static void its_spectrum_is_von_karmans(void** state)
 static void it_follows_from_its_seed(void** state)
 {
     struct hair_test_host* host = *state;
-    float *                a = make(host, 3), *b = make(host, 3), *c = make(host, 4);
-    size_t                 size = 4 * (size_t)N * N * N * sizeof *a;
+    float *a = make(host, 3), *b = make(host, 3), *c = make(host, 4);
+    size_t size = 4 * (size_t)N * N * N * sizeof *a;
     assert_memory_equal(a, b, size);
     assert_true(memcmp(a, c, size) != 0);
     hair_free(&host->host, a);

@@ -23,10 +23,10 @@ static point load_point(const float* p)
 static hair_asset* make_scalp(hair_asset_info* info)
 {
     hair_style_desc desc = hair_style_desc_default();
-    hair_asset*     asset;
+    hair_asset* asset;
     desc.guide_count = 1000;
-    desc.length      = 0.1f;
-    *info            = hair_asset_info_default();
+    desc.length = 0.1f;
+    *info = hair_asset_info_default();
     assert_int_equal(hair_asset_generate(&desc, &asset), HAIR_OK);
     assert_int_equal(hair_asset_describe(asset, info), HAIR_OK);
     return asset;
@@ -36,7 +36,7 @@ static void roots_lie_on_the_skin(void** state)
 {
     (void)state;
     hair_asset_info info;
-    hair_asset*     asset = make_scalp(&info);
+    hair_asset* asset = make_scalp(&info);
     for (uint32_t i = 0; i < info.scalp_vertex_count; ++i)
         assert_true(fabsf(head_distance(load_point(info.scalp_positions + 3 * i))) < 1e-3f);
     hair_asset_destroy(asset);
@@ -57,15 +57,15 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
     // The garment is there, and nowhere but below the collar.
     uint32_t worn = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
-        int   is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2]; // Blue, as skin never is.
-        float below    = head_below_collar(load_point(mesh.positions + 3 * i));
+        int is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2]; // Blue, as skin never is.
+        float below = head_below_collar(load_point(mesh.positions + 3 * i));
         assert_true(is_cloth ? below > -1e-3f : below < 1e-3f);
         worn += (uint32_t)is_cloth;
     }
     assert_true(worn > 3000);
     // The volume under a closed surface that faces outwards is positive: about that of a bust of 25 kg.
-    double   volume = 0;
-    uint32_t cloth  = 0;
+    double volume = 0;
+    uint32_t cloth = 0;
     for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
         const uint32_t* corner = mesh.triangles + 3 * i;
         for (int k = 0; k < 3; ++k) assert_true(corner[k] < mesh.vertex_count);
@@ -84,11 +84,11 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
 static float solid_distance(const hair_solid* solid, point p)
 {
     // The axis is +y turned by the quaternion.
-    const float* q    = solid->rotation;
-    point        axis = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
-                         2 * (q[1] * q[2] + q[3] * q[0])};
-    point        d    = sub(p, load_point(solid->position));
-    float        t    = clamp(dot(d, axis), -solid->size[1], solid->size[1]);
+    const float* q = solid->rotation;
+    point axis = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
+                  2 * (q[1] * q[2] + q[3] * q[0])};
+    point d = sub(p, load_point(solid->position));
+    float t = clamp(dot(d, axis), -solid->size[1], solid->size[1]);
     return length(sub(d, (point){axis.x * t, axis.y * t, axis.z * t})) - solid->size[0];
 }
 
@@ -96,10 +96,10 @@ static float solid_distance(const hair_solid* solid, point p)
 static void solids_fill_the_scalp_from_inside(void** state)
 {
     (void)state;
-    hair_solid      solids[HEAD_SOLIDS];
-    uint32_t        count = head_solids(solids, HEAD_SOLIDS);
+    hair_solid solids[HEAD_SOLIDS];
+    uint32_t count = head_solids(solids, HEAD_SOLIDS);
     hair_asset_info info;
-    hair_asset*     asset = make_scalp(&info);
+    hair_asset* asset = make_scalp(&info);
     assert_in_range(count, 1, HEAD_SOLIDS);
     for (uint32_t i = 0; i < info.scalp_vertex_count; ++i) {
         float nearest = INFINITY;

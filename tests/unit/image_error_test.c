@@ -20,10 +20,10 @@ static void paint(int which, float* out)
     for (int y = 0; y < HEIGHT; ++y)
         for (int x = 0; x < WIDTH; ++x, out += 3) {
             double noise = ((x * 7919 + y * 104729 + which * 15485863) >> 3) % 97 / 96.0;
-            double arc   = (x * x + y * y * (2 + which)) / 400 % 2;
-            out[0]       = (float)(x / (WIDTH - 1.0) * (1 - 0.1 * which));
-            out[1]       = (float)(0.5 * arc + 0.5 * y / (HEIGHT - 1.0));
-            out[2]       = (float)(0.7 * noise + 0.3 * arc);
+            double arc = (x * x + y * y * (2 + which)) / 400 % 2;
+            out[0] = (float)(x / (WIDTH - 1.0) * (1 - 0.1 * which));
+            out[1] = (float)(0.5 * arc + 0.5 * y / (HEIGHT - 1.0));
+            out[2] = (float)(0.7 * noise + 0.3 * arc);
         }
 }
 
@@ -44,7 +44,7 @@ static void its_map_is_that_of_the_published_evaluator(void** state)
     (void)state;
     // Of flip-evaluator 1.7, float arithmetic: these two pictures, LDR, 67.0206 pixels per degree.
     static const struct {
-        int    x, y;
+        int x, y;
         double error;
     } expected[] = {{0, 0, 0.034409329},   {63, 0, 0.275648713},  {0, 47, 0.762485921},
                     {63, 47, 0.701918185}, {31, 20, 0.907634437}, {10, 40, 0.109654687},
@@ -77,7 +77,7 @@ static void colours_are_as_far_apart_as_the_published_evaluator_has_them(void** 
 {
     (void)state;
     static const struct {
-        float  a[3], b[3];
+        float a[3], b[3];
         double error;
     } expected[] = {{{0, 0, 0}, {1, 1, 1}, 0.967390954},
                     {{0, 1, 0}, {0, 0, 1}, 1}, // The most that there is.
@@ -96,7 +96,7 @@ static void colours_are_as_far_apart_as_the_published_evaluator_has_them(void** 
 static void a_picture_differs_from_itself_by_nothing_and_from_another_as_that_from_it(void** state)
 {
     (void)state;
-    static float  a[3 * PIXELS], b[3 * PIXELS], there[PIXELS], back[PIXELS];
+    static float a[3 * PIXELS], b[3 * PIXELS], there[PIXELS], back[PIXELS];
     static double most;
     paint(0, a);
     paint(1, b);
@@ -133,8 +133,8 @@ static void what_is_too_fine_to_be_seen_differs_less(void** state)
 static void only_what_the_mask_covers_counts(void** state)
 {
     (void)state;
-    static float            a[3 * PIXELS], b[3 * PIXELS];
-    static unsigned char    mask[PIXELS];
+    static float a[3 * PIXELS], b[3 * PIXELS];
+    static unsigned char mask[PIXELS];
     struct hair_image_error error;
     fill((float[3]){0.5f, 0.5f, 0.5f}, a);
     memcpy(b, a, sizeof b);
@@ -155,10 +155,10 @@ static void only_what_the_mask_covers_counts(void** state)
 static void what_is_not_covered_changes_nothing_by_being_left_out(void** state)
 {
     (void)state;
-    static float            a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
-    static unsigned char    mask[PIXELS];
+    static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
+    static unsigned char mask[PIXELS];
     struct hair_image_error error;
-    double                  sum = 0;
+    double sum = 0;
     paint(0, a);
     paint(1, b);
     assert_true(hair_flip(a, b, WIDTH, HEIGHT, HAIR_FLIP_DISPLAY, map));

@@ -25,7 +25,7 @@ static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
     for (int i = 0; i < HAIR_LOOK_COUNT; ++i) {
         kind[i] = hair_look_default();
         hair_look_color(&kind[i], HAIR_COLOR_RED);
-        hair_look red   = kind[i];
+        hair_look red = kind[i];
         kind[i].density = 0.5f;
         for (int again = 0; again < 2; ++again) // Whatever was set before.
             assert_int_equal(
@@ -37,7 +37,7 @@ static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
                                     offsetof(hair_look, absorption) - offsetof(hair_look, taper));
     }
     for (int i = 0; i < HAIR_COLOR_COUNT; ++i) {
-        color[i]             = hair_look_default();
+        color[i] = hair_look_default();
         color[i].curl_radius = 0.01f;
         assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
         assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
@@ -75,7 +75,7 @@ static void a_turn_of_a_helix_is_recognized(void** state)
 {
     (void)state;
     static float positions[3 * 200];
-    hair_look    look = hair_look_default();
+    hair_look look = hair_look_default();
     make_helix(positions, 200, 0.007, 0.04);
     assert_int_equal(hair_look_curl_like(&look, positions, 200), HAIR_OK);
     assert_int_equal(look.curls, HAIR_CURLS_EXAMPLE);
@@ -94,7 +94,7 @@ static void examples_that_are_none_are_refused(void** state)
 {
     (void)state;
     static float positions[3 * 70000];
-    hair_look    look = hair_look_default(), untouched = look;
+    hair_look look = hair_look_default(), untouched = look;
     make_helix(positions, 70000, 0.007, 0.04);
     assert_int_equal(hair_look_curl_like(NULL, positions, 20), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_curl_like(&look, NULL, 20), HAIR_ERROR_ARGUMENT);
@@ -132,7 +132,7 @@ static void make_guides(struct hair_reference_sample* samples, double bend)
     for (int g = 0; g < 3; ++g)
         for (int k = 0; k < SAMPLES; ++k) {
             struct hair_reference_sample* sample = &samples[g * SAMPLES + k];
-            double                        length = 0.2 + 0.03 * g, s = length * k / (SAMPLES - 1);
+            double length = 0.2 + 0.03 * g, s = length * k / (SAMPLES - 1);
             double curve = bend * (1 + 0.2 * g), angle = curve * s, c = cos(angle / 2), half = sin(angle / 2);
             *sample = (struct hair_reference_sample){.to_root = s, .tangent = {sin(angle), cos(angle), 0}};
             sample->position[0] = root[g][0] + (curve > 0 ? (1 - cos(angle)) / curve : 0);
@@ -146,21 +146,21 @@ static void make_guides(struct hair_reference_sample* samples, double bend)
 static double worst_tangent(hair_look look, double bend, double step)
 {
     static struct hair_reference_sample samples[3 * SAMPLES];
-    double                              worst = 0;
+    double worst = 0;
     make_guides(samples, bend);
     for (uint32_t seed = 0; seed < 40; ++seed)
         for (double t = 0.011; t < 0.98; t += 0.0173) {
-            struct hair_follower        follower = {.guide1       = 1,
-                                                    .guide2       = 2,
-                                                    .seed         = hair_hash(seed),
-                                                    .weight1      = 0.3f,
-                                                    .weight2      = 0.3f,
-                                                    .length_ratio = 0.9f,
-                                                    .multi        = 1,
-                                                    .offset       = {{0.004f, 0, 0.005f, 1},
-                                                                     {0.004f, 0, 0.001f, 0.001f},
-                                                                     {0.001f, 0, 0.002f, 0},
-                                                                     {0, 0, 0.001f, 0.002f}}};
+            struct hair_follower follower = {.guide1 = 1,
+                                             .guide2 = 2,
+                                             .seed = hair_hash(seed),
+                                             .weight1 = 0.3f,
+                                             .weight2 = 0.3f,
+                                             .length_ratio = 0.9f,
+                                             .multi = 1,
+                                             .offset = {{0.004f, 0, 0.005f, 1},
+                                                        {0.004f, 0, 0.001f, 0.001f},
+                                                        {0.001f, 0, 0.002f, 0},
+                                                        {0, 0, 0.001f, 0.002f}}};
             struct hair_reference_point before, at, after;
             hair_reference_follower(&follower, &look, SAMPLES, samples, t - step, NULL, &before);
             hair_reference_follower(&follower, &look, SAMPLES, samples, t, NULL, &at);

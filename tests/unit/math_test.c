@@ -108,7 +108,7 @@ static void slerp_goes_evenly_and_the_shortest_way(void** state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
-        float     angle = between(-3, 3), t = between(0, 1);
+        float angle = between(-3, 3), t = between(0, 1);
         hair_quat a = {0, 0, 0, 1};
         hair_quat b = {0, sinf(angle / 2), 0, cosf(angle / 2)};
         if (i % 2) b = (hair_quat){-b.x, -b.y, -b.z, -b.w}; // the same rotation
@@ -137,8 +137,8 @@ static void matrices_multiply_column_by_column(void** state)
 static void random_numbers_are_even(void** state)
 {
     (void)state;
-    int      bins[16] = {0};
-    uint32_t own      = 5;
+    int bins[16] = {0};
+    uint32_t own = 5;
     for (int i = 0; i < 160000; ++i) {
         float r = hair_random(&own);
         assert_true(r >= 0 && r < 1);
@@ -152,7 +152,7 @@ static void random_numbers_are_even(void** state)
 static void the_hash_is_pcg(void** state)
 {
     (void)state;
-    uint64_t s    = 2891336453u;
+    uint64_t s = 2891336453u;
     uint64_t word = (((s >> ((s >> 28) + 4)) ^ s) * 277803737u) & 0xffffffffu;
     assert_int_equal(hair_hash(0), (uint32_t)((word >> 22) ^ word));
     assert_int_equal(hair_hash(0), 129708002u);

@@ -36,30 +36,30 @@ static void look_down(double* from, double* way, int rays)
 {
     for (int i = 0; i < 3 * rays; ++i) {
         from[i] = i % 3 == 2 ? 1 : 0.01 + 0.08 * (double)share();
-        way[i]  = i % 3 == 2 ? -1 : 0;
+        way[i] = i % 3 == 2 ? -1 : 0;
     }
 }
 
 static void white_strands_cannot_be_seen_in_a_white_furnace(void** state)
 {
     (void)state;
-    static hair_fibre_table           table;
-    static float                      positions[6 * STRANDS];
-    static double                     from[3 * RAYS], way[3 * RAYS];
-    static const double               mu[1]   = {0};
-    static const float                radii[] = {2e-4f, 8e-4f};
+    static hair_fibre_table table;
+    static float positions[6 * STRANDS];
+    static double from[3 * RAYS], way[3 * RAYS];
+    static const double mu[1] = {0};
+    static const float radii[] = {2e-4f, 8e-4f};
     static struct hair_reference_glow glow;
     fill(positions);
     look_down(from, way, RAYS);
     for (int i = 0; i < 2; ++i) {
         struct hair_reference_hair hair = {.positions = positions,
-                                           .count     = STRANDS,
-                                           .each      = 2,
-                                           .radius    = (double)radii[i],
-                                           .fibre     = fibre_of(&usual, 0, table),
-                                           .mu        = mu,
-                                           .colors    = 1,
-                                           .sky       = 1};
+                                           .count = STRANDS,
+                                           .each = 2,
+                                           .radius = (double)radii[i],
+                                           .fibre = fibre_of(&usual, 0, table),
+                                           .mu = mu,
+                                           .colors = 1,
+                                           .sky = 1};
         hair_reference_paths(&hair, from, way, RAYS, 1, &glow);
         print_message("    radius %g: of %u rays %.4f, give or take %.4f\n", (double)radii[i],
                       (unsigned)glow.met, glow.often[0][0], glow.error[0][0]);
@@ -70,21 +70,21 @@ static void white_strands_cannot_be_seen_in_a_white_furnace(void** state)
 static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
 {
     (void)state;
-    static hair_fibre_table           table;
-    static const float                positions[] = {0.05f, -1, 0, 0.05f, 1, 0};
-    static const double               mu[3] = {0.1, 0.3, 2}, tangent[3] = {0, 1, 0}, eye[3] = {0, 0, 1};
-    static const double               light[6] = {0.48, 0.64, 0.6, 0, -0.6, -0.8};
-    static double                     from[3 * RAYS], way[3 * RAYS];
+    static hair_fibre_table table;
+    static const float positions[] = {0.05f, -1, 0, 0.05f, 1, 0};
+    static const double mu[3] = {0.1, 0.3, 2}, tangent[3] = {0, 1, 0}, eye[3] = {0, 0, 1};
+    static const double light[6] = {0.48, 0.64, 0.6, 0, -0.6, -0.8};
+    static double from[3 * RAYS], way[3 * RAYS];
     static struct hair_reference_glow glow;
-    struct hair_reference_hair        hair = {.positions = positions,
-                                              .count     = 1,
-                                              .each      = 2,
-                                              .radius    = 0.01,
-                                              .fibre     = fibre_of(&usual, 0.05, table),
-                                              .mu        = mu,
-                                              .colors    = 3,
-                                              .to_light  = light,
-                                              .lights    = 2};
+    struct hair_reference_hair hair = {.positions = positions,
+                                       .count = 1,
+                                       .each = 2,
+                                       .radius = 0.01,
+                                       .fibre = fibre_of(&usual, 0.05, table),
+                                       .mu = mu,
+                                       .colors = 3,
+                                       .to_light = light,
+                                       .lights = 2};
     look_down(from, way, RAYS);
     hair_reference_paths(&hair, from, way, RAYS, 1, &glow);
     hair_test_near("share of rays", 0, (double)glow.met / RAYS, 0.25, 0.02); // 2 cm of 8
@@ -104,15 +104,15 @@ static void directions_are_chosen_by_the_density_that_is_said(void** state)
 {
     (void)state;
     static hair_fibre_table table;
-    static const double     tilts[] = {0, 0.05, 0.3}, tangent[3] = {0, 1, 0}, none[1] = {0};
-    const double            pi = 3.14159265358979;
+    static const double tilts[] = {0, 0.05, 0.3}, tangent[3] = {0, 1, 0}, none[1] = {0};
+    const double pi = 3.14159265358979;
     for (int t = 0; t < 3; ++t) {
-        struct hair_fibre           rough = {0.6f, 0.6f, 1.55f};
+        struct hair_fibre rough = {0.6f, 0.6f, 1.55f};
         struct hair_reference_fibre fibre = fibre_of(&rough, tilts[t], table);
         for (int e = 0; e < 4; ++e) {
             const double eye[3] = {cos(0.35 * e), sin(0.35 * e), 0};
-            double       chosen = 0, even = 0;
-            int          count = 20000;
+            double chosen = 0, even = 0;
+            int count = 20000;
             for (int i = 0; i < count; ++i) {
                 double random[3], light[3], scattered, phi = 2 * pi * (double)share(),
                                                        y = 2 * (double)share() - 1;

@@ -47,7 +47,7 @@ static void rounding_of_a_matrix_is_forgiven(void** state)
 {
     (void)state;
     struct hair_pose pose;
-    float            m[16];
+    float m[16];
     memcpy(m, identity, sizeof m);
     m[0] += 3e-4f, m[1] += 3e-4f;
     assert_true(hair_pose_from_matrix(m, &pose));

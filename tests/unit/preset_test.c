@@ -16,7 +16,7 @@ static void presets_differ_and_leave_what_is_not_of_a_hair(void** state)
     (void)state;
     hair_physics all[HAIR_PRESET_COUNT];
     for (int i = 0; i < HAIR_PRESET_COUNT; ++i) {
-        all[i]            = hair_physics_default();
+        all[i] = hair_physics_default();
         all[i].gravity[1] = -1.62f;
         all[i].iterations = 7;
         assert_int_equal(hair_physics_preset(&all[i], (hair_preset)i), HAIR_OK);

@@ -11,9 +11,9 @@
 
 // A guide of `count` vertices, links of the length `link`, straight down from `root`.
 struct fixture {
-    struct hair_guide            guide;
-    struct hair_rest             rest[MOST];
-    struct hair_step_params      params;
+    struct hair_guide guide;
+    struct hair_rest rest[MOST];
+    struct hair_step_params params;
     struct hair_reference_vertex state[MOST];
 };
 
@@ -27,15 +27,15 @@ static struct fixture straight_down(uint32_t count, float link)
     struct fixture f = {
         .guide = {.root_frame = {1, 0, 0, 0}, .count = count}}; // Half a turn about x: y points down.
     for (uint32_t i = 0; i < count; ++i) {
-        f.rest[i].position     = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
-        f.rest[i].direction    = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
+        f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
+        f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
         f.state[i].position[1] = (double)(-link * (float)i);
     }
-    f.params.keep            = 1;
-    f.params.iterations      = 1;
-    f.params.substeps        = 1;
-    f.params.guides          = 1;
-    f.params.gravity.w       = 0.01f;
+    f.params.keep = 1;
+    f.params.iterations = 1;
+    f.params.substeps = 1;
+    f.params.guides = 1;
+    f.params.gravity.w = 0.01f;
     f.params.rotation_before = f.params.rotation_after = f.params.rotation_now = (hair_vec4){0, 0, 0, 1};
     for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
         f.params.substep[i] = (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1)}};
@@ -73,8 +73,8 @@ static void a_frame_carried_around_a_circle_comes_back(void** state)
     enum { SEGMENTS = 63 };
     double directions[3 * SEGMENTS], frames[4 * SEGMENTS], root[4] = {0, 0, 0, 1};
     for (int i = 0; i < SEGMENTS; ++i) {
-        double angle          = 2 * PI * i / (SEGMENTS - 1);
-        directions[3 * i]     = -sin(angle);
+        double angle = 2 * PI * i / (SEGMENTS - 1);
+        directions[3 * i] = -sin(angle);
         directions[3 * i + 1] = cos(angle);
         directions[3 * i + 2] = 0;
     }
@@ -104,15 +104,15 @@ static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state
 static void an_unhindered_vertex_falls_as_verlet_says(void** state)
 {
     (void)state;
-    struct fixture f   = straight_down(5, 0.01f);
+    struct fixture f = straight_down(5, 0.01f);
     f.params.gravity.y = -10;
-    double dt          = (double)f.params.gravity.w, p[3 * MOST];
+    double dt = (double)f.params.gravity.w, p[3 * MOST];
     for (int n = 1; n <= 50; ++n) {
         hair_reference_integrate(whole(&f), 0, f.state, p);
         for (uint32_t i = 2; i < 5; ++i)
             for (int k = 0; k < 3; ++k) {
                 f.state[i].displacement[k] = p[3 * i + k] - f.state[i].position[k];
-                f.state[i].position[k]     = p[3 * i + k];
+                f.state[i].position[k] = p[3 * i + k];
             }
         hair_test_near("fallen", n, f.state[4].position[1] + 4 * (double)0.01f,
                        -10 * dt * dt * n * (n + 1) / 2, 1e-12);
@@ -126,13 +126,13 @@ static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
-    f.params.keep    = 0.75f;
+    f.params.keep = 0.75f;
     double p[3 * MOST];
     f.state[3].displacement[0] = 0.004;
     for (int n = 1; n <= 20; ++n) {
         hair_reference_integrate(whole(&f), 0, f.state, p);
         f.state[3].displacement[0] = p[9] - f.state[3].position[0];
-        f.state[3].position[0]     = p[9];
+        f.state[3].position[0] = p[9];
         hair_test_near("gone", n, p[9], 0.003 * (1 - pow(0.75, n)) / 0.25, 1e-15);
     }
 }
@@ -141,7 +141,7 @@ static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
 static void a_free_vertex_does_not_follow_the_head(void** state)
 {
     (void)state;
-    struct fixture f                 = straight_down(4, 0.01f);
+    struct fixture f = straight_down(4, 0.01f);
     f.params.substep[0].displacement = (hair_vec4){0.25f, 0, -0.5f, 1};
     double p[3 * MOST];
     hair_reference_integrate(whole(&f), 0, f.state, p);
@@ -153,10 +153,10 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
 static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
 {
     (void)state;
-    struct fixture f   = straight_down(4, 0.01f);
+    struct fixture f = straight_down(4, 0.01f);
     f.params.gravity.w = 0.125f;
     f.params.pull_root = f.params.pull_tip = 8;
-    f.state[3].position[0]                 = 0.5;
+    f.state[3].position[0] = 0.5;
     double p[3 * MOST];
     hair_reference_integrate(whole(&f), 0, f.state, p);
     near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
@@ -165,9 +165,9 @@ static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
 static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
 {
     (void)state;
-    struct fixture f        = straight_down(5, 0.01f);
-    double         p[3 * 5] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.02, 0.01, 0.05, -0.01, 0.04, 0.1, 0.2, 0.3};
-    double         middle[3];
+    struct fixture f = straight_down(5, 0.01f);
+    double p[3 * 5] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.02, 0.01, 0.05, -0.01, 0.04, 0.1, 0.2, 0.3};
+    double middle[3];
     for (int k = 0; k < 3; ++k) middle[k] = (p[6 + k] + p[9 + k]) / 2;
     hair_reference_distance(whole(&f), 0, p);
     hair_test_near("length", 0, distance(p + 6, p + 9), (double)0.01f, 1e-16);
@@ -179,8 +179,8 @@ static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
 static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
 {
     (void)state;
-    struct fixture f        = straight_down(4, 0.01f);
-    double         p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
+    struct fixture f = straight_down(4, 0.01f);
+    double p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
     hair_reference_distance(whole(&f), 1, p);
     near3("pinned", p + 3, 0, -0.01, 0, 0);
     near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16); // along (3, -4) / 5
@@ -191,9 +191,9 @@ static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
 static void bend_removes_its_share_of_the_error_over_two_segments(void** state)
 {
     (void)state;
-    struct fixture f        = straight_down(8, 0.01f);
-    double         p[3 * 8] = {0};
-    f.params.bend           = 0.25f;
+    struct fixture f = straight_down(8, 0.01f);
+    double p[3 * 8] = {0};
+    f.params.bend = 0.25f;
     for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // half as long as at rest
     double rest = (double)(2 * 0.01f), wrong = rest - 0.01;
     hair_reference_bend(whole(&f), 1, p); // (2,4), (3,5), (6,8) does not exist
@@ -207,12 +207,12 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
-    f.params.solids  = 1;
-    f.params.margin  = 0.25f;
+    f.params.solids = 1;
+    f.params.margin = 0.25f;
     f.params.solid[0] =
         (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
     f.params.substep[0].displacement.w = 0.5f; // half way: its axis is at x = 4
-    double p[3 * 4]                    = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
+    double p[3 * 4] = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
     hair_reference_collide(whole(&f), 0, p);
     near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
     near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
@@ -225,8 +225,8 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
 static void the_angular_force_leaves_the_rest_pose_alone(void** state)
 {
     (void)state;
-    struct fixture f        = straight_down(9, 0.01f);
-    double         p[3 * 9] = {0};
+    struct fixture f = straight_down(9, 0.01f);
+    double p[3 * 9] = {0};
     for (int i = 0; i < 8; ++i) {
         double angle = 0.3 * i, to[3] = {sin(angle) * cos(0.2 * i), -cos(angle), sin(angle) * sin(0.2 * i)};
         for (int k = 0; k < 3; ++k) p[3 * i + 3 + k] = p[3 * i + k] + 0.01 * to[k];
@@ -239,7 +239,7 @@ static void the_angular_force_leaves_the_rest_pose_alone(void** state)
     f.params.substep[0].rotation = (hair_vec4){0, 0, (float)sqrt(0.5), (float)sqrt(0.5)};
     double turned[3 * 9];
     for (int i = 0; i < 9; ++i) {
-        turned[3 * i]     = -p[3 * i + 1];
+        turned[3 * i] = -p[3 * i + 1];
         turned[3 * i + 1] = p[3 * i];
         turned[3 * i + 2] = p[3 * i + 2];
     }
@@ -266,8 +266,8 @@ static void angular_moves_of(struct fixture* f, const double* bent, int coordina
 static void the_angular_force_has_a_potential(void** state)
 {
     (void)state;
-    struct fixture f     = straight_down(9, 0.01f);
-    double         p[27] = {0}, ahead[21], behind[21], jacobian[21][21], largest = 0;
+    struct fixture f = straight_down(9, 0.01f);
+    double p[27] = {0}, ahead[21], behind[21], jacobian[21][21], largest = 0;
     f.params.angular = 2500;
     for (int i = 1; i < 9; ++i) {
         double angle = 0.5 * i, to[3] = {sin(angle) * cos(0.9 * i), -cos(angle), sin(angle) * sin(0.9 * i)};
@@ -291,7 +291,7 @@ static void hermite_reproduces_parabolas_exactly(void** state)
 {
     (void)state;
     static const double s[] = {0, 0.3, 0.5, 1.2}, c[3][3] = {{1, -2, 0.5}, {0.3, 2, -1}, {-0.7, 0.4, 1.5}};
-    double              p[4][3], slope[2][3];
+    double p[4][3], slope[2][3];
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k) p[i][k] = c[0][k] + s[i] * (c[1][k] + s[i] * c[2][k]);
     for (int i = 0; i < 2; ++i) {
@@ -317,21 +317,21 @@ static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 {
     (void)state;
     struct fixture f = straight_down(33, 0.01f);
-    double         a = 0.15;
+    double a = 0.15;
     for (int i = 0; i < 33; ++i) {
         f.state[i].position[0] = cos(a * i);
         f.state[i].position[1] = sin(a * i);
-        f.rest[i].position.w   = (float)(2 * sin(a / 2) / 1.25);
+        f.rest[i].position.w = (float)(2 * sin(a / 2) / 1.25);
     }
     struct hair_reference_sample samples[65];
     f.params.smooth_vertices = 65;
-    f.params.alpha           = 1;
+    f.params.alpha = 1;
     hair_reference_smooth(whole(&f), f.state, samples);
     for (int k = 0; k < 65; ++k) {
         hair_test_near("to root", k, samples[k].to_root, 32 * 2 * sin(a / 2) * k / 64, 1e-12);
         hair_test_near("stretch", k, samples[k].stretch, 0.25, 1e-6);
         double radius = k % 2 ? cos(a / 2) + sin(a / 2) * sin(a) / 4 : 1;
-        double from   = distance(samples[k].position, (double[]){0, 0, 0});
+        double from = distance(samples[k].position, (double[]){0, 0, 0});
         if (k != 1 && k != 63)
             hair_test_near("radius", k, from, radius, 1e-12); // The ends have no neighbours.
         hair_test_near("tangent", k, distance(samples[k].tangent, (double[]){0, 0, 0}), 1, 1e-14);
@@ -345,10 +345,10 @@ static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
 {
     (void)state;
-    struct fixture               f = straight_down(4, 0.01f);
+    struct fixture f = straight_down(4, 0.01f);
     struct hair_reference_sample samples[7];
-    f.params.smooth_vertices     = 7;
-    f.params.alpha               = 0.25f;
+    f.params.smooth_vertices = 7;
+    f.params.alpha = 0.25f;
     f.params.last_displacement.x = 1;
     for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // against the head: 0.2
     hair_reference_smooth(whole(&f), f.state, samples);
@@ -358,10 +358,10 @@ static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
 // Nothing strays, nothing clumps.
 static hair_look plain_look(float radius)
 {
-    hair_look look  = hair_look_default();
-    look.radius     = radius;
+    hair_look look = hair_look_default();
+    look.radius = radius;
     look.tip_strays = look.strays = 0;
-    look.clump                    = hair_curve_line(0, 0);
+    look.clump = hair_curve_line(0, 0);
     return look;
 }
 
@@ -369,12 +369,12 @@ static hair_look plain_look(float radius)
 static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
 {
     (void)state;
-    struct fixture               f = straight_down(4, 0.01f);
+    struct fixture f = straight_down(4, 0.01f);
     struct hair_reference_sample samples[7];
-    struct hair_reference_point  point;
+    struct hair_reference_point point;
     f.params.smooth_vertices = 7;
-    hair_look look           = plain_look(0.5f);
-    look.taper               = hair_curve_line(1, 0.5f);
+    hair_look look = plain_look(0.5f);
+    look.taper = hair_curve_line(1, 0.5f);
     hair_reference_smooth(whole(&f), f.state, samples);
     struct hair_follower follower = {.length_ratio = 1,
                                      .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
@@ -391,16 +391,16 @@ static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
 static void a_follower_between_guides_is_their_mean(void** state)
 {
     (void)state;
-    struct fixture               f = straight_down(4, 0.01f);
+    struct fixture f = straight_down(4, 0.01f);
     struct hair_reference_sample samples[21];
-    struct hair_reference_point  point;
+    struct hair_reference_point point;
     f.params.smooth_vertices = 7;
     for (int guide = 0; guide < 3; ++guide) {
         for (int i = 0; i < 4; ++i) f.state[i].position[0] = guide == 1;
         for (int i = 0; i < 4; ++i) f.state[i].position[2] = guide == 2;
         hair_reference_smooth(whole(&f), f.state, samples + 7 * guide);
     }
-    hair_look            look     = plain_look(1);
+    hair_look look = plain_look(1);
     struct hair_follower follower = {
         .guide1 = 1, .guide2 = 2, .weight1 = 0.5f, .weight2 = 0.25f, .length_ratio = 1, .multi = 1};
     follower.offset[0].w = 1;

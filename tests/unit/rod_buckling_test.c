@@ -19,7 +19,7 @@ static double critical(double (*stability)(double gamma, uint32_t segments, cons
         assert_true(stability(stable, 48u << k, user) > 0);
         assert_true(stability(unstable, 48u << k, user) < 0);
         for (int i = 0; i < 28; ++i) {
-            double middle                                                  = (stable + unstable) / 2;
+            double middle = (stable + unstable) / 2;
             *(stability(middle, 48u << k, user) > 0 ? &stable : &unstable) = middle;
         }
         found[k] = stable;
@@ -36,10 +36,10 @@ static void an_unloaded_rod_is_as_stable_as_a_chain_of_springs(void** state)
         for (uint32_t segments = 1; segments < 100; segments *= 3) {
             struct hair_test_plane p;
             hair_test_plane_make(&p, segments + 1, 1, 0);
-            p.desc.straight                = k == 0;
-            p.desc.bend[0]                 = stiffness[k][0];
-            p.desc.twist                   = stiffness[k][1];
-            p.desc.bend[1]                 = stiffness[k][2];
+            p.desc.straight = k == 0;
+            p.desc.bend[0] = stiffness[k][0];
+            p.desc.twist = stiffness[k][1];
+            p.desc.bend[1] = stiffness[k][2];
             struct hair_reference_rod* rod = hair_test_rod(&p.desc);
             hair_test_near("least", segments, hair_reference_rod_stability(rod),
                            4.0 * segments * segments * pow(sin(PI / (4.0 * segments)), 2), 1e-10);
@@ -52,8 +52,8 @@ static double upright(double gamma, uint32_t segments, const void* user)
     (void)user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, PI, gamma);
-    struct hair_reference_rod* rod       = hair_test_rod(&p.desc);
-    double                     stability = hair_reference_rod_stability(rod);
+    struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+    double stability = hair_reference_rod_stability(rod);
     hair_reference_rod_destroy(rod);
     return stability;
 }
@@ -70,12 +70,12 @@ struct blade {
 
 static double sideways(double weight, uint32_t segments, const void* user)
 {
-    const struct blade*    blade = user;
+    const struct blade* blade = user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, PI / 2, weight * sqrt(blade->weak * blade->twist));
-    p.desc.bend[0]                       = blade->weak;
-    p.desc.twist                         = blade->twist;
-    struct hair_reference_rod*       rod = hair_test_rod(&p.desc);
+    p.desc.bend[0] = blade->weak;
+    p.desc.twist = blade->twist;
+    struct hair_reference_rod* rod = hair_test_rod(&p.desc);
     struct hair_reference_rod_rested res = hair_reference_rod_rest(rod);
     assert_true(res.converged);
     double stability = hair_reference_rod_stability(rod);
@@ -86,8 +86,8 @@ static double sideways(double weight, uint32_t segments, const void* user)
 static void a_deep_cantilever_buckles_sideways(void** state)
 {
     (void)state;
-    static const struct blade blades[]   = {{0.001, 0.001}, {0.01, 0.0138}, {0.1, 0.1}};
-    static const double       expected[] = {12.8691, 13.0452, 14.9060};
+    static const struct blade blades[] = {{0.001, 0.001}, {0.01, 0.0138}, {0.1, 0.1}};
+    static const double expected[] = {12.8691, 13.0452, 14.9060};
     for (size_t i = 0; i < 3; ++i)
         hair_test_near("weight", i, critical(sideways, 11, 16, &blades[i]), expected[i], 1.5e-4);
 }
@@ -95,7 +95,7 @@ static void a_deep_cantilever_buckles_sideways(void** state)
 // From `from`, where it is stable, in steps.
 static double hang_curved(double gamma, uint32_t segments, const void* user)
 {
-    const double*          turn_and_start = user;
+    const double* turn_and_start = user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, 0, turn_and_start[1]);
     hair_test_plane_curl(&p, turn_and_start[0]);
@@ -126,14 +126,14 @@ static void a_curl_leaves_its_plane_between_two_weights(void** state)
 
 static double held(double gamma, uint32_t segments, const void* user)
 {
-    const double*          angle = user;
+    const double* angle = user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, *angle * PI / 180, gamma);
     assert_true(hair_reference_rod_hold(&p.desc, p.strain, p.real));
-    p.desc.rest_strain                   = p.strain;
-    p.desc.rest_real                     = p.real;
-    struct hair_reference_rod* rod       = hair_test_rod(&p.desc);
-    double                     stability = hair_reference_rod_stability(rod);
+    p.desc.rest_strain = p.strain;
+    p.desc.rest_real = p.real;
+    struct hair_reference_rod* rod = hair_test_rod(&p.desc);
+    double stability = hair_reference_rod_stability(rod);
     hair_reference_rod_destroy(rod);
     return stability;
 }

@@ -13,10 +13,10 @@ static double drop_over_reach(uint32_t segments, double gamma, int plain, int st
 {
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, PI / 2, gamma);
-    p.desc.plain_clamp             = plain;
-    p.desc.straight                = straight;
+    p.desc.plain_clamp = plain;
+    p.desc.straight = straight;
     struct hair_reference_rod* rod = hair_test_rod(&p.desc);
-    double                     tip[3];
+    double tip[3];
     hair_test_rod_rest(rod);
     hair_test_rod_tip(rod, tip);
     hair_reference_rod_destroy(rod);
@@ -30,7 +30,7 @@ static void a_rod_hangs_as_the_elastica(void** state)
     for (int k = 0; k < 3; ++k)
         for (double gamma = 1; gamma <= 100; gamma *= 10) {
             struct hair_reference_elastica e = hair_reference_elastica(gamma, 0, angles[k]);
-            double                         tip[2][3];
+            double tip[2][3];
             for (uint32_t fine = 0; fine < 2; ++fine) {
                 struct hair_test_plane p;
                 hair_test_plane_make(&p, (100u << fine) + 1, PI / 2 - angles[k], gamma);
@@ -40,7 +40,7 @@ static void a_rod_hangs_as_the_elastica(void** state)
                 hair_reference_rod_destroy(rod);
             }
             double across = hair_test_extrapolate(tip[0][0], tip[1][0]),
-                   down   = -hair_test_extrapolate(tip[0][1], tip[1][1]);
+                   down = -hair_test_extrapolate(tip[0][1], tip[1][1]);
             hair_test_near("across", (size_t)gamma, across, e.across, 1e-5);
             hair_test_near("down", (size_t)gamma, down, e.down, 1e-5);
         }
@@ -50,12 +50,12 @@ static void a_load_at_the_tip_bends_a_rod_as_the_elastica(void** state)
 {
     (void)state;
     struct hair_reference_elastica e = hair_reference_elastica(0, 5, 0);
-    double                         tip[2][3];
+    double tip[2][3];
     for (uint32_t fine = 0; fine < 2; ++fine) {
         struct hair_test_plane p;
         hair_test_plane_make(&p, (64u << fine) + 1, PI / 2, 1e9);
-        p.desc.line_density            = 1e-15; // Weightless, but for
-        p.desc.tip_mass                = 5e-9;
+        p.desc.line_density = 1e-15; // Weightless, but for
+        p.desc.tip_mass = 5e-9;
         struct hair_reference_rod* rod = hair_test_rod(&p.desc);
         hair_test_rod_rest(rod);
         hair_test_rod_tip(rod, tip[fine]);
@@ -91,10 +91,10 @@ static void the_clamp_factor_holds_coarse_and_soft_strands(void** state)
 static double distance_from_elastica(uint32_t segments, double gamma, double up, int plain)
 {
     struct hair_reference_elastica e = hair_reference_elastica(gamma, 0, -up);
-    struct hair_test_plane         p;
-    double                         tip[3];
+    struct hair_test_plane p;
+    double tip[3];
     hair_test_plane_make(&p, segments + 1, PI / 2 + up, gamma);
-    p.desc.plain_clamp             = plain;
+    p.desc.plain_clamp = plain;
     struct hair_reference_rod* rod = hair_test_rod(&p.desc);
     hair_test_rod_rest(rod);
     hair_test_rod_tip(rod, tip);
@@ -157,27 +157,27 @@ static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
     (void)state;
     enum { N = 24 };
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
-    double                         x[3 * N], y[3 * N], strain[3 * N], real[N];
+    double x[3 * N], y[3 * N], strain[3 * N], real[N];
     for (int i = 0; i < N; ++i) {
-        double t     = i + 0.3 * sin(3.0 * i);
-        x[3 * i]     = 0.02 * cos(0.6 * t);
+        double t = i + 0.3 * sin(3.0 * i);
+        x[3 * i] = 0.02 * cos(0.6 * t);
         x[3 * i + 1] = -0.01 * t;
         x[3 * i + 2] = 0.02 * sin(0.6 * t);
     }
-    desc.vertices      = N;
-    desc.positions     = x;
-    desc.line_density  = 1e-5;
-    desc.tip_mass      = 1e-6;
-    desc.bend[0]       = 2e-7;
-    desc.bend[1]       = 3e-7;
-    desc.twist         = 1.5e-7;
-    desc.gravity[1]    = -9.81;
-    desc.gravity[0]    = 3;
+    desc.vertices = N;
+    desc.positions = x;
+    desc.line_density = 1e-5;
+    desc.tip_mass = 1e-6;
+    desc.bend[0] = 2e-7;
+    desc.bend[1] = 3e-7;
+    desc.twist = 1.5e-7;
+    desc.gravity[1] = -9.81;
+    desc.gravity[0] = 3;
     desc.root_frame[0] = sqrt(0.5);
     desc.root_frame[3] = sqrt(0.5);
     assert_true(hair_reference_rod_hold(&desc, strain, real));
-    desc.rest_strain               = strain;
-    desc.rest_real                 = real;
+    desc.rest_strain = strain;
+    desc.rest_real = real;
     struct hair_reference_rod* rod = hair_test_rod(&desc);
     assert_true(hair_reference_rod_stability(rod) > 0);
     hair_test_rod_rest(rod);
@@ -190,7 +190,7 @@ static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
     hair_reference_rod_destroy(rod);
     // Without being held it hangs elsewhere.
     hair_reference_rod_strain(N, x, desc.root_frame, strain);
-    rod                                     = hair_test_rod(&desc);
+    rod = hair_test_rod(&desc);
     struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
     assert_true(rested.converged && rested.iterations < 12); // Newton needs all second derivatives for that.
     hair_reference_rod_positions(rod, y);
@@ -201,17 +201,17 @@ static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
 // Bent in a plane by `bend` from the root frame, y, to x.
 static double energy_of_hinge(double rest, double bend)
 {
-    struct hair_reference_rod_desc desc      = hair_reference_rod_desc_default();
-    const double                   x[]       = {0, 0, 0, sin(bend), cos(bend), 0};
-    const double                   strain[3] = {0, 0, -2 * sin(rest / 2)};
-    desc.vertices                            = 2;
-    desc.positions                           = x;
-    desc.line_density                        = 1;
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
+    const double x[] = {0, 0, 0, sin(bend), cos(bend), 0};
+    const double strain[3] = {0, 0, -2 * sin(rest / 2)};
+    desc.vertices = 2;
+    desc.positions = x;
+    desc.line_density = 1;
     desc.bend[0] = desc.bend[1] = desc.twist = 0.5;
-    desc.plain_clamp                         = 1;
-    desc.rest_strain                         = strain;
-    struct hair_reference_rod* rod           = hair_test_rod(&desc);
-    double                     energy        = hair_reference_rod_energy(rod).elastic;
+    desc.plain_clamp = 1;
+    desc.rest_strain = strain;
+    struct hair_reference_rod* rod = hair_test_rod(&desc);
+    double energy = hair_reference_rod_energy(rod).elastic;
     hair_reference_rod_destroy(rod);
     return energy;
 }
@@ -232,26 +232,26 @@ static void a_coarse_curl_comes_to_rest_in_few_steps(void** state)
     (void)state;
     enum { N = 12 };
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
-    double                         x[3 * N], strain[3 * N];
+    double x[3 * N], strain[3 * N];
     for (int i = 0; i < N; ++i) {
-        x[3 * i]     = 0.01 * cos(2.4 * i);
+        x[3 * i] = 0.01 * cos(2.4 * i);
         x[3 * i + 1] = -0.006 * i;
         x[3 * i + 2] = 0.01 * sin(2.4 * i);
     }
-    desc.vertices      = N;
-    desc.positions     = x;
-    desc.line_density  = 1;
-    desc.bend[0]       = 2e-3;
-    desc.bend[1]       = 3e-3;
-    desc.twist         = 1.5e-3;
-    desc.gravity[0]    = 9.81;
+    desc.vertices = N;
+    desc.positions = x;
+    desc.line_density = 1;
+    desc.bend[0] = 2e-3;
+    desc.bend[1] = 3e-3;
+    desc.twist = 1.5e-3;
+    desc.gravity[0] = 9.81;
     desc.root_frame[0] = sqrt(0.5);
     desc.root_frame[3] = sqrt(0.5);
     hair_reference_rod_strain(N, x, desc.root_frame, strain);
-    desc.rest_strain                        = strain;
-    struct hair_reference_rod*       rod    = hair_test_rod(&desc);
+    desc.rest_strain = strain;
+    struct hair_reference_rod* rod = hair_test_rod(&desc);
     struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
-    double                           y[3 * N];
+    double y[3 * N];
     hair_reference_rod_positions(rod, y);
     assert_true(rested.converged && rested.iterations < 9);
     assert_true(y[3 * N - 3] - x[3 * N - 3] > 0.02);
@@ -265,7 +265,7 @@ static void what_no_strain_can_hold_is_said(void** state)
     hair_test_plane_make(&p, 9, 1, 1);
     p.desc.root = HAIR_REFERENCE_ROD_HINGED;
     assert_false(hair_reference_rod_hold(&p.desc, p.strain, p.real));
-    p.desc.root     = HAIR_REFERENCE_ROD_CLAMPED;
+    p.desc.root = HAIR_REFERENCE_ROD_CLAMPED;
     p.desc.straight = 1;
     assert_false(hair_reference_rod_hold(&p.desc, p.strain, p.real));
 }
@@ -275,25 +275,25 @@ static void a_chain_tied_at_its_tip_is_a_catenary(void** state)
 {
     (void)state;
     for (uint32_t links = 32; links <= 64; links *= 2) {
-        struct hair_test_plane         p;
-        struct hair_reference_catenary expected             = hair_reference_catenary_of_links(0.5, links);
-        double                         pull[HAIR_TEST_MOST] = {0}, x[3 * HAIR_TEST_MOST], sag = 0;
-        double                         stiffness = 30;
+        struct hair_test_plane p;
+        struct hair_reference_catenary expected = hair_reference_catenary_of_links(0.5, links);
+        double pull[HAIR_TEST_MOST] = {0}, x[3 * HAIR_TEST_MOST], sag = 0;
+        double stiffness = 30;
         hair_test_plane_make(&p, links + 1, PI / 2, 1);
         for (uint32_t i = 0; i < links; ++i) { // Before, an arc.
-            double angle           = 1.2 * (1 - (2 * i + 1.0) / links);
+            double angle = 1.2 * (1 - (2 * i + 1.0) / links);
             p.positions[3 * i + 3] = p.positions[3 * i] + p.lengths[0] * cos(angle);
             p.positions[3 * i + 4] = p.positions[3 * i + 1] - p.lengths[0] * sin(angle);
         }
         memcpy(x, p.positions, sizeof x);
-        x[3 * links]                   = 0.5 + expected.tension * cos(expected.slope) / stiffness;
-        x[3 * links + 1]               = 0.5 / stiffness; // Half of the weight.
-        pull[links]                    = sqrt(stiffness * 2 * links);
-        p.desc.pull                    = pull;
-        p.desc.pull_target             = x;
-        p.desc.straight                = 1;
-        p.desc.bend[0]                 = 0;
-        p.desc.root                    = HAIR_REFERENCE_ROD_HINGED;
+        x[3 * links] = 0.5 + expected.tension * cos(expected.slope) / stiffness;
+        x[3 * links + 1] = 0.5 / stiffness; // Half of the weight.
+        pull[links] = sqrt(stiffness * 2 * links);
+        p.desc.pull = pull;
+        p.desc.pull_target = x;
+        p.desc.straight = 1;
+        p.desc.bend[0] = 0;
+        p.desc.root = HAIR_REFERENCE_ROD_HINGED;
         struct hair_reference_rod* rod = hair_test_rod(&p.desc);
         hair_test_rod_rest(rod);
         hair_reference_rod_positions(rod, x);

@@ -17,10 +17,10 @@ static struct hair_reference_rod* release(struct hair_test_plane* p, uint32_t li
     hair_test_plane_make(p, links + 1, angle, 9.81);
     for (uint32_t i = 0; i < links; ++i) p->lengths[i] = length / links;
     for (uint32_t i = 0; i < 3 * links + 3; ++i) p->positions[i] *= length;
-    p->desc.masses   = masses;
+    p->desc.masses = masses;
     p->desc.straight = 1;
-    p->desc.bend[0]  = 0;
-    p->desc.root     = HAIR_REFERENCE_ROD_HINGED;
+    p->desc.bend[0] = 0;
+    p->desc.root = HAIR_REFERENCE_ROD_HINGED;
     return hair_test_rod(&p->desc);
 }
 
@@ -28,9 +28,9 @@ static struct hair_reference_rod* release(struct hair_test_plane* p, uint32_t li
 // two substeps.
 static double quarter_period(double angle, double dt)
 {
-    struct hair_test_plane     p;
+    struct hair_test_plane p;
     struct hair_reference_rod* rod = release(&p, 1, 1, angle);
-    double                     x[6], v[6], x0 = 1, v0 = 0, quarter = -1;
+    double x[6], v[6], x0 = 1, v0 = 0, quarter = -1;
     for (int k = 0; quarter < 0; ++k) {
         assert_true(hair_reference_rod_advance(rod, NULL, dt, 1));
         hair_reference_rod_positions(rod, x);
@@ -56,7 +56,7 @@ static void a_pendulum_takes_its_time(void** state)
 {
     (void)state;
     for (int k = 1; k <= 5; ++k) {
-        double angle  = k * PI / 6;
+        double angle = k * PI / 6;
         double period = 4 * hair_test_extrapolate(quarter_period(angle, 1e-3), quarter_period(angle, 5e-4));
         hair_test_near("period", (size_t)k, period * sqrt(9.81) / (2 * PI),
                        hair_reference_pendulum_period(angle), 1e-8);
@@ -68,10 +68,10 @@ static void chains_released_from_the_horizontal_fall_as_linkages(void** state)
 {
     (void)state;
     for (uint32_t links = 2; links <= 8; links *= 2) {
-        struct hair_test_plane           p;
-        struct hair_reference_rod*       rod = release(&p, links, 0.3, PI / 2);
-        double                           coarse[4 * 27], fine[4 * 27], angle[8], rate[8] = {0};
-        struct hair_reference_rod*       twin = hair_reference_rod_copy(rod);
+        struct hair_test_plane p;
+        struct hair_reference_rod* rod = release(&p, links, 0.3, PI / 2);
+        double coarse[4 * 27], fine[4 * 27], angle[8], rate[8] = {0};
+        struct hair_reference_rod* twin = hair_reference_rod_copy(rod);
         struct hair_reference_rod_report report =
             hair_reference_rod_converge(twin, 4, NULL, 0.25, 64, 1 << 14, 3e-6, coarse);
         assert_true(report.converged);
@@ -80,7 +80,7 @@ static void chains_released_from_the_horizontal_fall_as_linkages(void** state)
         for (uint32_t i = 0; i < links; ++i) angle[i] = PI / 2;
         for (uint32_t frame = 0; frame < 4; ++frame) {
             hair_reference_linkage_advance(links, p.lengths, p.desc.masses, 9.81, 0.25, 200, angle, rate);
-            double   x = 0, y = 0;
+            double x = 0, y = 0;
             uint32_t tip = 3 * (frame * (links + 1) + links);
             for (uint32_t i = 0; i < links; ++i) {
                 x += p.lengths[i] * sin(angle[i]);
@@ -101,23 +101,23 @@ static void a_flat_corkscrew_swings_as_its_slowest_mode(void** state)
     (void)state;
     enum { N = 16 };
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
-    double                         x[3 * N], rest[3 * N], strain[3 * N], modes[2], v[3 * N] = {0};
+    double x[3 * N], rest[3 * N], strain[3 * N], modes[2], v[3 * N] = {0};
     for (int i = 0; i < N; ++i) {
-        x[3 * i]     = 0.1 * cos(0.1 * i);
+        x[3 * i] = 0.1 * cos(0.1 * i);
         x[3 * i + 1] = -0.01 * i;
         x[3 * i + 2] = 0.1 * sin(0.1 * i);
     }
-    desc.vertices      = N;
-    desc.positions     = x;
-    desc.line_density  = 1;
-    desc.bend[0]       = 1e-2;
-    desc.bend[1]       = 0.2;
-    desc.twist         = 7e-3;
-    desc.gravity[1]    = -2;
+    desc.vertices = N;
+    desc.positions = x;
+    desc.line_density = 1;
+    desc.bend[0] = 1e-2;
+    desc.bend[1] = 0.2;
+    desc.twist = 7e-3;
+    desc.gravity[1] = -2;
     desc.root_frame[0] = sqrt(0.5);
     desc.root_frame[3] = sqrt(0.5);
     hair_reference_rod_strain(N, x, desc.root_frame, strain);
-    desc.rest_strain               = strain;
+    desc.rest_strain = strain;
     struct hair_reference_rod* rod = hair_test_rod(&desc);
     hair_test_rod_rest(rod);
     hair_reference_rod_positions(rod, rest);
@@ -146,7 +146,7 @@ static void a_clamped_beam_swings_as_mathematics_says(void** state)
     for (uint32_t k = 0; k < 2; ++k) {
         struct hair_test_plane p;
         hair_test_plane_make(&p, (24u << k) + 1, 1, 0);
-        p.desc.bend[0]                 = 1e4; // The other way it is stiff.
+        p.desc.bend[0] = 1e4; // The other way it is stiff.
         struct hair_reference_rod* rod = hair_test_rod(&p.desc);
         assert_int_equal(hair_reference_rod_modes(rod, 3, found[k]), 3);
         hair_reference_rod_destroy(rod);
@@ -163,11 +163,11 @@ static void a_hanging_chain_swings_as_the_linkage_that_it_is(void** state)
     (void)state;
     enum { LINKS = 31 };
     struct hair_test_plane p;
-    double                 found[6], mass[LINKS + 1];
+    double found[6], mass[LINKS + 1];
     hair_test_plane_make(&p, LINKS + 1, 0, 9.81);
-    p.desc.straight                = 1;
-    p.desc.bend[0]                 = 0;
-    p.desc.tip_mass                = 0.3;
+    p.desc.straight = 1;
+    p.desc.bend[0] = 0;
+    p.desc.tip_mass = 0.3;
     struct hair_reference_rod* rod = hair_test_rod(&p.desc);
     hair_reference_rod_masses(rod, mass);
     hair_test_near("tip", 0, mass[LINKS], 0.5 / LINKS + 0.3, 1e-15);
@@ -186,30 +186,30 @@ static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
     enum { N = 32, FRAMES = 1920 };
     static const double tip[3][3] = {
         {0.00174, -0.29152, 0.00082}, {-0.18453, -0.22581, -0.09356}, {0.16098, -0.23919, 0.06972}};
-    double                         x[3 * N], lengths[N - 1];
+    double x[3 * N], lengths[N - 1];
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
     for (int j = 0; j < N - 1; ++j) lengths[j] = 0.3 / (N - 1);
     for (int i = 0; i < N; ++i) {
-        x[3 * i]     = 0.1 + i * 0.3 / (N - 1) * cos(PI / 6);
+        x[3 * i] = 0.1 + i * 0.3 / (N - 1) * cos(PI / 6);
         x[3 * i + 1] = -i * 0.3 / (N - 1) * sin(PI / 6);
         x[3 * i + 2] = 0;
     }
-    desc.vertices                  = N;
-    desc.positions                 = x;
-    desc.lengths                   = lengths;
-    desc.line_density              = 1.021018e-5;
-    desc.bend[0]                   = 1.472622e-8;
-    desc.straight                  = 1;
-    desc.plain_clamp               = 1;
-    desc.root_frame[2]             = -sin(PI / 3);
-    desc.root_frame[3]             = cos(PI / 3);
-    desc.gravity[1]                = -9.81;
-    desc.damping                   = 1;
-    desc.head.position[0]          = -0.1;
+    desc.vertices = N;
+    desc.positions = x;
+    desc.lengths = lengths;
+    desc.line_density = 1.021018e-5;
+    desc.bend[0] = 1.472622e-8;
+    desc.straight = 1;
+    desc.plain_clamp = 1;
+    desc.root_frame[2] = -sin(PI / 3);
+    desc.root_frame[3] = cos(PI / 3);
+    desc.gravity[1] = -9.81;
+    desc.damping = 1;
+    desc.head.position[0] = -0.1;
     struct hair_reference_rod* rod = hair_test_rod(&desc);
     for (int k = 1; k <= FRAMES; ++k) {
-        double                         angle = 0.6 * sin(PI * k / FRAMES) * sin(PI * k / FRAMES);
-        struct hair_reference_rod_pose head  = {{-0.1, 0, 0}, {0, sin(angle / 2), 0, cos(angle / 2)}};
+        double angle = 0.6 * sin(PI * k / FRAMES) * sin(PI * k / FRAMES);
+        struct hair_reference_rod_pose head = {{-0.1, 0, 0}, {0, sin(angle / 2), 0, cos(angle / 2)}};
         assert_true(hair_reference_rod_advance(rod, &head, 1.0 / FRAMES, 8));
         int at = k == FRAMES / 4 ? 0 : k == FRAMES / 2 ? 1 : k == FRAMES ? 2 : -1;
         if (at < 0) continue;
@@ -226,14 +226,14 @@ static void the_head_goes_evenly_and_the_shortest_way(void** state)
     (void)state;
     struct hair_test_plane p;
     hair_test_plane_make(&p, 8, 1, 9.81);
-    p.desc.bend[1]                       = 1e-3;
-    p.positions[2]                       = 0.1; // Off the head's origin.
-    p.desc.lengths                       = NULL;
-    struct hair_reference_rod_pose half  = {{0.1, 0, 0.2}, {sin(0.35), 0, 0, cos(0.35)}};
+    p.desc.bend[1] = 1e-3;
+    p.positions[2] = 0.1; // Off the head's origin.
+    p.desc.lengths = NULL;
+    struct hair_reference_rod_pose half = {{0.1, 0, 0.2}, {sin(0.35), 0, 0, cos(0.35)}};
     struct hair_reference_rod_pose whole = {{0.2, 0, 0.4}, {-sin(0.7), 0, 0, -cos(0.7)}};
-    struct hair_reference_rod*     once  = hair_test_rod(&p.desc);
-    struct hair_reference_rod*     twice = hair_reference_rod_copy(once);
-    double                         a[24], b[24];
+    struct hair_reference_rod* once = hair_test_rod(&p.desc);
+    struct hair_reference_rod* twice = hair_reference_rod_copy(once);
+    double a[24], b[24];
     assert_true(hair_reference_rod_advance(once, &whole, 0.1, 2000));
     assert_true(hair_reference_rod_advance(twice, &half, 0.05, 1000));
     assert_true(hair_reference_rod_advance(twice, &whole, 0.05, 1000));

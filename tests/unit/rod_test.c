@@ -12,29 +12,29 @@
 // A corkscrew with uneven segments, of a flat section, tapered, whose rest shape is another one.
 struct curl {
     struct hair_reference_rod_desc desc;
-    double                         positions[3 * CURL], rest[3 * CURL], scale[CURL];
+    double positions[3 * CURL], rest[3 * CURL], scale[CURL];
 };
 
 static void make_curl(struct curl* c)
 {
     c->desc = hair_reference_rod_desc_default();
     for (int i = 0; i < CURL; ++i) {
-        double t                = i + 0.2 * sin(5.0 * i);
-        c->positions[3 * i]     = 0.1 + 0.02 * cos(0.7 * t);
+        double t = i + 0.2 * sin(5.0 * i);
+        c->positions[3 * i] = 0.1 + 0.02 * cos(0.7 * t);
         c->positions[3 * i + 1] = -0.012 * t;
         c->positions[3 * i + 2] = 0.02 * sin(0.7 * t);
-        c->scale[i]             = 1.2 - 0.07 * i;
+        c->scale[i] = 1.2 - 0.07 * i;
     }
-    c->desc.vertices      = CURL;
-    c->desc.positions     = c->positions;
-    c->desc.rest_strain   = c->rest;
-    c->desc.scale         = c->scale;
-    c->desc.line_density  = 1;
-    c->desc.tip_mass      = 0.003;
-    c->desc.bend[0]       = 1e-3;
-    c->desc.bend[1]       = 2.5e-3;
-    c->desc.twist         = 0.8e-3;
-    c->desc.gravity[1]    = -9.81;
+    c->desc.vertices = CURL;
+    c->desc.positions = c->positions;
+    c->desc.rest_strain = c->rest;
+    c->desc.scale = c->scale;
+    c->desc.line_density = 1;
+    c->desc.tip_mass = 0.003;
+    c->desc.bend[0] = 1e-3;
+    c->desc.bend[1] = 2.5e-3;
+    c->desc.twist = 0.8e-3;
+    c->desc.gravity[1] = -9.81;
     c->desc.root_frame[0] = sqrt(0.5); // A right angle about x: y to z, the corkscrew's way, nearly.
     c->desc.root_frame[3] = sqrt(0.5);
     hair_reference_rod_strain(CURL, c->positions, c->desc.root_frame, c->rest);
@@ -58,7 +58,7 @@ static double elastic_at(struct hair_reference_rod* rod, const double* positions
 static void differ(struct hair_reference_rod* rod, const double* at, double* gradient)
 {
     static const double weight[] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
-    double              x[3 * CURL], step = 2e-5;
+    double x[3 * CURL], step = 2e-5;
     memcpy(x, at, sizeof x);
     for (int k = 0; k < 3 * CURL; ++k) {
         gradient[k] = 0;
@@ -80,10 +80,10 @@ static void forces_are_the_slope_of_the_energy(void** state)
         for (int k = 0; k < 3; ++k) {
             struct curl c;
             make_curl(&c);
-            c.desc.straight                = straight;
-            c.desc.root                    = roots[k];
+            c.desc.straight = straight;
+            c.desc.root = roots[k];
             struct hair_reference_rod* rod = rod_of(&c.desc);
-            double                     gradient[3 * CURL], force[3 * CURL];
+            double gradient[3 * CURL], force[3 * CURL];
             differ(rod, c.positions, gradient);
             hair_reference_rod_elastic_forces(rod, force);
             double most = 0;
@@ -119,22 +119,22 @@ static void a_round_rod_without_twist_has_the_energy_of_its_angles(void** state)
 {
     (void)state;
     struct curl c;
-    double      angles[CURL];
+    double angles[CURL];
     make_curl(&c);
     find_angles(&c, angles);
     c.desc.rest_strain = NULL;
-    c.desc.bend[1]     = c.desc.bend[0];
-    c.desc.twist       = 0;
+    c.desc.bend[1] = c.desc.bend[0];
+    c.desc.twist = 0;
     c.desc.plain_clamp = 1;
     for (int straight = 0; straight < 2; ++straight) {
-        c.desc.straight                = straight;
+        c.desc.straight = straight;
         struct hair_reference_rod* rod = rod_of(&c.desc);
-        double                     sum = 0, length[CURL] = {0};
+        double sum = 0, length[CURL] = {0};
         for (int i = 0; i + 1 < CURL; ++i) {
             double strain = straight ? 2 * sin(angles[i] / 2) : 4 * sin(angles[i] / 4);
             for (int k = 0; k < 3; ++k)
                 length[i] += pow(c.positions[3 * i + 3 + k] - c.positions[3 * i + k], 2);
-            length[i]  = sqrt(length[i]);
+            length[i] = sqrt(length[i]);
             double own = i ? (length[i - 1] + length[i]) / 2 : length[0] / 2;
             sum += c.desc.bend[0] * c.scale[i] / own * strain * strain / 2;
         }
@@ -158,12 +158,12 @@ static void turning_head_and_hair_alike_turns_the_forces(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    struct hair_reference_rod*     here        = rod_of(&c.desc);
-    const double                   rotation[4] = {0.1, -0.5, 0.7, 0.5};
-    struct hair_reference_rod_pose elsewhere   = {{3, -2, 1}, {0.1, -0.5, 0.7, 0.5}};
-    c.desc.head                                = elsewhere;
-    struct hair_reference_rod* there           = rod_of(&c.desc);
-    double                     a[3 * CURL], b[3 * CURL], turned[3];
+    struct hair_reference_rod* here = rod_of(&c.desc);
+    const double rotation[4] = {0.1, -0.5, 0.7, 0.5};
+    struct hair_reference_rod_pose elsewhere = {{3, -2, 1}, {0.1, -0.5, 0.7, 0.5}};
+    c.desc.head = elsewhere;
+    struct hair_reference_rod* there = rod_of(&c.desc);
+    double a[3 * CURL], b[3 * CURL], turned[3];
     hair_reference_rod_elastic_forces(here, a);
     hair_reference_rod_elastic_forces(there, b);
     hair_test_near("energy", 0, hair_reference_rod_energy(here).elastic,
@@ -197,10 +197,10 @@ static void a_free_rod_keeps_its_momentum_and_angular_momentum(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    c.desc.root                    = HAIR_REFERENCE_ROD_FREE;
-    c.desc.gravity[1]              = 0;
+    c.desc.root = HAIR_REFERENCE_ROD_FREE;
+    c.desc.gravity[1] = 0;
     struct hair_reference_rod* rod = rod_of(&c.desc);
-    double                     v[3 * CURL], before[6], after[6];
+    double v[3 * CURL], before[6], after[6];
     for (int i = 0; i < 3 * CURL; ++i) v[i] = 0.2 * sin(3.0 * i) + 0.5;
     hair_reference_rod_set_state(rod, NULL, v);
     momenta(rod, before);
@@ -216,10 +216,10 @@ static void a_free_rod_falls_as_a_stone(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    c.desc.root        = HAIR_REFERENCE_ROD_FREE;
+    c.desc.root = HAIR_REFERENCE_ROD_FREE;
     c.desc.rest_strain = NULL;
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
-    struct hair_reference_rod* rod                 = rod_of(&c.desc);
+    struct hair_reference_rod* rod = rod_of(&c.desc);
     assert_true(hair_reference_rod_advance(rod, NULL, 1, 60));
     double x[3 * CURL];
     hair_reference_rod_positions(rod, x);
@@ -234,12 +234,12 @@ static void damping_is_exact_and_against_the_wind(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    c.desc.root       = HAIR_REFERENCE_ROD_FREE;
+    c.desc.root = HAIR_REFERENCE_ROD_FREE;
     c.desc.gravity[1] = 0;
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
-    c.desc.damping                                 = 3;
-    c.desc.wind[0]                                 = 2;
-    struct hair_reference_rod* rod                 = rod_of(&c.desc);
+    c.desc.damping = 3;
+    c.desc.wind[0] = 2;
+    struct hair_reference_rod* rod = rod_of(&c.desc);
     assert_true(hair_reference_rod_advance(rod, NULL, 0.5, 7));
     double v[3 * CURL];
     hair_reference_rod_velocities(rod, v);
@@ -251,7 +251,7 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
 {
     (void)state;
     struct curl c;
-    double      pull[CURL], target[3 * CURL], x[3 * CURL];
+    double pull[CURL], target[3 * CURL], x[3 * CURL];
     make_curl(&c);
     for (int i = 0; i < CURL; ++i) {
         pull[i] = 8;
@@ -262,12 +262,12 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
     c.desc.head.position[2] = -0.2;
     c.desc.head.rotation[2] = sin(0.4);
     c.desc.head.rotation[3] = cos(0.4);
-    c.desc.root             = HAIR_REFERENCE_ROD_FREE;
+    c.desc.root = HAIR_REFERENCE_ROD_FREE;
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
-    c.desc.gravity[1]                              = 0;
-    c.desc.pull                                    = pull;
-    c.desc.pull_target                             = target;
-    struct hair_reference_rod*       rod           = rod_of(&c.desc);
+    c.desc.gravity[1] = 0;
+    c.desc.pull = pull;
+    c.desc.pull_target = target;
+    struct hair_reference_rod* rod = rod_of(&c.desc);
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, 1, NULL, 0.3, 64, 1 << 16, 1e-9, x);
     assert_true(report.converged);
@@ -284,9 +284,9 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
     for (int run = 0; run < 2; ++run) {
         struct curl c;
         make_curl(&c);
-        struct hair_reference_rod* rod   = rod_of(&c.desc);
-        double                     start = hair_reference_rod_energy(rod).total;
-        most[run]                        = 0;
+        struct hair_reference_rod* rod = rod_of(&c.desc);
+        double start = hair_reference_rod_energy(rod).total;
+        most[run] = 0;
         for (int k = 0; k < 1000; ++k) {
             assert_true(hair_reference_rod_advance(rod, NULL, 1e-3, run ? 8 : 4));
             most[run] = fmax(most[run], fabs(hair_reference_rod_energy(rod).total - start));
@@ -302,21 +302,21 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
 static void motion_converges_with_the_second_order(void** state)
 {
     (void)state;
-    struct curl                    c;
-    double                         pull[CURL];
+    struct curl c;
+    double pull[CURL];
     struct hair_reference_rod_pose heads[6];
     make_curl(&c);
     for (int i = 0; i < CURL; ++i) pull[i] = 5 - 0.3 * i;
-    c.desc.pull    = pull;
+    c.desc.pull = pull;
     c.desc.damping = 1;
     c.desc.wind[2] = 1;
     for (int k = 0; k < 6; ++k) {
-        double                         angle = 0.05 * (k + 1) * (k + 1);
-        struct hair_reference_rod_pose pose  = {{0.005 * k, 0, 0.003 * k * k},
-                                                {0, sin(angle / 2), 0, cos(angle / 2)}};
-        heads[k]                             = pose;
+        double angle = 0.05 * (k + 1) * (k + 1);
+        struct hair_reference_rod_pose pose = {{0.005 * k, 0, 0.003 * k * k},
+                                               {0, sin(angle / 2), 0, cos(angle / 2)}};
+        heads[k] = pose;
     }
-    struct hair_reference_rod*       rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = rod_of(&c.desc);
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, 6, heads, 1.0 / 60, 16, 1 << 14, 2e-8, NULL);
     assert_true(report.converged);
@@ -336,11 +336,11 @@ static void half_the_longest_substep_is_calm_and_three_times_it_is_not(void** st
     struct curl c;
     for (int run = 0; run < 2; ++run) {
         make_curl(&c);
-        struct hair_reference_rod* rod   = rod_of(&c.desc);
-        double                     h     = hair_reference_rod_longest_substep(rod) * (run ? 3 : 0.5);
-        double                     start = hair_reference_rod_energy(rod).total;
-        int                        ok    = hair_reference_rod_advance(rod, NULL, 2000 * h, 2000);
-        int                        calm  = ok && fabs(hair_reference_rod_energy(rod).total - start) < 0.02;
+        struct hair_reference_rod* rod = rod_of(&c.desc);
+        double h = hair_reference_rod_longest_substep(rod) * (run ? 3 : 0.5);
+        double start = hair_reference_rod_energy(rod).total;
+        int ok = hair_reference_rod_advance(rod, NULL, 2000 * h, 2000);
+        int calm = ok && fabs(hair_reference_rod_energy(rod).total - start) < 0.02;
         assert_int_equal(calm, run == 0);
         hair_reference_rod_destroy(rod);
     }
@@ -351,9 +351,9 @@ static void motion_that_is_none_is_said(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    struct hair_reference_rod* rod         = rod_of(&c.desc);
-    double                     v[3 * CURL] = {0};
-    v[3 * CURL - 1]                        = NAN;
+    struct hair_reference_rod* rod = rod_of(&c.desc);
+    double v[3 * CURL] = {0};
+    v[3 * CURL - 1] = NAN;
     assert_false(hair_reference_rod_advance(rod, NULL, 0, 1));
     assert_false(hair_reference_rod_advance(rod, NULL, 0.01, 0));
     hair_reference_rod_set_state(rod, NULL, v);
@@ -368,11 +368,11 @@ static void what_makes_no_rod_is_refused(void** state)
     make_curl(&c);
     struct hair_reference_rod_desc bad[6];
     for (int i = 0; i < 6; ++i) bad[i] = c.desc;
-    bad[0].vertices      = 1;
-    bad[1].vertices      = 257;
-    bad[2].line_density  = 0;
-    bad[3].bend[1]       = -1;
-    bad[4].gravity[2]    = NAN;
+    bad[0].vertices = 1;
+    bad[1].vertices = 257;
+    bad[2].line_density = 0;
+    bad[3].bend[1] = -1;
+    bad[4].gravity[2] = NAN;
     bad[5].root_frame[0] = bad[5].root_frame[3] = 0;
     for (int i = 0; i < 6; ++i) assert_null(hair_reference_rod_create(&bad[i]));
 }

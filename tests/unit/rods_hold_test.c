@@ -22,26 +22,26 @@ static struct hair_rod_shape shape_of(const struct hair_test_rod* f)
 // The groom under gravity times `load`, its stiffness times that of each vertex, with the rest strain that bears it.
 struct held {
     struct hair_rod_shape shape;
-    struct hair_rod_pose  pose;
-    double                stiffness[MOST];
-    hair_rod_rest         rest[MOST];
-    hair_dvec3            gravity;
-    double                slowest; // squared angular frequency that is not stable enough
+    struct hair_rod_pose pose;
+    double stiffness[MOST];
+    hair_rod_rest rest[MOST];
+    hair_dvec3 gravity;
+    double slowest; // squared angular frequency that is not stable enough
 };
 
 static void hold(const struct hair_test_rod* f, const double* stiffen, double load, struct held* h)
 {
-    h->shape   = shape_of(f);
+    h->shape = shape_of(f);
     h->gravity = hair_dscale(hair_dload(f->physics.gravity), load * (double)f->physics.hold);
     for (uint32_t i = 0; i < h->shape.count; ++i) h->shape.bend[i] *= stiffen[i];
     hair_rod_pose_at(&h->shape, h->shape.frame, &h->pose);
     hair_rod_load(&h->shape, load, &h->pose);
     hair_rod_balance(&h->shape, &h->pose);
     for (uint32_t i = 0; i + 1 < h->shape.count; ++i) {
-        hair_dquat t       = h->shape.turn[i];
+        hair_dquat t = h->shape.turn[i];
         h->shape.stress[i] = h->pose.stress[i];
-        h->stiffness[i]    = hair_rod_stiffness(&h->shape, i);
-        hair_dvec3 excess  = hair_rod_excess(&h->shape, i, h->stiffness[i]);
+        h->stiffness[i] = hair_rod_stiffness(&h->shape, i);
+        hair_dvec3 excess = hair_rod_excess(&h->shape, i, h->stiffness[i]);
         h->rest[i] = (hair_rod_rest){2 * t.x - excess.x, 2 * t.y - excess.y, 2 * t.z - excess.z, 2 * t.w};
     }
 }
@@ -55,18 +55,18 @@ static hair_dquat turned(hair_dquat q, const double* by)
 // With segment j turned by the world's vector turns[3 j ..].
 static double energy_of(const struct held* h, const double* turns)
 {
-    const struct hair_rod_shape* s      = &h->shape;
-    hair_dquat                   before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0]));
-    hair_dvec3                   at     = {0, 0, 0};
-    double                       energy = 0;
+    const struct hair_rod_shape* s = &h->shape;
+    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0]));
+    hair_dvec3 at = {0, 0, 0};
+    double energy = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat q = turned(s->frame[i], turns + 3 * i), r = hair_dmultiply(hair_dconjugate(before), q);
-        double     sign = r.w < 0 ? -2 : 2;
-        hair_dquat u    = {sign * r.x - h->rest[i].x, sign * r.y - h->rest[i].y, sign * r.z - h->rest[i].z,
-                           sign * r.w - h->rest[i].w};
+        double sign = r.w < 0 ? -2 : 2;
+        hair_dquat u = {sign * r.x - h->rest[i].x, sign * r.y - h->rest[i].y, sign * r.z - h->rest[i].z,
+                        sign * r.w - h->rest[i].w};
         energy += h->stiffness[i] / 2 *
                   (s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * (u.z * u.z + u.w * u.w));
-        at              = hair_dadd(at, hair_dscale(hair_drotate(q, (hair_dvec3){0, 1, 0}), s->length[i]));
+        at = hair_dadd(at, hair_dscale(hair_drotate(q, (hair_dvec3){0, 1, 0}), s->length[i]));
         hair_dvec3 away = hair_dadd(at, hair_dscale(s->place[i + 1], -1));
         energy -= s->mass[i + 1] * hair_ddot(h->gravity, at);
         energy += s->mass[i + 1] * (s->pull[i + 1] - h->slowest) / 2 * hair_ddot(away, away);
@@ -84,7 +84,7 @@ static void make_groom(struct hair_test_rod* f, int kind)
 {
     static const double sizes[GROOMS] = {0.145,  0.13,   0.013,
                                          0.0095, 0.0135, 0.0125}; // of all, or of a segment
-    f->physics                        = hair_physics_default();
+    f->physics = hair_physics_default();
     if (kind < 2)
         hair_test_rod_straight(f, 12, sizes[kind], kind == 0 ? PI / 2 : PI);
     else
@@ -103,10 +103,10 @@ static void multiply(double* out, double by)
 static void a_held_groom_is_in_equilibrium(void** state)
 {
     (void)state;
-    static const double   at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
+    static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
     struct hair_test_rod* f = hair_test_rod_make();
-    struct held*          h = calloc(2, sizeof *h);
-    double                stiffen[MOST];
+    struct held* h = calloc(2, sizeof *h);
+    double stiffen[MOST];
     multiply(stiffen, 30);
     for (int kind = 0; kind < GROOMS; ++kind) {
         make_groom(f, kind);
@@ -122,8 +122,8 @@ static void a_held_groom_is_in_equilibrium(void** state)
                 alone += weight[n] * energy_of(h + 1, turns) / step;
             }
             turns[k] = 0;
-            worst    = fmax(worst, fabs(slope));
-            most     = fmax(most, fabs(alone));
+            worst = fmax(worst, fabs(slope));
+            most = fmax(most, fabs(alone));
         }
         if (kind != 1) printf("%s: %.1e of gravity's torque is left\n", groom_names[kind], worst / most);
         assert_true(kind == 1 || most > 1e-3); // Upright, gravity turns nothing.
@@ -163,8 +163,8 @@ static int is_stable(const struct held* h)
 // Energy in the pose with its segments turned by `share` of the turns, as their frames see them.
 static double energy_along(const struct held* h, const hair_dvec3* turns, double share)
 {
-    struct held* at              = malloc(sizeof *at);
-    double       world[3 * MOST] = {0};
+    struct held* at = malloc(sizeof *at);
+    double world[3 * MOST] = {0};
     memcpy(at, h, sizeof *at);
     memcpy(at->shape.frame, h->pose.frame, sizeof at->shape.frame);
     at->shape.turn[0] = h->pose.turn[0];
@@ -183,8 +183,8 @@ static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    struct held*          h = calloc(1, sizeof *h);
-    double                stiffen[MOST];
+    struct held* h = calloc(1, sizeof *h);
+    double stiffen[MOST];
     multiply(stiffen, 1);
     for (int kind = 0; kind < GROOMS; ++kind) {
         make_groom(f, kind);
@@ -193,7 +193,7 @@ static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
         hair_dvec3 slope[MOST], turns[MOST];
         for (int i = 0; i < 11; ++i) {
             const double by[3] = {0.5 * sin(i), 0.4 * cos(3 * i), 0.5 * sin(2 * i + 1)};
-            frames[i]          = turned(h->shape.frame[i], by);
+            frames[i] = turned(h->shape.frame[i], by);
         }
         hair_rod_pose_at(&h->shape, frames, &h->pose);
         hair_rod_load(&h->shape, 1, &h->pose);
@@ -223,7 +223,7 @@ static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
 static int is_stable_with(const struct hair_test_rod* f, double share)
 {
     struct held* h = calloc(1, sizeof *h);
-    double       stiffen[MOST];
+    double stiffen[MOST];
     for (uint32_t i = 0; i < MOST; ++i) stiffen[i] = 1 + share * (f->borne[i].stiffen - 1);
     hold(f, stiffen, 1.05, h);
     h->slowest = 4;
@@ -241,7 +241,7 @@ static void a_guide_is_made_just_so_stiff_that_its_groom_is_stable(void** state)
         for (int kind = 0; kind < GROOMS; ++kind) {
             make_groom(f, kind);
             f->physics.pull_root = pulled ? 1.5f : 0;
-            f->physics.pull_tip  = pulled ? 0.5f : 0;
+            f->physics.pull_tip = pulled ? 0.5f : 0;
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
             double mean = 0;
             for (uint32_t i = 0; i < 11; ++i) mean += f->borne[i].stiffen / 11;
@@ -269,8 +269,8 @@ static void straight_grooms_buckle_at_the_lengths_of_the_continuous_rod(void** s
     static const double known[][2] = {
         {45, 23.794}, {60, 16.568}, {90, 10.675}, {120, 8.610}, {180, 7.8373474389}};
     struct hair_test_rod* f = hair_test_rod_make();
-    struct held*          h = calloc(1, sizeof *h);
-    double                stiffen[MOST];
+    struct held* h = calloc(1, sizeof *h);
+    double stiffen[MOST];
     f->physics.pull_root = f->physics.pull_tip = 0;
     for (int i = 0; i < 5; ++i)
         for (int side = -1; side < 2; side += 2) {
@@ -290,7 +290,7 @@ static double most_strain(const struct hair_test_rod* f)
     double most = 0;
     for (uint32_t i = 0; i < f->guide.count; ++i) {
         hair_vec4 u = f->rod[i].strain;
-        most        = fmax(most, sqrt((double)(u.x * u.x + u.y * u.y + u.z * u.z)));
+        most = fmax(most, sqrt((double)(u.x * u.x + u.y * u.y + u.z * u.z)));
     }
     return most;
 }
@@ -302,7 +302,7 @@ static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
     // Of three segments: it would be stable as it is, but turned too far at each vertex.
     hair_test_rod_straight(f, 4, 0.15, PI / 4);
     struct held* h = calloc(1, sizeof *h);
-    double       stiffen[MOST];
+    double stiffen[MOST];
     multiply(stiffen, 1);
     hold(f, stiffen, 1.05, h);
     assert_true(hair_rod_is_stable(&h->shape, &h->pose, 0));
@@ -321,7 +321,7 @@ static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
     assert_true(most_strain(f) < 1 + 1e-6);
     // What does not resist at all is not asked to hold, nor made to.
     for (int k = 0; k < 2; ++k) {
-        f->physics.young          = k == 0 ? 0 : 4e9f;
+        f->physics.young = k == 0 ? 0 : 4e9f;
         f->physics.stiffness_root = k == 0 ? 1 : 0;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
         assert_int_equal(f->report.stiffened, 0);

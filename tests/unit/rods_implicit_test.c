@@ -15,14 +15,14 @@
 // diag(m A) + b^2 K of what was written, K the second derivatives of the energy k/2 |row x|^2 of every vertex.
 static void build(const struct hair_test_rod* f, double b, double a[][MOST])
 {
-    uint32_t n     = f->guide.count;
-    int      fixed = f->physics.root != HAIR_ROOT_FREE;
-    double   ratio = 1 / (double)f->physics.flatness;
+    uint32_t n = f->guide.count;
+    int fixed = f->physics.root != HAIR_ROOT_FREE;
+    double ratio = 1 / (double)f->physics.flatness;
     for (uint32_t i = 0; i < n; ++i)
         for (uint32_t j = 0; j < n; ++j) a[i][j] = 0;
     for (uint32_t i = 0; i + 1 < n; ++i) {
         double row[3] = {i > 0 ? 1 / (double)f->rod[i - 1].segment.x : 0, 0, 1 / (double)f->rod[i].segment.x};
-        row[1]        = -row[0] - row[2];
+        row[1] = -row[0] - row[2];
         for (uint32_t r = i > 0 ? 0 : 1; r < 3; ++r)
             for (uint32_t c = i > 0 ? 0 : 1; c < 3; ++c)
                 a[i + r - 1][i + c - 1] += b * b * ratio * (double)f->rod[i].strain.w * row[r] * row[c];
@@ -43,8 +43,8 @@ static void compare(const struct hair_test_rod* f, double a[][MOST], int euler)
         for (uint32_t j = 0; j < n; ++j) {
             double sum = 0;
             for (uint32_t k = 0; k <= i && k <= j; ++k) {
-                hair_vec4 r     = euler ? f->rod[k].factor_euler : f->rod[k].factor;
-                double    row[] = {1, (double)r.y, (double)r.z};
+                hair_vec4 r = euler ? f->rod[k].factor_euler : f->rod[k].factor;
+                double row[] = {1, (double)r.y, (double)r.z};
                 if (i - k < 3 && j - k < 3) sum += row[i - k] * row[j - k] / (double)r.x;
             }
             hair_test_near(euler ? "euler" : "own", i * n + j, sum, a[i][j], 2e-6 * sqrt(a[i][i] * a[j][j]));
@@ -54,15 +54,15 @@ static void compare(const struct hair_test_rod* f, double a[][MOST], int euler)
 static void the_factors_are_of_the_implicit_systems(void** state)
 {
     (void)state;
-    struct hair_test_rod* f         = hair_test_rod_make();
-    double(*a)[MOST]                = calloc(MOST, sizeof *a);
-    f->physics.flatness             = 0.5f;
-    f->physics.damping              = 100;
-    f->physics.tip_mass             = 0.1f;
+    struct hair_test_rod* f = hair_test_rod_make();
+    double(*a)[MOST] = calloc(MOST, sizeof *a);
+    f->physics.flatness = 0.5f;
+    f->physics.damping = 100;
+    f->physics.tip_mass = 0.1f;
     static const uint32_t lengths[] = {2, 3, 20};
     for (int k = 0; k < 3; ++k)
         for (hair_root root = HAIR_ROOT_CLAMPED; root <= HAIR_ROOT_FREE; ++root) {
-            double h        = STEP;
+            double h = STEP;
             f->physics.root = root;
             hair_test_rod_curl(f, lengths[k], 0.005);
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, h);
@@ -109,9 +109,9 @@ static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
         if (reach >= n) continue;
         for (uint32_t i = 0; i < n; ++i) before[i] = x[i];
         for (uint32_t i = 0; i < n; ++i) {
-            const hair_vec4* m    = &row[round * n + i];
-            uint32_t         pair = i & ~1u;
-            double           sum  = reach ? x[i] : 0;
+            const hair_vec4* m = &row[round * n + i];
+            uint32_t pair = i & ~1u;
+            double sum = reach ? x[i] : 0;
             if (pair >= reach)
                 sum += (double)m->x * before[pair - reach] + (double)m->y * before[pair + 1 - reach];
             if (reach && pair + reach < n)
@@ -125,10 +125,10 @@ static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
 static void leave_out(hair_root root)
 {
     static const uint32_t lengths[] = {2, 3, 20, 32, 65, 256};
-    static const double   steps[]   = {1.0 / 120, 1.0 / 240, 1.0 / 480, 1.0 / 960};
-    struct hair_test_rod* f         = hair_test_rod_make();
-    f->physics.hold                 = 0;
-    f->physics.root                 = root;
+    static const double steps[] = {1.0 / 120, 1.0 / 240, 1.0 / 480, 1.0 / 960};
+    struct hair_test_rod* f = hair_test_rod_make();
+    f->physics.hold = 0;
+    f->physics.root = root;
     for (int k = 0; k < 6; ++k) {
         uint32_t n = lengths[k], rounds[4], all = hair_rods_rounds(n) - 1;
         for (int s = 0; s < 4; ++s) {
@@ -148,7 +148,7 @@ static void leave_out(hair_root root)
             substitute(f, x);
             reduce(out, n, rounds[s], y);
             for (uint32_t i = 0; i < n; ++i) {
-                off  = fmax(off, fabs(x[i] - y[i]));
+                off = fmax(off, fabs(x[i] - y[i]));
                 most = fmax(most, fabs(x[i]));
             }
             printf("%u vertices, 1/%.0f s: %u of %u rounds, off by %.1e, heard from %.1e on\n", n,
@@ -171,7 +171,7 @@ static void what_the_reduction_leaves_out_is_not_heard(void** state)
 // Of m^-1 K, by the power method.
 static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
 {
-    double   x[MOST], y[MOST], highest = 0;
+    double x[MOST], y[MOST], highest = 0;
     uint32_t n = f->guide.count;
     for (uint32_t i = 0; i < n; ++i) x[i] = sin(3.0 * i * i);
     for (int k = 0; k < 2000; ++k) {
@@ -192,11 +192,11 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double(*a)[MOST]        = calloc(MOST, sizeof *a);
+    double(*a)[MOST] = calloc(MOST, sizeof *a);
     f->physics.hold = f->physics.damping = f->physics.pull_root = f->physics.pull_tip = 0;
     for (uint32_t count = 4; count <= 100; count += 8) {
         hair_test_rod_straight(f, count, 0.3, PI / 2);
-        double h       = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE),
+        double h = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE),
                formula = 1.15 * pow(count - 1, 2) / 30 * sqrt(hair_test_rod_bend(&f->physics)) / 0.09;
         hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h);
         build(f, 1, a);
@@ -217,7 +217,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     }
     // What is stiffened to hold needs shorter ones still.
     hair_test_rod_straight(f, 40, 0.3, PI / 2);
-    double before   = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
+    double before = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
     f->physics.hold = 1;
     assert_true(hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE) < before / 1.7);
     hair_test_near("direct", 0, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
@@ -230,8 +230,8 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
 // A x = b in single precision, as the shader does it, one way along the strand and one back.
 static void solve(const struct hair_test_rod* f, float* x)
 {
-    uint32_t n   = f->guide.count;
-    float    one = 0, two = 0, below = 0, below_two = 0;
+    uint32_t n = f->guide.count;
+    float one = 0, two = 0, below = 0, below_two = 0;
     for (uint32_t i = 0; i < n; ++i) {
         hair_vec4 r = f->rod[i].factor;
         x[i] -= one;
@@ -242,7 +242,7 @@ static void solve(const struct hair_test_rod* f, float* x)
     for (uint32_t i = n; i-- > 0;) {
         x[i] -= f->rod[i].factor.y * below + f->rod[i].factor.z * below_two;
         below_two = below;
-        below     = x[i];
+        below = x[i];
     }
 }
 
@@ -250,8 +250,8 @@ static void solve(const struct hair_test_rod* f, float* x)
 static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, double length)
 {
     f->physics.damping = f->physics.pull_root = f->physics.pull_tip = f->physics.hold = 0;
-    f->physics.root                                                                   = root;
-    f->physics.young                                                                  = 1e12f;
+    f->physics.root = root;
+    f->physics.young = 1e12f;
     hair_test_rod_straight(f, count, length, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
 }
@@ -260,8 +260,8 @@ static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, 
 static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
 {
     (void)state;
-    struct hair_test_rod* f     = hair_test_rod_make();
-    double                worst = 0;
+    struct hair_test_rod* f = hair_test_rod_make();
+    double worst = 0;
     for (int e = 0; e < 6; ++e)
         for (uint32_t count = 4; count <= 256; count *= 4) {
             float x[MOST] = {0};
@@ -281,8 +281,8 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double(*a)[MOST]        = calloc(MOST, sizeof *a);
-    double worst            = 0;
+    double(*a)[MOST] = calloc(MOST, sizeof *a);
+    double worst = 0;
     for (int e = 0; e < 6; ++e)
         for (uint32_t count = 4; count <= 256; count *= 4) {
             float lever[MOST + 1] = {0}, x[MOST];
@@ -323,11 +323,11 @@ static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.hold         = 0;
+    f->physics.hold = 0;
     hair_test_rod_straight(f, 32, 0.31, PI / 2);
     for (int k = 0; k < 4; ++k) {
         const float masses[] = {0, 10, 100, 1000};
-        double      added = 0, highest = 0, l = 0.01, tip = 0.005 + 0.31 * (double)masses[k];
+        double added = 0, highest = 0, l = 0.01, tip = 0.005 + 0.31 * (double)masses[k];
         f->physics.tip_mass = masses[k];
         double h = hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), b = 2 * h / 3;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, h);

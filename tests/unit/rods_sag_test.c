@@ -16,9 +16,9 @@
 #define MOST HAIR_MAX_GUIDE_VERTICES
 
 struct rested {
-    double left;   // torque, relative
-    double away;   // from the groom, m
-    int    stable; // with gravity as it is
+    double left; // torque, relative
+    double away; // from the groom, m
+    int stable; // with gravity as it is
     double length;
 };
 
@@ -29,18 +29,18 @@ static struct rested rest_of(const struct hair_guide* guide, const struct hair_r
 {
     struct hair_rod_shape shape;
     struct hair_rod_pose* pose = malloc(sizeof *pose);
-    hair_rod_rest         at_rest[MOST];
-    struct rested         r = {.length = (double)guide->arc_length};
+    hair_rod_rest at_rest[MOST];
+    struct rested r = {.length = (double)guide->arc_length};
     hair_rod_shape_of(guide, rest, physics, &shape);
     hair_rod_bear(&shape, borne);
     hair_rod_pose_at(&shape, shape.frame, pose);
     for (uint32_t i = 0; i < guide->count; ++i) {
         hair_vec4 u = rod[i].strain;
-        at_rest[i]  = (hair_rod_rest){(double)u.x, (double)u.y, (double)u.z, shape.rest_real[i]};
+        at_rest[i] = (hair_rod_rest){(double)u.x, (double)u.y, (double)u.z, shape.rest_real[i]};
         hair_test_near("stiffness", i, hair_rod_stiffness(&shape, i), (double)rod[i].strain.w,
                        1e-6 * (double)rod[i].strain.w);
     }
-    r.left   = hair_rod_settle(&shape, at_rest, 1, 500, pose);
+    r.left = hair_rod_settle(&shape, at_rest, 1, 500, pose);
     r.stable = hair_rod_is_stable(&shape, pose, 0);
     for (uint32_t i = 0; i < guide->count; ++i)
         r.away = fmax(r.away, hair_dlength(hair_dadd(pose->place[i], hair_dscale(shape.place[i], -1))));
@@ -50,12 +50,12 @@ static struct rested rest_of(const struct hair_guide* guide, const struct hair_r
 
 static hair_groom* haircut(hair_style style, uint32_t vertices)
 {
-    hair_style_desc of    = hair_style_desc_default();
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_asset*     asset = NULL;
-    hair_groom*     groom = NULL;
-    of.style              = style;
-    of.strand_vertices    = vertices;
+    hair_style_desc of = hair_style_desc_default();
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_asset* asset = NULL;
+    hair_groom* groom = NULL;
+    of.style = style;
+    of.strand_vertices = vertices;
     assert_int_equal(hair_asset_generate(&of, &asset), HAIR_OK);
     assert_int_equal(hair_asset_fill(asset, &desc), HAIR_OK);
     desc.follower_count = 0;
@@ -67,9 +67,9 @@ static hair_groom* haircut(hair_style style, uint32_t vertices)
 
 static void compare(const char* name, const hair_groom* groom, const hair_physics* physics)
 {
-    uint32_t                count = groom->info.guide_count, sagging = 0, stiffened = 0;
-    struct hair_rod_borne*  borne = calloc(groom->info.guide_vertex_count, sizeof *borne);
-    struct hair_rod*        rod   = calloc(groom->info.guide_vertex_count, sizeof *rod);
+    uint32_t count = groom->info.guide_count, sagging = 0, stiffened = 0;
+    struct hair_rod_borne* borne = calloc(groom->info.guide_vertex_count, sizeof *borne);
+    struct hair_rod* rod = calloc(groom->info.guide_vertex_count, sizeof *rod);
     struct hair_rods_report all, own;
     hair_rods_hold(groom->guides, groom->rest, count, physics, borne, &all);
     hair_rods_write(groom->guides, groom->rest, borne, count, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240, rod);
@@ -108,13 +108,13 @@ static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
     (void)state;
     for (uint32_t vertices = 32; vertices <= 64; vertices += 16)
         for (int style = 0; hair_style_name((hair_style)style); ++style) {
-            hair_groom*  groom   = haircut((hair_style)style, vertices);
+            hair_groom* groom = haircut((hair_style)style, vertices);
             hair_physics physics = hair_physics_default();
             compare(hair_style_name((hair_style)style), groom, &physics);
             if (vertices == 32) {
                 physics.pull_root = physics.pull_tip = 0;
-                physics.flatness                     = 0.6f;
-                physics.tip_mass                     = 0.1f;
+                physics.flatness = 0.6f;
+                physics.tip_mass = 0.1f;
                 compare("without pull, flat, with tips", groom, &physics);
             }
             hair_groom_destroy(groom);
@@ -143,8 +143,8 @@ static void an_upright_strand_that_is_too_long_leans(void** state)
 static void what_sags_bears_what_it_bore_when_it_is_tied(void** state)
 {
     (void)state;
-    struct hair_test_rod* f    = hair_test_rod_make();
-    struct hair_knot      knot = {.vertex = 20};
+    struct hair_test_rod* f = hair_test_rod_make();
+    struct hair_knot knot = {.vertex = 20};
     hair_test_rod_straight(f, 32, 0.3, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.sagging, 1);

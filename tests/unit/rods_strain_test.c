@@ -12,16 +12,16 @@ static void what_bears_no_gravity_rests_in_the_grooms_own_strain(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double                p[3 * 20], root[4], strain[3 * 20];
+    double p[3 * 20], root[4], strain[3 * 20];
     hair_test_rod_curl(f, 20, 0.002);
     for (int i = 0; i < 60; ++i) p[i] = (double)(&f->rest[i / 3].position.x)[i % 3];
     for (int k = 0; k < 4; ++k) root[k] = (double)(&f->guide.root_frame.x)[k];
     hair_reference_rod_strain(20, p, root, strain);
     for (int k = 0; k < 4; ++k) {
-        f->physics            = hair_physics_default();
-        f->physics.hold       = k == 0 ? 0 : 1;
+        f->physics = hair_physics_default();
+        f->physics.hold = k == 0 ? 0 : 1;
         f->physics.gravity[1] = k == 1 ? 0 : -9.81f;
-        f->physics.root       = k == 2 ? HAIR_ROOT_HINGED : k == 3 ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
+        f->physics.root = k == 2 ? HAIR_ROOT_HINGED : k == 3 ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
         for (int i = 0; i < 57; ++i)
             hair_test_near("strain", (size_t)i, (double)(&f->rod[i / 3].strain.x)[i % 3], strain[i], 2e-6);
@@ -34,7 +34,7 @@ static void the_sign_of_a_frame_does_not_matter(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    struct hair_rod       rod[20];
+    struct hair_rod rod[20];
     hair_test_rod_curl(f, 20, 0.01);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     memcpy(rod, f->rod, sizeof rod);
@@ -54,19 +54,19 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double                p[3 * 20], strain[3 * 20], real[20], most = 0;
+    double p[3 * 20], strain[3 * 20], real[20], most = 0;
     hair_test_rod_curl(f, 20, 0.002);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 0);
     for (int i = 0; i < 60; ++i) p[i] = (double)(&f->rest[i / 3].position.x)[i % 3];
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
-    double                         ratio[3];
+    double ratio[3];
     hair_rods_ratios(&f->physics, ratio);
-    desc.vertices     = 20;
-    desc.positions    = p;
+    desc.vertices = 20;
+    desc.positions = p;
     desc.line_density = 1;
     desc.bend[0] = desc.bend[1] = hair_test_rod_bend(&f->physics);
-    desc.twist                  = ratio[1] * desc.bend[0];
+    desc.twist = ratio[1] * desc.bend[0];
     for (int k = 0; k < 3; ++k) desc.gravity[k] = (double)f->physics.gravity[k];
     for (int k = 0; k < 4; ++k) desc.root_frame[k] = (double)(&f->guide.root_frame.x)[k];
     assert_true(hair_reference_rod_hold(&desc, strain, real));

@@ -18,7 +18,7 @@ static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void*
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.tip_mass     = 2;
+    f->physics.tip_mass = 2;
     hair_test_rod_curl(f, 9, 0.01);
     for (hair_root root = HAIR_ROOT_CLAMPED; root <= HAIR_ROOT_FREE; ++root) {
         double all = 0, length = 0;
@@ -26,7 +26,7 @@ static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void*
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
         for (uint32_t i = 0; i < 9; ++i) {
             double before = i > 0 ? (double)f->rest[i - 1].position.w : 0,
-                   after  = (double)f->rest[i].position.w;
+                   after = (double)f->rest[i].position.w;
             length += after;
             assert_true(f->rod[i].segment.x == f->rest[i].position.w);
             if (i == 0 && root != HAIR_ROOT_FREE) {
@@ -48,7 +48,7 @@ static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
     struct hair_test_rod* f = hair_test_rod_make();
     hair_test_rod_straight(f, 5, 0.1, 0);
     f->physics.pull_root = 5;
-    f->physics.pull_tip  = 1;
+    f->physics.pull_tip = 1;
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     for (uint32_t i = 0; i < 5; ++i)
         hair_test_near("pull", i, (double)f->rod[i].segment.z, pow(2 * PI * (5 - i), 2), 1e-4);
@@ -61,7 +61,7 @@ static void ratios_are_those_of_an_elliptic_section(void** state)
 {
     (void)state;
     hair_physics p = hair_physics_default();
-    double       ratio[3];
+    double ratio[3];
     for (int i = 1; i <= 10; ++i) {
         p.flatness = 0.1f * (float)i;
         double a = 1 / sqrt((double)p.flatness), b = 1 / a;
@@ -77,10 +77,10 @@ static void ratios_are_those_of_an_elliptic_section(void** state)
 static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
 {
     (void)state;
-    struct hair_test_rod* f   = hair_test_rod_make();
+    struct hair_test_rod* f = hair_test_rod_make();
     f->physics.stiffness_root = 2;
-    f->physics.stiffness_tip  = 0.5f;
-    f->physics.hold           = 0;
+    f->physics.stiffness_tip = 0.5f;
+    f->physics.hold = 0;
     hair_test_rod_curl(f, 12, 0.01);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     double bend = hair_test_rod_bend(&f->physics), so_far = 0, weight = 0;
@@ -112,36 +112,36 @@ static float within(uint32_t* random, double least, double most)
 static void whatever_the_fields_hold_rods_are_finite(void** state)
 {
     (void)state;
-    struct hair_test_rod* f      = hair_test_rod_make();
-    uint32_t              random = 7;
+    struct hair_test_rod* f = hair_test_rod_make();
+    uint32_t random = 7;
     for (int run = 0; run < 3000; ++run) {
-        hair_physics* p   = &f->physics;
-        p->young          = within(&random, 0, 1e12);
-        p->poisson        = within(&random, 0, 0.5);
-        p->fiber_radius   = within(&random, 1e-6, 1e-3);
-        p->fiber_density  = within(&random, 1, 1e5);
-        p->flatness       = within(&random, 0.03, 1);
+        hair_physics* p = &f->physics;
+        p->young = within(&random, 0, 1e12);
+        p->poisson = within(&random, 0, 0.5);
+        p->fiber_radius = within(&random, 1e-6, 1e-3);
+        p->fiber_density = within(&random, 1, 1e5);
+        p->flatness = within(&random, 0.03, 1);
         p->stiffness_root = within(&random, 0, 1e4);
-        p->stiffness_tip  = within(&random, 0, 1e4);
-        p->hold           = within(&random, 0, 1);
-        p->root           = (hair_root)(run % 3);
-        p->tip_mass       = within(&random, 0, 1e4);
-        p->damping        = within(&random, 0, 1000);
-        p->pull_root      = within(&random, 0, 30);
-        p->pull_tip       = within(&random, 0, 30);
+        p->stiffness_tip = within(&random, 0, 1e4);
+        p->hold = within(&random, 0, 1);
+        p->root = (hair_root)(run % 3);
+        p->tip_mass = within(&random, 0, 1e4);
+        p->damping = within(&random, 0, 1000);
+        p->pull_root = within(&random, 0, 30);
+        p->pull_tip = within(&random, 0, 30);
         for (int k = 0; k < 3; ++k)
             p->gravity[k] = within(&random, 0, 1000) * (hair_random(&random) < 0.5f ? -1 : 1);
-        float    at[3 * MOST] = {0}, size = within(&random, 1e-9, 1e4);
+        float at[3 * MOST] = {0}, size = within(&random, 1e-9, 1e4);
         uint32_t count = 2 + (uint32_t)(hair_random(&random) * 40);
         for (uint32_t i = 0; i < 3 * count; ++i) {
-            float far     = run % 4 ? size : within(&random, 1e-9, 1e4);
+            float far = run % 4 ? size : within(&random, 1e-9, 1e4);
             float forward = (float)(i % 3 == 0) * (run % 2 ? 1 : 0); // Else to and fro, with folds.
             at[i] = (i < 3 ? 0 : at[i - 3]) + far * (forward + (run % 5 ? hair_random(&random) - 0.5f : 0));
         }
         hair_test_rod_place(f, count, at);
         if (run % 7 == 0) f->rest[count / 2].position = f->rest[0].position; // A segment without direction.
         hair_solver solver = (hair_solver)(run % 4);
-        double      h      = hair_test_rod_substep(f, solver);
+        double h = hair_test_rod_substep(f, solver);
         if (hair_random(&random) < 0.5f) h = (double)within(&random, 1e-5, 0.1);
         assert_true(h > 9.9e-6 && h < 0.101);
         hair_test_rod_write(f, solver, h);
@@ -149,7 +149,8 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
         for (uint32_t i = 0; i < count * 16; ++i)
             if (!isfinite(number[i]))
                 fail_msg("run %d: number %u of vertex %u is %g", run, i % 16, i / 16, (double)number[i]);
-        for (uint32_t i = 0; i < count && solver != HAIR_SOLVER_FOLLOW; ++i) { // Which has numbers of its own.
+        for (uint32_t i = 0; i < count && solver != HAIR_SOLVER_FOLLOW;
+             ++i) { // Which has numbers of its own.
             hair_vec4 u = f->rod[i].strain;
             assert_true(u.w >= 0 && u.x * u.x + u.y * u.y + u.z * u.z < 3.1f * 3.1f);
             assert_true(f->rod[i].factor_euler.x > 0);
@@ -163,15 +164,15 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
 {
     (void)state;
     struct hair_test_rod* short_one = hair_test_rod_make();
-    struct hair_test_rod* long_one  = hair_test_rod_make();
+    struct hair_test_rod* long_one = hair_test_rod_make();
     hair_test_rod_straight(short_one, 5, 0.01, PI / 2);
     hair_test_rod_straight(long_one, 32, 0.3, PI / 2);
     hair_test_rod_write(short_one, HAIR_SOLVER_ACCURATE, 1e-3);
     hair_test_rod_write(long_one, HAIR_SOLVER_ACCURATE, 1e-3);
-    struct hair_guide       guides[3] = {short_one->guide, long_one->guide, short_one->guide};
-    struct hair_rest        rest[42];
-    struct hair_rod         rod[42];
-    struct hair_rod_borne   borne[42];
+    struct hair_guide guides[3] = {short_one->guide, long_one->guide, short_one->guide};
+    struct hair_rest rest[42];
+    struct hair_rod rod[42];
+    struct hair_rod_borne borne[42];
     struct hair_rods_report report;
     guides[1].first = 5;
     guides[2].first = 37;
@@ -197,15 +198,15 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
 static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void** state)
 {
     (void)state;
-    struct hair_test_rod* f    = hair_test_rod_make();
-    const hair_physics    d    = hair_physics_default();
-    float*                in[] = {&f->physics.gravity[0],    &f->physics.gravity[1], &f->physics.gravity[2],
-                                  &f->physics.damping,       &f->physics.pull_root,  &f->physics.pull_tip,
-                                  &f->physics.young,         &f->physics.poisson,    &f->physics.fiber_radius,
-                                  &f->physics.fiber_density, &f->physics.flatness,   &f->physics.stiffness_root,
-                                  &f->physics.stiffness_tip, &f->physics.hold,       &f->physics.tip_mass};
-    float* out[]               = {&f->physics.angular, &f->physics.bend, &f->physics.margin, &f->physics.drag,
-                                  &f->physics.friction};
+    struct hair_test_rod* f = hair_test_rod_make();
+    const hair_physics d = hair_physics_default();
+    float* in[] = {&f->physics.gravity[0],    &f->physics.gravity[1], &f->physics.gravity[2],
+                   &f->physics.damping,       &f->physics.pull_root,  &f->physics.pull_tip,
+                   &f->physics.young,         &f->physics.poisson,    &f->physics.fiber_radius,
+                   &f->physics.fiber_density, &f->physics.flatness,   &f->physics.stiffness_root,
+                   &f->physics.stiffness_tip, &f->physics.hold,       &f->physics.tip_mass};
+    float* out[] = {&f->physics.angular, &f->physics.bend, &f->physics.margin, &f->physics.drag,
+                    &f->physics.friction};
     hair_test_rod_curl(f, 20, 0.01);
     f->physics = d;
     assert_false(hair_rods_differ(&f->physics, &d));
@@ -213,16 +214,16 @@ static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void
     struct hair_rod before[20];
     memcpy(before, f->rod, sizeof before);
     for (size_t i = 0; i < sizeof in / sizeof *in + sizeof out / sizeof *out; ++i) {
-        int    inside = i < sizeof in / sizeof *in;
-        float* field  = inside ? in[i] : out[i - sizeof in / sizeof *in];
-        f->physics    = d;
-        *field        = *field * 0.7f + 0.01f;
+        int inside = i < sizeof in / sizeof *in;
+        float* field = inside ? in[i] : out[i - sizeof in / sizeof *in];
+        f->physics = d;
+        *field = *field * 0.7f + 0.01f;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
         assert_int_equal(hair_rods_differ(&f->physics, &d), inside);
         assert_int_equal(hair_rods_differ(&d, &f->physics), inside);
         assert_int_equal(memcmp(before, f->rod, sizeof before) != 0, inside);
     }
-    f->physics      = d;
+    f->physics = d;
     f->physics.root = HAIR_ROOT_FREE;
     assert_true(hair_rods_differ(&f->physics, &d));
     free(f);

@@ -11,7 +11,7 @@
 #include "lib/gl/gl.h"
 
 static struct hair_test_host test;
-static char                  folder[64];
+static char folder[64];
 
 static int start(void** state)
 {
@@ -25,7 +25,7 @@ static int finish(void** state)
 {
     (void)state;
     static const char names[][8] = {"a.comp", "b.glsl", "c.glsl"};
-    char              path[128];
+    char path[128];
     for (int i = 0; i < 3; ++i) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         unlink(path);
@@ -124,8 +124,8 @@ static void refused_memory_leaks_nothing(void** state)
     (void)state;
     struct hair_gl_source source;
     for (uint32_t n = 1;; ++n) {
-        test.allocations   = 0;
-        test.refuse        = n;
+        test.allocations = 0;
+        test.refuse = n;
         hair_result result = hair_gl_read_source(&test.host, "glsl", "draw/strand.tese", "", &source);
         if (!result) break;
         assert_int_equal(result, HAIR_ERROR_MEMORY);
@@ -160,12 +160,12 @@ static void read_line(const char* name, int number, char* out, int size)
 // Every line is the one that the #line directives say it is.
 static void check_lines(const struct hair_gl_source* source)
 {
-    int      line = 1;
+    int line = 1;
     unsigned file = 0;
     for (char* at = source->text; *at;) {
         char* end = strchr(at, '\n');
-        char  expected[512];
-        *end       = 0;
+        char expected[512];
+        *end = 0;
         int prefix = strncmp(at, "#define HAIR_TEST_PREFIX", 24) == 0;
         if (!prefix && sscanf(at, "#line %d %u", &line, &file) != 2) {
             assert_in_range(file, 0, source->files - 1);
@@ -181,12 +181,12 @@ static void check_lines(const struct hair_gl_source* source)
 static void for_every_shader(void (*check)(const char* name))
 {
     static char seen[128][48];
-    size_t      count = 0;
+    size_t count = 0;
     for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
         char list[256];
         snprintf(list, sizeof list, "%s", stages[i]);
         for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
-            if (strchr(name, '=')) continue;                     // a definition
+            if (strchr(name, '=')) continue; // a definition
             if (strchr(name, '?')) name = strchr(name, '?') + 1; // what it is there with
             size_t k = 0;
             while (k < count && strcmp(seen[k], name)) ++k;
@@ -215,8 +215,8 @@ static void every_line_of_every_shader_leads_back_to_its_file(void** state)
 
 // What a shader includes, and whether that is within an #if.
 struct included {
-    char     file[64][48];
-    int      on_condition[64];
+    char file[64][48];
+    int on_condition[64];
     uint32_t count;
 };
 
@@ -231,7 +231,7 @@ static int is_guard(const char* line)
 static void walk(const char* name, int on_condition, struct included* all)
 {
     char path[128], line[512], file[48];
-    int  depth = 0;
+    int depth = 0;
     snprintf(path, sizeof path, "glsl/%s", name);
     FILE* text = fopen(path, "rb");
     assert_non_null(text);

@@ -14,17 +14,17 @@ static void fill(float* positions)
     for (int n = 0; n <= BARS; ++n)
         for (int k = 0; k < EACH; ++k) {
             float* p = positions + 3 * (n * EACH + k);
-            float  t = (float)k / (EACH - 1) - 0.5f;
-            p[0]     = n < BARS ? 0.2f * t : 0;
-            p[1]     = n < BARS ? 0.05f : 0;
-            p[2]     = n < BARS ? 0.001f * ((float)n - BARS / 2) : 0.3f * t;
+            float t = (float)k / (EACH - 1) - 0.5f;
+            p[0] = n < BARS ? 0.2f * t : 0;
+            p[1] = n < BARS ? 0.05f : 0;
+            p[2] = n < BARS ? 0.001f * ((float)n - BARS / 2) : 0.3f * t;
         }
 }
 
 static struct bench_strands make(float radius)
 {
-    static float         positions[3 * (BARS + 1) * EACH];
-    static const float   up[3] = {1e-3f, 1, 1e-3f};
+    static float positions[3 * (BARS + 1) * EACH];
+    static const float up[3] = {1e-3f, 1, 1e-3f};
     struct bench_strands strands;
     fill(positions);
     assert_true(bench_strands_make(positions, BARS + 1, EACH, radius, up, &strands));
@@ -35,7 +35,7 @@ static void rays_meet_the_share_that_a_grating_covers(void** state)
 {
     (void)state;
     static const float radii[] = {5e-5f, 1.5e-4f, 3e-4f};
-    static float       light[(BARS + 1) * EACH];
+    static float light[(BARS + 1) * EACH];
     for (int i = 0; i < 3; ++i) {
         struct bench_strands strands = make(radii[i]);
         assert_true(bench_light_by_rays(&strands, 1024, 1, light));
@@ -52,7 +52,7 @@ static void rays_meet_the_share_that_a_grating_covers(void** state)
 static void layers_meet_as_many_strands_by_chance(void** state)
 {
     (void)state;
-    static float         light[(BARS + 1) * EACH];
+    static float light[(BARS + 1) * EACH];
     struct bench_strands strands = make(1.5e-4f);
     assert_true(bench_light_by_layers(&strands, 0.002f, 4, 0.02f, 2, light));
     for (int k = 1; k < EACH - 1; ++k)

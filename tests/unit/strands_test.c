@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 static struct hair_test_host test;
-static hair_repairs          repairs;
+static hair_repairs repairs;
 
 static hair_import defaults(void)
 {
@@ -35,12 +35,12 @@ static int finish(void** state)
 static struct hair_strands make(uint32_t count, uint32_t each)
 {
     struct hair_strands strands = {.strand_count = count, .vertex_count = count * each};
-    strands.positions           = hair_alloc(&test.host, strands.vertex_count, 12);
-    strands.vertices            = hair_alloc(&test.host, count, 4);
-    strands.radii               = hair_alloc(&test.host, count, 4);
+    strands.positions = hair_alloc(&test.host, strands.vertex_count, 12);
+    strands.vertices = hair_alloc(&test.host, count, 4);
+    strands.radii = hair_alloc(&test.host, count, 4);
     for (uint32_t i = 0; i < count; ++i) {
         strands.vertices[i] = each;
-        strands.radii[i]    = (float)i;
+        strands.radii[i] = (float)i;
         for (uint32_t j = 0; j < each; ++j)
             hair_store3(strands.positions + 3 * (size_t)(i * each + j),
                         hair_v3(0.01f * (float)j, 0, (float)i));
@@ -63,8 +63,8 @@ static void assert_fit(const struct hair_strands* strands)
 {
     size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        uint32_t     vertices = strands->vertices[i];
-        const float* p        = strands->positions + 3 * first;
+        uint32_t vertices = strands->vertices[i];
+        const float* p = strands->positions + 3 * first;
         assert_in_range(vertices, 2, 256);
         double length = hair_strand_length(p, vertices);
         assert_true(length >= 1e-5);
@@ -79,7 +79,7 @@ static void assert_fit(const struct hair_strands* strands)
 static void clean_strands_are_left_as_they_are(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(10, 20), same = make(10, 20);
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 10);
@@ -94,8 +94,8 @@ static void clean_strands_are_left_as_they_are(void** state)
 static void scale_turns_units_into_metres(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.scale                = 0.01f;
+    hair_import import = defaults();
+    import.scale = 0.01f;
     struct hair_strands strands = make(3, 3);
     clean(&import, &strands);
     assert_float_equal(strands.positions[3], 1e-4f, 1e-9);
@@ -107,11 +107,11 @@ static void scale_turns_units_into_metres(void** state)
 static void the_up_axis_turns_to_y_without_mirroring(void** state)
 {
     (void)state;
-    hair_up   ups[2]  = {HAIR_UP_Z, HAIR_UP_X};
+    hair_up ups[2] = {HAIR_UP_Z, HAIR_UP_X};
     hair_vec3 want[2] = {{1, 3, -2}, {-2, 1, 3}};
     for (int i = 0; i < 2; ++i) {
-        hair_import import          = defaults();
-        import.up                   = ups[i];
+        hair_import import = defaults();
+        import.up = ups[i];
         struct hair_strands strands = make(1, 4);
         // A corner of the axes, whose handedness shows mirroring.
         float corner[12] = {1, 2, 3, 2, 2, 3, 2, 3, 3, 2, 3, 4};
@@ -131,8 +131,8 @@ static void the_up_axis_turns_to_y_without_mirroring(void** state)
 static void tip_first_strands_are_turned_round(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.tip_first            = 1;
+    hair_import import = defaults();
+    import.tip_first = 1;
     struct hair_strands strands = make(2, 5);
     clean(&import, &strands);
     for (uint32_t i = 0; i < 10; ++i) {
@@ -145,12 +145,12 @@ static void tip_first_strands_are_turned_round(void** state)
 static void a_share_keeps_so_many_strands_evenly(void** state)
 {
     (void)state;
-    const float    shares[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
+    const float shares[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
     const uint32_t counts[] = {1, 2, 3, 10, 97, 1000};
     for (size_t s = 0; s < 8; ++s)
         for (size_t c = 0; c < 6; ++c) {
-            hair_import import          = defaults();
-            import.share                = shares[s];
+            hair_import import = defaults();
+            import.share = shares[s];
             struct hair_strands strands = make(counts[c], 3);
             clean(&import, &strands);
             double wanted = (double)shares[s] * counts[c];
@@ -172,11 +172,11 @@ static void the_seed_alone_decides_which_strands_are_kept(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    import.share       = 0.1f;
+    import.share = 0.1f;
     struct hair_strands strands[3];
     for (uint32_t i = 0; i < 3; ++i) {
         import.seed = i / 2;
-        strands[i]  = make(1000, 3);
+        strands[i] = make(1000, 3);
         clean(&import, &strands[i]);
         assert_int_equal(strands[i].strand_count, 100);
     }
@@ -188,13 +188,13 @@ static void the_seed_alone_decides_which_strands_are_kept(void** state)
 static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(2, 8);
-    strands.positions[0]        = NAN;
-    strands.positions[3 + 1]    = INFINITY;
-    strands.positions[9 + 2]    = -1e38f;
-    strands.positions[12]       = 1.1e6f;
-    strands.positions[15 + 2]   = 1e-45f; // Denormal: as good as any.
+    strands.positions[0] = NAN;
+    strands.positions[3 + 1] = INFINITY;
+    strands.positions[9 + 2] = -1e38f;
+    strands.positions[12] = 1.1e6f;
+    strands.positions[15 + 2] = 1e-45f; // Denormal: as good as any.
     clean(&import, &strands);
     assert_int_equal(repairs.removed_nonfinite, 4);
     assert_int_equal(strands.vertices[0], 4);
@@ -207,10 +207,10 @@ static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
 static void scaling_beyond_the_range_of_floats_removes_vertices(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.scale                = 1e6f;
+    hair_import import = defaults();
+    import.scale = 1e6f;
     struct hair_strands strands = make(1, 3);
-    strands.positions[3]        = 1e38f;
+    strands.positions[3] = 1e38f;
     clean(&import, &strands);
     assert_int_equal(repairs.removed_nonfinite, 1);
     assert_int_equal(strands.vertices[0], 2);
@@ -220,11 +220,11 @@ static void scaling_beyond_the_range_of_floats_removes_vertices(void** state)
 static void repeated_vertices_are_merged_and_counted(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(1, 10); // 9 cm: nearer than 0.9 micrometres is repeated.
-    strands.positions[3 * 1]    = strands.positions[0];
-    strands.positions[3 * 2]    = strands.positions[0] + 0.8e-6f;
-    strands.positions[3 * 5]    = strands.positions[3 * 4] + 1e-6f;
+    strands.positions[3 * 1] = strands.positions[0];
+    strands.positions[3 * 2] = strands.positions[0] + 0.8e-6f;
+    strands.positions[3 * 5] = strands.positions[3 * 4] + 1e-6f;
     clean(&import, &strands);
     assert_int_equal(repairs.removed_repeated, 2);
     assert_int_equal(strands.vertices[0], 8);
@@ -236,7 +236,7 @@ static void creeping_strands_keep_their_shape(void** state)
 {
     (void)state;
     // Each step is below the limit; together they are most of the strand.
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(1, 200001);
     for (uint32_t i = 0; i < 200001; ++i) strands.positions[3 * i] = 1e-6f * (float)i;
     clean(&import, &strands);
@@ -249,12 +249,12 @@ static void creeping_strands_keep_their_shape(void** state)
 static void strands_of_one_vertex_are_dropped_and_counted(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(4, 3);
-    strands.vertices[0]         = 1; // 1 + 5 + 0 + 6 vertices
-    strands.vertices[1]         = 5;
-    strands.vertices[2]         = 0;
-    strands.vertices[3]         = 6;
+    strands.vertices[0] = 1; // 1 + 5 + 0 + 6 vertices
+    strands.vertices[1] = 5;
+    strands.vertices[2] = 0;
+    strands.vertices[3] = 6;
     for (uint32_t i = 1; i < 5; ++i) strands.positions[3 * i + 1] = NAN;
     clean(&import, &strands);
     assert_int_equal(repairs.dropped_single, 3);
@@ -268,11 +268,11 @@ static void strands_of_one_vertex_are_dropped_and_counted(void** state)
 static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(3, 2);
-    strands.positions[3]        = 0.9e-5f;
-    strands.positions[9]        = 0; // No length at all.
-    strands.positions[15]       = 1.1e-5f;
+    strands.positions[3] = 0.9e-5f;
+    strands.positions[9] = 0; // No length at all.
+    strands.positions[15] = 1.1e-5f;
     clean(&import, &strands);
     assert_int_equal(repairs.dropped_short, 2);
     assert_int_equal(strands.strand_count, 1);
@@ -283,7 +283,7 @@ static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** s
 static void nothing_may_be_left(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(5, 2);
     for (uint32_t i = 0; i < 30; ++i) strands.positions[i] = NAN;
     import.strand_vertices = 16;
@@ -297,7 +297,7 @@ static void nothing_may_be_left(void** state)
 static void long_strands_come_down_to_256_vertices(void** state)
 {
     (void)state;
-    hair_import         import  = defaults();
+    hair_import import = defaults();
     struct hair_strands strands = make(3, 65536);
     // A helix of 50 turns, 65 m long.
     for (uint32_t i = 0; i < 3 * 65536; ++i) {
@@ -322,7 +322,7 @@ static void strands_of_256_vertices_stay_and_of_257_do_not(void** state)
 {
     (void)state;
     for (uint32_t more = 0; more < 2; ++more) {
-        hair_import         import  = defaults();
+        hair_import import = defaults();
         struct hair_strands strands = make(1, 256 + more);
         clean(&import, &strands);
         assert_int_equal(repairs.resampled, more);
@@ -336,9 +336,9 @@ static void resampling_puts_vertices_at_equal_distances(void** state)
     (void)state;
     // Three sides of a rectangle, 1 + 2 + 1 long; nine samples lie half a unit apart along it.
     const float corners[12] = {0, 0, 0, 0, 1, 0, 2, 1, 0, 2, 0, 0};
-    const float want[27]    = {0, 0,    0, 0, 0.5f, 0, 0, 1, 0,    0.5f, 1, 0, 1, 1,
-                               0, 1.5f, 1, 0, 2,    1, 0, 2, 0.5f, 0,    2, 0, 0};
-    float       out[27];
+    const float want[27] = {0, 0,    0, 0, 0.5f, 0, 0, 1, 0,    0.5f, 1, 0, 1, 1,
+                            0, 1.5f, 1, 0, 2,    1, 0, 2, 0.5f, 0,    2, 0, 0};
+    float out[27];
     hair_strand_resample(corners, 4, out, 9);
     for (int i = 0; i < 27; ++i) assert_float_equal(out[i], want[i], 1e-6);
     hair_strand_resample(corners, 4, out, 2);
@@ -349,8 +349,8 @@ static void resampling_reaches_every_count(void** state)
 {
     (void)state;
     for (uint32_t count = 1; count <= 256; ++count) {
-        hair_import import          = defaults();
-        import.strand_vertices      = count;
+        hair_import import = defaults();
+        import.strand_vertices = count;
         struct hair_strands strands = make(3, 7);
         clean(&import, &strands);
         assert_int_equal(strands.strand_count, 3);
@@ -370,11 +370,11 @@ static void strands_that_fold_back_keep_distinct_vertices(void** state)
     (void)state;
     // There and back: where the count is even, two samples lie at the same place on both sides of the fold.
     for (uint32_t count = 3; count <= 256; ++count) {
-        hair_import import          = defaults();
-        import.strand_vertices      = count;
+        hair_import import = defaults();
+        import.strand_vertices = count;
         struct hair_strands strands = make(1, 3);
-        strands.positions[3]        = 1;
-        strands.positions[6]        = 0;
+        strands.positions[3] = 1;
+        strands.positions[6] = 0;
         clean(&import, &strands);
         assert_int_equal(strands.strand_count, 1);
         assert_int_equal(strands.vertices[0], count);
@@ -386,10 +386,10 @@ static void strands_that_fold_back_keep_distinct_vertices(void** state)
 static void strands_that_cannot_be_resampled_are_dropped(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.strand_vertices      = 2;
+    hair_import import = defaults();
+    import.strand_vertices = 2;
     struct hair_strands strands = make(2, 3);
-    strands.positions[6]        = 0; // The tip of the first strand is at its root.
+    strands.positions[6] = 0; // The tip of the first strand is at its root.
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 1);
     assert_int_equal(repairs.dropped_short, 1);
@@ -397,10 +397,10 @@ static void strands_that_cannot_be_resampled_are_dropped(void** state)
     drop(&strands);
 
     // At 1e6 m floats are 6 cm apart: no room for 256 vertices on 25 cm.
-    strands                = make(1, 2);
+    strands = make(1, 2);
     import.strand_vertices = 256;
-    strands.positions[0]   = 9e5f;
-    strands.positions[3]   = 9e5f + 0.25f;
+    strands.positions[0] = 9e5f;
+    strands.positions[3] = 9e5f + 0.25f;
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 0);
     drop(&strands);
@@ -409,9 +409,9 @@ static void strands_that_cannot_be_resampled_are_dropped(void** state)
 static float random_float(uint32_t* random)
 {
     // All bit patterns, then ordinary numbers, then few enough to repeat.
-    *random       = hair_hash(*random);
+    *random = hair_hash(*random);
     uint32_t kind = *random % 4, bits = hair_hash(*random + 1);
-    float    value;
+    float value;
     memcpy(&value, &bits, sizeof value);
     if (kind == 0) return value;
     if (kind == 1) return (float)(bits % 4) * 1e-5f;
@@ -423,22 +423,22 @@ static void any_bits_whatever_come_out_fit(void** state)
     (void)state;
     uint32_t random = 7, kept = 0;
     for (uint32_t round = 0; round < 2000; ++round) {
-        hair_import import          = defaults();
-        import.strand_vertices      = round % 3 ? 0 : round % 257;
-        import.tip_first            = round & 1;
-        import.up                   = (hair_up)(round % 3);
-        import.share                = round % 5 ? 1 : 0.5f;
-        uint32_t            each    = 1 + hair_hash(round) % (round % 50 ? 12 : 600);
+        hair_import import = defaults();
+        import.strand_vertices = round % 3 ? 0 : round % 257;
+        import.tip_first = round & 1;
+        import.up = (hair_up)(round % 3);
+        import.share = round % 5 ? 1 : 0.5f;
+        uint32_t each = 1 + hair_hash(round) % (round % 50 ? 12 : 600);
         struct hair_strands strands = make(20, each);
         for (uint32_t i = 0; i < 3 * strands.vertex_count; ++i) strands.positions[i] = random_float(&random);
         clean(&import, &strands);
         assert_fit(&strands);
         kept += strands.strand_count;
 
-        import                   = defaults();
+        import = defaults();
         struct hair_strands same = {.strand_count = strands.strand_count,
                                     .vertex_count = strands.vertex_count};
-        same.positions           = hair_alloc(&test.host, strands.vertex_count, 12);
+        same.positions = hair_alloc(&test.host, strands.vertex_count, 12);
         memcpy(same.positions, strands.positions, 12 * (size_t)strands.vertex_count);
         clean(&import, &strands);
         assert_int_equal(strands.vertex_count, same.vertex_count);
@@ -452,11 +452,11 @@ static void any_bits_whatever_come_out_fit(void** state)
 static void four_million_strands_take_no_longer_than_their_number(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.share                = 0.5f;
-    import.scale                = 0.1f; // So that none lies beyond 1e6 m.
+    hair_import import = defaults();
+    import.share = 0.5f;
+    import.scale = 0.1f; // So that none lies beyond 1e6 m.
     struct hair_strands strands = make(4194304, 2);
-    size_t              before  = test.live;
+    size_t before = test.live;
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 2097152);
     assert_true(test.peak < before + (1 << 20));
@@ -466,8 +466,8 @@ static void four_million_strands_take_no_longer_than_their_number(void** state)
 static void memory_that_is_no_longer_needed_is_given_back(void** state)
 {
     (void)state;
-    hair_import import          = defaults();
-    import.share                = 0.01f;
+    hair_import import = defaults();
+    import.share = 0.01f;
     struct hair_strands strands = make(10000, 10);
     clean(&import, &strands);
     assert_true(test.live < 100 * 10 * 12 + 100 * 8 + 3 * 16 + 16);
@@ -479,14 +479,14 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     (void)state;
     uint32_t failures = 0;
     for (uint32_t refuse = 1;; ++refuse) {
-        hair_import import          = defaults();
-        import.strand_vertices      = 8;
-        import.share                = 0.1f;
+        hair_import import = defaults();
+        import.strand_vertices = 8;
+        import.share = 0.1f;
         struct hair_strands strands = make(1000, 16);
-        test.allocations            = 0;
-        test.refuse                 = refuse;
-        hair_result result          = hair_strands_clean(&test.host, &import, &strands, &repairs);
-        test.refuse                 = 0;
+        test.allocations = 0;
+        test.refuse = refuse;
+        hair_result result = hair_strands_clean(&test.host, &import, &strands, &repairs);
+        test.refuse = 0;
         drop(&strands);
         assert_int_equal(test.blocks, 0);
         if (result == HAIR_OK) break;

@@ -29,20 +29,20 @@ static int finish(void** state)
 }
 
 struct cut {
-    hair_asset*     asset;
+    hair_asset* asset;
     hair_asset_info info;
-    uint32_t        each; // vertices of a guide
+    uint32_t each; // vertices of a guide
 };
 
 static struct cut cut_with(hair_style style, uint32_t guides, float length, uint32_t seed)
 {
     hair_style_desc desc = hair_style_desc_default();
-    desc.host            = &test.host;
-    desc.style           = style;
-    desc.guide_count     = guides;
-    desc.length          = length;
-    desc.seed            = seed;
-    struct cut cut       = {NULL, hair_asset_info_default(), 0};
+    desc.host = &test.host;
+    desc.style = style;
+    desc.guide_count = guides;
+    desc.length = length;
+    desc.seed = seed;
+    struct cut cut = {NULL, hair_asset_info_default(), 0};
     assert_int_equal(hair_asset_generate(&desc, &cut.asset), HAIR_OK);
     assert_int_equal(hair_asset_describe(cut.asset, &cut.info), HAIR_OK);
     cut.each = cut.info.strand_vertices[0];
@@ -107,8 +107,8 @@ static void guides_have_the_vertices_asked_for(void** state)
     for (uint32_t i = 0; i < 4; ++i) {
         hair_style_desc desc = hair_style_desc_default();
         hair_asset_info info = hair_asset_info_default();
-        hair_asset*     asset;
-        desc.host            = &test.host;
+        hair_asset* asset;
+        desc.host = &test.host;
         desc.strand_vertices = counts[i];
         assert_int_equal(hair_asset_generate(&desc, &asset), HAIR_OK);
         assert_int_equal(hair_asset_describe(asset, &info), HAIR_OK);
@@ -163,7 +163,7 @@ static void guides_hang_close_to_the_bust(void** state)
 {
     (void)state;
     const hair_style styles[] = {HAIR_STYLE_LONG, HAIR_STYLE_BOB, HAIR_STYLE_CURLY};
-    const float      limits[] = {0.070f, 0.070f, 0.090f};
+    const float limits[] = {0.070f, 0.070f, 0.090f};
     for (uint32_t s = 0; s < 3; ++s) {
         struct cut cut = cut_style(styles[s]);
         for (uint32_t i = 0; i < cut.info.vertex_count; ++i)
@@ -177,12 +177,12 @@ static void neighbouring_guides_go_similar_ways(void** state)
 {
     (void)state;
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
-        struct cut cut   = cut_style((hair_style)style);
-        uint32_t   edges = 3 * cut.info.scalp_triangle_count, apart = 0;
+        struct cut cut = cut_style((hair_style)style);
+        uint32_t edges = 3 * cut.info.scalp_triangle_count, apart = 0;
         for (uint32_t i = 0; i < edges; ++i) {
-            uint32_t a      = cut.info.scalp_triangles[i];
-            uint32_t b      = cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1];
-            float    length = fmaxf(guide_length(&cut, a), guide_length(&cut, b));
+            uint32_t a = cut.info.scalp_triangles[i];
+            uint32_t b = cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1];
+            float length = fmaxf(guide_length(&cut, a), guide_length(&cut, b));
             apart += hair_distance(tip(&cut, a), tip(&cut, b)) > 0.03f + 0.2f * length;
         }
         assert_true(apart * 10 < edges);
@@ -195,7 +195,7 @@ static void length_scales_the_guides(void** state)
     (void)state;
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
         struct cut one = cut_style((hair_style)style), two = cut_with((hair_style)style, 166, 1.5f, 1);
-        float      ratio = two.info.length[1] / one.info.length[1];
+        float ratio = two.info.length[1] / one.info.length[1];
         // A ponytail is combed to its tie first, whatever its length; curls reach their full width only once.
         if (style == HAIR_STYLE_PONYTAIL)
             assert_true(ratio > 1.2f && ratio < 1.5f);
@@ -279,7 +279,7 @@ static void a_ponytail_is_gathered_at_the_back(void** state)
 {
     (void)state;
     const hair_vec3 tie = {0, 1.672f, -0.106f};
-    struct cut      cut = cut_style(HAIR_STYLE_PONYTAIL);
+    struct cut cut = cut_style(HAIR_STYLE_PONYTAIL);
     for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
         float nearest = INFINITY;
         for (uint32_t k = 0; k < cut.each; ++k)
@@ -313,7 +313,7 @@ static void an_afro_is_round(void** state)
 {
     (void)state;
     const hair_vec3 middle = {0, 1.648f, -0.014f};
-    struct cut      cut    = cut_style(HAIR_STYLE_AFRO);
+    struct cut cut = cut_style(HAIR_STYLE_AFRO);
     for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
         float radius = hair_distance(tip(&cut, i), middle);
         assert_true(radius > 0.145f && radius < 0.180f);
@@ -333,9 +333,9 @@ static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
 {
     for (uint32_t i = 0; i < cut->info.scalp_triangle_count; ++i) {
         const uint32_t* corner = cut->info.scalp_triangles + 3 * i;
-        hair_vec3       p[3]   = {scalp_vertex(cut, corner[0]), scalp_vertex(cut, corner[1]),
-                                  scalp_vertex(cut, corner[2])};
-        hair_vec3       normal = hair_cross(hair_sub(p[1], p[0]), hair_sub(p[2], p[0]));
+        hair_vec3 p[3] = {scalp_vertex(cut, corner[0]), scalp_vertex(cut, corner[1]),
+                          scalp_vertex(cut, corner[2])};
+        hair_vec3 normal = hair_cross(hair_sub(p[1], p[0]), hair_sub(p[2], p[0]));
         assert_true(hair_dot(normal, hair_skull_normal(p[0])) > 0);
         for (int k = 0; k < 3; ++k) assert_true(corner_angle(p[k], p[(k + 1) % 3], p[(k + 2) % 3]) > 20);
     }
@@ -345,8 +345,8 @@ static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
 // triangle on either side.
 static void assert_is_one_sheet(const struct cut* cut)
 {
-    uint32_t       count = cut->info.scalp_vertex_count, edges = 0, vertices = 0;
-    unsigned char* way  = calloc((size_t)count * count, 1);
+    uint32_t count = cut->info.scalp_vertex_count, edges = 0, vertices = 0;
+    unsigned char* way = calloc((size_t)count * count, 1);
     unsigned char* used = calloc(count, 1);
     for (uint32_t i = 0; i < 3 * cut->info.scalp_triangle_count; ++i) {
         uint32_t a = cut->info.scalp_triangles[i], b = cut->info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1];
@@ -354,7 +354,7 @@ static void assert_is_one_sheet(const struct cut* cut)
         edges += !way[(size_t)b * count + a];
         vertices += !used[a];
         way[(size_t)a * count + b] = 1;
-        used[a]                    = 1;
+        used[a] = 1;
     }
     assert_int_equal(vertices, count);
     assert_int_equal((int)count - (int)edges + (int)cut->info.scalp_triangle_count, 1);
@@ -390,7 +390,7 @@ static void roots_lie_on_the_promised_skull(void** state)
 {
     (void)state;
     struct cut cut = cut_style(HAIR_STYLE_LONG);
-    float      sum = 0, n = (float)cut.info.scalp_triangle_count;
+    float sum = 0, n = (float)cut.info.scalp_triangle_count;
     for (uint32_t i = 0; i < cut.info.scalp_triangle_count; ++i) {
         hair_vec3 middle = {0, 0, 0};
         for (uint32_t k = 0; k < 3; ++k)
@@ -419,8 +419,8 @@ static void roots_are_spread_evenly(void** state)
     const uint32_t counts[] = {40, 166, 1000};
     for (uint32_t i = 0; i < 3; ++i) {
         struct cut cut = cut_with(HAIR_STYLE_AFRO, counts[i], 1, 1);
-        uint32_t   n   = cut.info.scalp_vertex_count;
-        float      sum = 0, least = INFINITY, most = 0;
+        uint32_t n = cut.info.scalp_vertex_count;
+        float sum = 0, least = INFINITY, most = 0;
         for (uint32_t a = 0; a < n; ++a) {
             float nearest = INFINITY;
             for (uint32_t b = 0; b < n; ++b)
@@ -428,7 +428,7 @@ static void roots_are_spread_evenly(void** state)
                     nearest = fminf(nearest, hair_distance(scalp_vertex(&cut, a), scalp_vertex(&cut, b)));
             sum += nearest;
             least = fminf(least, nearest);
-            most  = fmaxf(most, nearest);
+            most = fmaxf(most, nearest);
         }
         assert_true(least > 0.65f * sum / (float)n);
         assert_true(most < 1.35f * sum / (float)n);
@@ -440,7 +440,7 @@ static void no_triangle_lies_across_the_parting(void** state)
 {
     (void)state;
     const struct hair_parting parting = hair_style_parting(HAIR_STYLE_LONG);
-    struct cut                cut     = cut_style(HAIR_STYLE_LONG);
+    struct cut cut = cut_style(HAIR_STYLE_LONG);
     for (uint32_t i = 0; i < 3 * cut.info.scalp_triangle_count; ++i) {
         hair_vec3 a = scalp_vertex(&cut, cut.info.scalp_triangles[i]);
         hair_vec3 b = scalp_vertex(&cut, cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1]);
@@ -468,15 +468,15 @@ static void every_allocation_may_fail(void** state)
 {
     (void)state;
     hair_style_desc desc = hair_style_desc_default();
-    desc.host            = &test.host;
-    desc.guide_count     = 20;
-    hair_result result   = HAIR_ERROR_MEMORY;
+    desc.host = &test.host;
+    desc.guide_count = 20;
+    hair_result result = HAIR_ERROR_MEMORY;
     for (uint32_t refuse = 1; result; ++refuse) {
         hair_asset* asset = NULL;
-        test.allocations  = 0;
-        test.errors       = 0;
-        test.refuse       = refuse;
-        result            = hair_asset_generate(&desc, &asset);
+        test.allocations = 0;
+        test.errors = 0;
+        test.refuse = refuse;
+        result = hair_asset_generate(&desc, &asset);
         if (!result) {
             hair_asset_destroy(asset);
             assert_true(refuse > 10);

@@ -42,8 +42,8 @@ static const char* const columns[] = {"case",
 // A solver and how finely it is run; substeps 0: as it wants.
 struct setting {
     hair_solver solver;
-    uint32_t    substeps, iterations;
-    bool        quick;
+    uint32_t substeps, iterations;
+    bool quick;
 };
 
 static const struct setting settings[] = {
@@ -55,7 +55,7 @@ static const struct setting settings[] = {
     {HAIR_SOLVER_DIRECT, 3, 0, false},    {HAIR_SOLVER_DIRECT, 4, 0, true},
     {HAIR_SOLVER_DIRECT, 5, 0, false},    {HAIR_SOLVER_DIRECT, 6, 0, false},
     {HAIR_SOLVER_DIRECT, 8, 0, false},    {HAIR_SOLVER_DIRECT, 16, 0, false},
-    {HAIR_SOLVER_ACCURATE, 0, 0, false},   {HAIR_SOLVER_ACCURATE, 16, 0, true},
+    {HAIR_SOLVER_ACCURATE, 0, 0, false},  {HAIR_SOLVER_ACCURATE, 16, 0, true},
     {HAIR_SOLVER_ACCURATE, 24, 0, false}, {HAIR_SOLVER_ACCURATE, 32, 0, false},
     {HAIR_SOLVER_ACCURATE, 48, 0, false}, {HAIR_SOLVER_ACCURATE, 64, 0, false},
 };
@@ -75,7 +75,7 @@ static bool run_finely(struct bench* bench, const struct bench_motion* motion, u
 {
     struct bench_motion fine = *motion;
     struct bench_living living;
-    fine.scene.solver  = HAIR_SOLVER_ACCURATE;
+    fine.scene.solver = HAIR_SOLVER_ACCURATE;
     fine.scene.strands = 1;
     fine.scene.substep = FRAME / substeps;
     if (!bring_to_life(bench, &fine, &living)) return false;
@@ -89,10 +89,10 @@ static bool run_finely(struct bench* bench, const struct bench_motion* motion, u
 
 static bool find_truth_among_solids(struct bench* bench, struct bench_motion* motion)
 {
-    size_t  count = (size_t)motion->frames * 3 * motion->scene.vertices;
-    double* half  = malloc(count * sizeof *half);
-    double  all = 0, worst = 0;
-    bool    whole = half != NULL;
+    size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
+    double* half = malloc(count * sizeof *half);
+    double all = 0, worst = 0;
+    bool whole = half != NULL;
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
         double *truth = motion->truth + run * count, sum = 0;
         bench_set_shoulder(motion, run);
@@ -113,7 +113,7 @@ static bool find_truth_among_solids(struct bench* bench, struct bench_motion* mo
 static bool find_truth(struct bench* bench, struct bench_motion* motion)
 {
     if (motion->truth) return true;
-    size_t count  = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
+    size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
     motion->truth = malloc(count * sizeof *motion->truth);
     if (motion->truth && motion->solid_count) return find_truth_among_solids(bench, motion);
     struct hair_reference_rod* rod = bench_reference(&motion->scene);
@@ -140,7 +140,7 @@ static bool run_frames(struct bench_living* living, const struct bench_motion* m
                        struct error* out)
 {
     uint32_t size = 3 * motion->scene.vertices;
-    double   positions[3 * BENCH_MOST_VERTICES];
+    double positions[3 * BENCH_MOST_VERTICES];
     for (uint32_t k = 0; k < motion->frames; ++k, truth += size) {
         if (!bench_step(living, motion->moves ? motion->heads + k : NULL, FRAME)) return false;
         if (!bench_read(living, positions)) return false;
@@ -160,8 +160,8 @@ static bool run_frames(struct bench_living* living, const struct bench_motion* m
 static bool run_all(struct bench_living* living, struct bench_motion* motion, struct error* out)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
-    bool   whole = true;
-    *out         = (struct error){0};
+    bool whole = true;
+    *out = (struct error){0};
     for (uint32_t run = motion->runs; run-- > 0 && whole;) {
         if (motion->solid_count) bench_set_shoulder(motion, run);
         whole = bench_restart(living) &&
@@ -175,8 +175,8 @@ static void add_row(const struct bench_motion* motion, struct bench_living* livi
                     const struct bench_times* times, const struct setting* setting)
 {
     const struct bench_scene* scene = &motion->scene;
-    double                    rms   = sqrt(error->squares / motion->runs / motion->frames / scene->vertices);
-    json_t*                   row   = bench_rows_add(&living->bench->rows);
+    double rms = sqrt(error->squares / motion->runs / motion->frames / scene->vertices);
+    json_t* row = bench_rows_add(&living->bench->rows);
     bench_set_text(row, "case", motion->name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
@@ -220,11 +220,11 @@ static void measure(struct bench* bench, struct bench_motion* motion, const stru
     if (!bench_begin(bench, motion->name, method)) return;
     struct bench_scene* scene = &motion->scene;
     struct bench_living living;
-    struct error        error;
-    struct bench_times  times;
-    scene->solver             = setting->solver;
+    struct error error;
+    struct bench_times times;
+    scene->solver = setting->solver;
     scene->physics.iterations = setting->iterations ? setting->iterations : 1;
-    scene->substep            = setting->substeps ? FRAME / setting->substeps : 0;
+    scene->substep = setting->substeps ? FRAME / setting->substeps : 0;
     scene->mapping = setting->solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
     if ((!setting->substeps && !settle_substep(bench, motion)) || !bring_to_life(bench, motion, &living)) {
         bench_refuse(bench, motion->name, method);
@@ -249,14 +249,14 @@ static void measure_all(struct bench* bench, struct bench_motion* motion)
 
 static void add_static_row(struct bench_living* living, const double* positions)
 {
-    const struct bench_scene* scene   = living->scene;
-    struct bench_section      section = bench_section_of(&scene->physics);
-    double                    length  = living->length;
-    double                    gamma = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
+    const struct bench_scene* scene = living->scene;
+    struct bench_section section = bench_section_of(&scene->physics);
+    double length = living->length;
+    double gamma = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
     struct hair_reference_elastica rest = hair_reference_elastica(gamma, 0, 0);
-    const double*                  tip  = positions + 3 * (scene->vertices - 1);
-    double  error = hypot(hypot(tip[0] / length - rest.across, tip[1] / length + rest.down), tip[2] / length);
-    json_t* row   = bench_rows_add(&living->bench->rows);
+    const double* tip = positions + 3 * (scene->vertices - 1);
+    double error = hypot(hypot(tip[0] / length - rest.across, tip[1] / length + rest.down), tip[2] / length);
+    json_t* row = bench_rows_add(&living->bench->rows);
     bench_set_text(row, "case", "static");
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
@@ -274,17 +274,17 @@ static void measure_static(struct bench* bench, hair_solver solver, double lengt
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "static", method)) return;
-    double              positions[3 * BENCH_MOST_VERTICES] = {0};
-    const double        root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    double positions[3 * BENCH_MOST_VERTICES] = {0};
+    const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
+    struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, 32, length, root, along);
-    scene.solver                = solver;
-    scene.mapping               = bench->options.mapping;
-    scene.physics.young         = 4e9f;
-    scene.physics.fiber_radius  = 4e-5f;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
+    scene.physics.young = 4e9f;
+    scene.physics.fiber_radius = 4e-5f;
     scene.physics.fiber_density = 1300;
-    scene.physics.damping       = 10;
+    scene.physics.damping = 10;
     if (solver == HAIR_SOLVER_REDBLACK) {
         scene.mapping = HAIR_MAPPING_AUTO;
         scene.substep = FRAME;
@@ -302,7 +302,7 @@ static void measure_static(struct bench* bench, hair_solver solver, double lengt
 
 static void measure_straight(struct bench* bench)
 {
-    bool                quick = bench->options.quick;
+    bool quick = bench->options.quick;
     struct bench_motion motion;
     for (uint32_t vertices = 16; vertices <= (quick ? 16 : 64); vertices *= 2) {
         bench_make_shake(bench, vertices, &motion);
@@ -333,7 +333,7 @@ static void run_suite(struct bench* bench)
 {
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
-    static const double      lengths[] = {0.05, 0.1, 0.3};
+    static const double lengths[] = {0.05, 0.1, 0.3};
     measure_straight(bench);
     measure_curved(bench);
     for (int i = 0; i < 4; ++i)

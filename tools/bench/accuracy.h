@@ -10,17 +10,17 @@
 
 // A scene in motion and what the reference makes of it.
 struct bench_motion {
-    const char*                    name;
-    struct bench_scene             scene;
-    double                         length; // m
-    uint32_t                       frames;
+    const char* name;
+    struct bench_scene scene;
+    double length; // m
+    uint32_t frames;
     struct hair_reference_rod_pose heads[BENCH_MOTION_FRAMES];
-    bool                           moves; // heads are in use
-    hair_solid                     solids[2];
-    uint32_t                       solid_count;
-    uint32_t                       runs;  // the motion has: of contact one for each shoulder, else 1
-    double*                        truth; // per run, frame and vertex; NULL: not found yet
-    char                           reference[96];
+    bool moves; // heads are in use
+    hair_solid solids[2];
+    uint32_t solid_count;
+    uint32_t runs; // the motion has: of contact one for each shoulder, else 1
+    double* truth; // per run, frame and vertex; NULL: not found yet
+    char reference[96];
 };
 
 // Straight strands: yawed with the head, over solids, without bending, let go level, spun up by the

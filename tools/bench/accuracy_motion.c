@@ -8,9 +8,9 @@
 
 static struct bench_scene make_scene(const struct bench* bench, uint32_t vertices, double clamp)
 {
-    struct bench_scene scene    = bench_scene_default();
-    const double       root[3]  = {0.1, 0, 0}; // On a head of this radius.
-    const double       along[3] = {cos(clamp), sin(clamp), 0};
+    struct bench_scene scene = bench_scene_default();
+    const double root[3] = {0.1, 0, 0}; // On a head of this radius.
+    const double along[3] = {cos(clamp), sin(clamp), 0};
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     scene.strands = bench->options.strands;
     if (!scene.strands) scene.strands = bench->options.quick ? 64 : 1000;
@@ -23,15 +23,15 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
 {
     *out = (struct bench_motion){
         .name = "shake", .length = LENGTH, .frames = BENCH_MOTION_FRAMES, .moves = true, .runs = 1};
-    out->scene         = make_scene(bench, vertices, -BENCH_PI / 6);
-    hair_physics* p    = &out->scene.physics;
-    p->damping         = 1;
-    p->young           = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
-    p->fiber_radius    = 5e-5f;
-    p->fiber_density   = 1300;
+    out->scene = make_scene(bench, vertices, -BENCH_PI / 6);
+    hair_physics* p = &out->scene.physics;
+    p->damping = 1;
+    p->young = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
+    p->fiber_radius = 5e-5f;
+    p->fiber_density = 1300;
     const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
     for (uint32_t k = 0; k < out->frames; ++k) {
-        double sine   = sin(BENCH_PI * (k + 1) * BENCH_MOTION_FRAME);
+        double sine = sin(BENCH_PI * (k + 1) * BENCH_MOTION_FRAME);
         out->heads[k] = bench_pose(up, 0.6 * sine * sine, none);
     }
 }
@@ -52,10 +52,10 @@ static const struct {
 
 void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
 {
-    hair_solid* shoulder  = &motion->solids[1];
+    hair_solid* shoulder = &motion->solids[1];
     shoulder->position[0] = shoulders[run].x;
     shoulder->position[1] = shoulders[run].y;
-    shoulder->size[0]     = shoulders[run].radius;
+    shoulder->size[0] = shoulders[run].radius;
 }
 
 // The same head as a sphere, and a shoulder, over which the strand falls and is drawn. (Against an
@@ -65,45 +65,45 @@ void bench_make_contact(const struct bench* bench, uint32_t vertices, struct ben
 {
     bench_make_shake(bench, vertices, out);
     hair_solid head = hair_solid_default(), shoulder = head;
-    head.size[0]         = 0.095f;
-    shoulder.shape       = HAIR_SHAPE_CAPSULE; // Its axis along z.
+    head.size[0] = 0.095f;
+    shoulder.shape = HAIR_SHAPE_CAPSULE; // Its axis along z.
     shoulder.rotation[0] = shoulder.rotation[3] = (float)sqrt(0.5);
-    shoulder.size[1]                            = 0.12f;
-    out->name                                   = "contact";
-    out->solids[0]                              = head;
-    out->solids[1]                              = shoulder;
-    out->solid_count                            = 2;
-    out->runs                                   = SHOULDERS;
+    shoulder.size[1] = 0.12f;
+    out->name = "contact";
+    out->solids[0] = head;
+    out->solids[1] = shoulder;
+    out->solid_count = 2;
+    out->runs = SHOULDERS;
     bench_set_shoulder(out, 0);
 }
 
 // A chain without bending, let go horizontal: the whip at 0.25 s is what separates solvers.
 void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
-    *out       = (struct bench_motion){.name = "swing", .length = LENGTH, .frames = 24, .runs = 1};
+    *out = (struct bench_motion){.name = "swing", .length = LENGTH, .frames = 24, .runs = 1};
     out->scene = make_scene(bench, vertices, 0);
     out->scene.physics.young = 0;
-    out->scene.physics.bend  = 0;
+    out->scene.physics.bend = 0;
 }
 
 // A strand with bending and without damping, let go level.
 void bench_make_whip(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
-    *out        = (struct bench_motion){.name = "whip", .length = LENGTH, .runs = 1};
+    *out = (struct bench_motion){.name = "whip", .length = LENGTH, .runs = 1};
     out->frames = BENCH_MOTION_FRAMES;
-    out->scene  = make_scene(bench, vertices, 0);
+    out->scene = make_scene(bench, vertices, 0);
 }
 
 // The head turns ever faster, up to 3 Hz after a second.
 void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
-    *out        = (struct bench_motion){.name = "taut", .length = LENGTH, .moves = true, .runs = 1};
+    *out = (struct bench_motion){.name = "taut", .length = LENGTH, .moves = true, .runs = 1};
     out->frames = BENCH_MOTION_FRAMES;
-    out->scene  = make_scene(bench, vertices, 0);
+    out->scene = make_scene(bench, vertices, 0);
     out->scene.physics.damping = 4;
     for (uint32_t k = 0; k < out->frames; ++k) {
-        double time   = (k + 1) * BENCH_MOTION_FRAME;
+        double time = (k + 1) * BENCH_MOTION_FRAME;
         out->heads[k] = bench_pose(up, 2 * BENCH_PI * 3 * time * time / 2, none);
     }
 }
@@ -113,12 +113,12 @@ void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_
 static void set_curved(struct bench_motion* out)
 {
     hair_physics* p = &out->scene.physics;
-    p->damping      = 4;
-    p->gravity[0]   = (float)(BENCH_GRAVITY * sin(BENCH_PI / 6));
-    p->gravity[1]   = (float)(-BENCH_GRAVITY * cos(BENCH_PI / 6));
-    out->length     = bench_scene_length(&out->scene);
-    out->frames     = BENCH_MOTION_FRAMES;
-    out->runs       = 1;
+    p->damping = 4;
+    p->gravity[0] = (float)(BENCH_GRAVITY * sin(BENCH_PI / 6));
+    p->gravity[1] = (float)(-BENCH_GRAVITY * cos(BENCH_PI / 6));
+    out->length = bench_scene_length(&out->scene);
+    out->frames = BENCH_MOTION_FRAMES;
+    out->runs = 1;
 }
 
 // Three waves of 20 mm in a plane. The angle to the axis is a cosine of the arc length.
@@ -126,11 +126,11 @@ void bench_make_wave(const struct bench* bench, struct bench_motion* out)
 {
     enum { VERTICES = 48, WAVES = 3 };
     const double steepest = 1.2, piece = LENGTH / (VERTICES - 1); // rad, m
-    *out         = (struct bench_motion){.name = "wave", .scene = make_scene(bench, VERTICES, 0)};
+    *out = (struct bench_motion){.name = "wave", .scene = make_scene(bench, VERTICES, 0)};
     double at[2] = {0, 0};
     for (int i = 0; i < VERTICES; ++i) {
-        double angle                    = steepest * cos(2 * BENCH_PI * WAVES * (i + 0.5) / (VERTICES - 1));
-        out->scene.positions[3 * i]     = (float)at[0];
+        double angle = steepest * cos(2 * BENCH_PI * WAVES * (i + 0.5) / (VERTICES - 1));
+        out->scene.positions[3 * i] = (float)at[0];
         out->scene.positions[3 * i + 1] = (float)at[1];
         at[0] += piece * sin(angle);
         at[1] -= piece * cos(angle);

@@ -15,39 +15,39 @@ struct bench_suite;
 // What the command line says.
 struct bench_options {
     const struct bench_suite* suite;
-    const char*               json; // NULL: not asked for
-    const char*               csv;
-    const char*               only_case; // NULL: all
-    const char*               only_method;
-    hair_mapping              mapping;
-    uint32_t                  strands; // 0: as the suite has it
-    uint32_t                  scene;   // of random ones, the first, and
-    uint32_t                  scenes;  // how many; 0: as the suite has it
-    uint32_t                  size;    // of pictures, pixels to each side; 0: as the suite has it
-    int                       device;
-    bool                      quick, quiet, verbose;
+    const char* json; // NULL: not asked for
+    const char* csv;
+    const char* only_case; // NULL: all
+    const char* only_method;
+    hair_mapping mapping;
+    uint32_t strands; // 0: as the suite has it
+    uint32_t scene; // of random ones, the first, and
+    uint32_t scenes; // how many; 0: as the suite has it
+    uint32_t size; // of pictures, pixels to each side; 0: as the suite has it
+    int device;
+    bool quick, quiet, verbose;
 };
 
 struct bench {
     struct bench_options options;
-    hair_host            host;
-    hair_egl*            egl;
-    hair_context*        context;
-    const char*          renderer;
-    bool                 software; // A driver whose timer queries do not see compute shaders.
-    struct bench_rows    rows;
+    hair_host host;
+    hair_egl* egl;
+    hair_context* context;
+    const char* renderer;
+    bool software; // A driver whose timer queries do not see compute shaders.
+    struct bench_rows rows;
 
-    bool     planning; // Nothing is run, rows are only counted.
+    bool planning; // Nothing is run, rows are only counted.
     uint32_t planned, done;
-    char     cases[2048];   // the names of all that were met, for a wrong --case
-    double   started;       // ms
-    char     sentence[512]; // the last of the library's log
-    char     refused[512];  // the last that was passed on
+    char cases[2048]; // the names of all that were met, for a wrong --case
+    double started; // ms
+    char sentence[512]; // the last of the library's log
+    char refused[512]; // the last that was passed on
 };
 
 struct bench_suite {
-    const char*        name;
-    const char*        about;
+    const char* name;
+    const char* about;
     const char* const* columns;
     void (*run)(struct bench* bench);
 };

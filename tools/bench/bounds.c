@@ -12,7 +12,7 @@
 #define FRAMES 31
 #define MOST_WORKS 32
 #define WARM 300 // ms
-#define MORE 4   // times as much of everything
+#define MORE 4 // times as much of everything
 
 static const char* const columns[] = {"case",     "method",   "pass",     "guides", "followers", "runs",
                                       "ms",       "ms_more",  "ms_small", "bytes",  "launch_ms", "bytes_ms",
@@ -20,22 +20,22 @@ static const char* const columns[] = {"case",     "method",   "pass",     "guide
 
 static const struct point {
     const char* name;
-    uint32_t    guides, followers;
-    bool        quick;
+    uint32_t guides, followers;
+    bool quick;
 } points[] = {{"demo", 166, 18000, true}, {"many guides", 1024, 18000, false}};
 
 // What the machine cannot do faster.
 struct floors {
     double launch; // of a pass that does nothing. ms
-    double byte;   // read or written. ms
+    double byte; // read or written. ms
 };
 
 struct work {
     const char* name;
-    char        pass[128];
-    uint32_t    runs, times;
-    uint64_t    bytes;
-    double      ms[FRAMES];
+    char pass[128];
+    uint32_t runs, times;
+    uint64_t bytes;
+    double ms[FRAMES];
 };
 
 // Floors ----------------------------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ static void add_floor(struct bench* bench, const char* name, double bytes, doubl
 
 static struct floors measure_floors(struct bench* bench)
 {
-    struct floors      floors = {0, 0};
+    struct floors floors = {0, 0};
     struct bench_timer timer;
     if (!bench_begin(bench, "machine", "floors")) return floors;
     bench_timer_make(&timer, bench->software);
@@ -121,12 +121,12 @@ static struct floors measure_floors(struct bench* bench)
 static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uint32_t* count)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[MOST_WORKS];
+    hair_report_row rows[MOST_WORKS];
     if (hair_report(studio->hair, 1, &info, rows, sizeof *rows, MOST_WORKS, count)) return false;
     for (uint32_t i = 0; i < *count && i < MOST_WORKS; ++i) {
         struct work* work = &works[i];
-        work->name        = rows[i].work;
-        work->bytes       = rows[i].bytes;
+        work->name = rows[i].work;
+        work->bytes = rows[i].bytes;
         if (!rows[i].runs || work->times == FRAMES) continue;
         work->runs = rows[i].runs;
         snprintf(work->pass, sizeof work->pass, "%s", rows[i].pass);
@@ -139,18 +139,18 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
 static bool live(struct bench* bench, const struct point* point, uint32_t times, uint32_t size,
                  struct work works[MOST_WORKS], uint32_t* count)
 {
-    struct bench_studio      studio;
-    struct bench_studio_desc desc = {.scene     = "demo",
-                                     .size      = size,
-                                     .guides    = times * point->guides,
+    struct bench_studio studio;
+    struct bench_studio_desc desc = {.scene = "demo",
+                                     .size = size,
+                                     .guides = times * point->guides,
                                      .followers = times * point->followers,
-                                     .solver    = HAIR_SOLVER_DIRECT};
+                                     .solver = HAIR_SOLVER_DIRECT};
     memset(works, 0, MOST_WORKS * sizeof *works);
     if (!bench_studio_make(bench, &desc, &studio)) return false;
     struct bench_shot shot = bench_studio_shot(&studio);
-    shot.samples           = 4;
-    shot.view.path         = HAIR_PATH_AUTO;
-    bool done              = bench_studio_set(&studio, &shot);
+    shot.samples = 4;
+    shot.view.path = HAIR_PATH_AUTO;
+    bool done = bench_studio_set(&studio, &shot);
     for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two compile what they need.
         if (i == 2) done = bench_studio_warm_up(&studio, WARM);
         done = done && bench_studio_step(&studio, NULL) && bench_studio_draw(&studio, NULL);
@@ -191,11 +191,11 @@ static double median(struct work* work)
 static void add_row(struct bench* bench, const struct point* point, const struct floors* floors,
                     struct work* work, struct work* more, struct work* small)
 {
-    double  ms = median(work), grown = median(more), shrunk = median(small);
-    double  launch = floors->launch * work->runs;
-    double  moved  = moves_all(work) ? floors->byte * (double)work->bytes : 0;
-    double  least  = launch > moved ? launch : moved;
-    json_t* row    = bench_rows_add(&bench->rows);
+    double ms = median(work), grown = median(more), shrunk = median(small);
+    double launch = floors->launch * work->runs;
+    double moved = moves_all(work) ? floors->byte * (double)work->bytes : 0;
+    double least = launch > moved ? launch : moved;
+    json_t* row = bench_rows_add(&bench->rows);
     bench_set_text(row, "case", point->name);
     bench_set_text(row, "method", work->name);
     bench_set_text(row, "pass", work->pass);
@@ -218,7 +218,7 @@ static void add_row(struct bench* bench, const struct point* point, const struct
 static void measure(struct bench* bench, const struct point* point, const struct floors* floors)
 {
     static struct work works[3][MOST_WORKS]; // as it is, more of it, and in a picture half as wide and high
-    uint32_t           count[3] = {0, 0, 0}, size = bench->options.size ? bench->options.size : SIZE;
+    uint32_t count[3] = {0, 0, 0}, size = bench->options.size ? bench->options.size : SIZE;
     if (!bench_begin(bench, point->name, "direct")) return;
     for (uint32_t i = 0; i < 3; ++i)
         if (!live(bench, point, i == 1 ? MORE : 1, i == 2 ? size / 2 : size, works[i], &count[i])) {

@@ -34,15 +34,15 @@ static bool place(struct bench_bust* bust, float transform[16])
 static bool bring_to_life(struct bench_bust* bust, hair_first_hit first_hit)
 {
     hair_groom_info info = hair_groom_info_default();
-    hair_desc       desc = bust->scene.settings.desc;
-    desc.physics         = &bust->scene.settings.physics;
-    desc.look            = &bust->look;
-    desc.first_hit       = first_hit;
+    hair_desc desc = bust->scene.settings.desc;
+    desc.physics = &bust->scene.settings.physics;
+    desc.look = &bust->look;
+    desc.first_hit = first_hit;
     if (!place(bust, desc.transform)) return false;
     if (hair_create(bust->bench->context, bust->groom, &desc, &bust->hair)) return false;
     if (hair_groom_describe(bust->groom, &info) || !place(bust, desc.transform)) return false;
     bust->followers = info.follower_count;
-    bust->guides    = info.guide_count;
+    bust->guides = info.guide_count;
     for (int i = 0; i < BUST_FPS / 2; ++i)
         if (hair_step(bust->hair, 1.0f / BUST_FPS)) return false;
     uint32_t smooth;
@@ -60,7 +60,7 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     hair_scene_default(&out->scene);
     if (!hair_scene_named(BENCH_TOOL, "demo", &out->scene)) return false;
     if (followers) out->scene.settings.groom.follower_count = followers;
-    out->look            = out->scene.settings.look;
+    out->look = out->scene.settings.look;
     out->look.tip_strays = out->look.strays = 0; // Turns are to be those that interpolation and solids make.
     if (segments) out->look.segments = segments;
     if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
@@ -76,7 +76,7 @@ void bench_bust_free(struct bench_bust* bust)
     hair_groom_destroy(bust->groom);
     glDeleteFramebuffers(1, &bust->target[0]);
     glDeleteRenderbuffers(1, &bust->target[1]);
-    bust->hair  = NULL;
+    bust->hair = NULL;
     bust->groom = NULL;
 }
 
@@ -89,7 +89,7 @@ bool bench_bust_step(struct bench_bust* bust)
 
 bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* followers)
 {
-    uint32_t count       = bust->followers * (bust->look.segments + 1), there;
+    uint32_t count = bust->followers * (bust->look.segments + 1), there;
     bust->look.collision = collision;
     return !hair_set_look(bust->hair, &bust->look) &&
            !hair_read(bust->hair, HAIR_READ_FOLLOWERS, followers, count, &there) && there == count;
@@ -98,14 +98,14 @@ bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* f
 bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
 {
     uint32_t count = bust->guides * bust->smooth, there, each = bust->look.segments + 1;
-    float*   all = malloc(3 * sizeof *all * count);
-    bool     ok  = all && !hair_read(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
+    float* all = malloc(3 * sizeof *all * count);
+    bool ok = all && !hair_read(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
     for (uint32_t i = 0; i < bust->guides * each && ok; ++i) {
-        float    at    = (float)(i % each) / (float)(each - 1) * (float)(bust->smooth - 1);
-        uint32_t k     = (uint32_t)at < bust->smooth - 2 ? (uint32_t)at : bust->smooth - 2;
-        float    share = at - (float)k;
+        float at = (float)(i % each) / (float)(each - 1) * (float)(bust->smooth - 1);
+        uint32_t k = (uint32_t)at < bust->smooth - 2 ? (uint32_t)at : bust->smooth - 2;
+        float share = at - (float)k;
         for (uint32_t axis = 0; axis < 3; ++axis) {
-            const float* a       = all + 3 * (i / each * bust->smooth + k) + axis;
+            const float* a = all + 3 * (i / each * bust->smooth + k) + axis;
             guides[3 * i + axis] = a[0] + share * (a[3] - a[0]);
         }
     }
@@ -119,16 +119,16 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
     double least = INFINITY;
     for (uint32_t i = 0; i < bust->solid_count; ++i) {
         const hair_solid* solid = &bust->solids[i];
-        const float*      q     = solid->rotation;
-        double            x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
+        const float* q = solid->rotation;
+        double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
         double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3],
-               along   = 0;
-        double half    = (double)solid->size[1];
+               along = 0;
+        double half = (double)solid->size[1];
         for (int k = 0; k < 3; ++k) {
             arm[k] = (double)at[k] - (double)solid->position[k];
             along += arm[k] * axis[k];
         }
-        along         = fmin(fmax(along, -half), half);
+        along = fmin(fmax(along, -half), half);
         double square = 0;
         for (int k = 0; k < 3; ++k) square += (arm[k] - along * axis[k]) * (arm[k] - along * axis[k]);
         least = fmin(least, sqrt(square) - (double)solid->size[0]);
@@ -141,8 +141,8 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 static double time_of_passes(hair_context* context)
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
-    double      ms    = 0;
+    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (strstr(now[i].pass, "interpolate/hit") || strstr(now[i].pass, "interpolate/repair"))
             ms += now[i].total_ms;
@@ -154,10 +154,10 @@ static bool ask_for_frame(struct bench_bust* bust, bool again)
 {
     hair_look look = bust->look;
     hair_view view = hair_view_default();
-    view.pass      = HAIR_PASS_DEPTH;
+    view.pass = HAIR_PASS_DEPTH;
     view.primitive = HAIR_LINES;
     for (int k = 0; k < 3; ++k)
-        view.projection[5 * k] = 0.01f;            // Of what is out of view nothing is looked for.
+        view.projection[5 * k] = 0.01f; // Of what is out of view nothing is looked for.
     bust->turn = again ? bust->turn : !bust->turn; // Where nothing has changed nothing is looked for either.
     look.density = bust->turn ? 1e-6f : 2e-6f;
     return (again || !hair_set_look(bust->hair, &look)) && !hair_draw(bust->hair, &view);
@@ -193,7 +193,7 @@ bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* 
 {
     double all[MOST_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
     bust->look.collision = collision;
-    *runs                = 0;
+    *runs = 0;
     if (!warm_up(bust)) return false;
     for (int k = -2; k < MOST_RUNS; ++k) { // The first two compile what they need.
         if (!draw(bust, false, &first) || !draw(bust, true, &second) || bench_was_interrupted()) return false;

@@ -8,17 +8,17 @@
 #define BUST_FPS 240
 
 struct bench_bust {
-    struct bench*     bench;
+    struct bench* bench;
     struct hair_scene scene;
-    hair_groom*       groom;
-    hair_instance*    hair;
-    hair_look         look;
-    hair_solid        solids[HAIR_RIG_SOLIDS]; // where they are
-    uint32_t          solid_count;
-    uint32_t          followers, guides, smooth; // smooth: vertices of a smoothed guide
-    uint32_t          frame;
-    bool              turn;      // of what is changed so that it is looked at again
-    unsigned          target[2]; // a framebuffer and its colour
+    hair_groom* groom;
+    hair_instance* hair;
+    hair_look look;
+    hair_solid solids[HAIR_RIG_SOLIDS]; // where they are
+    uint32_t solid_count;
+    uint32_t followers, guides, smooth; // smooth: vertices of a smoothed guide
+    uint32_t frame;
+    bool turn; // of what is changed so that it is looked at again
+    unsigned target[2]; // a framebuffer and its colour
 };
 
 // Hung for half a second. Followers and their segments, 0: as the scene has them. False: bench->sentence says why not.

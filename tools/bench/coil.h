@@ -5,9 +5,9 @@
 #include "tools/bench/scene.h"
 
 struct bench_coil {
-    double   radius; // m
-    double   pitch;  // m a turn
-    double   turns;
+    double radius; // m
+    double pitch; // m a turn
+    double turns;
     uint32_t vertices;
 };
 

@@ -42,8 +42,8 @@ static const char* const names[] = {"push", "switch", "none"}; // In the order o
 // What is done to followers, summed over frames.
 struct found {
     uint64_t inside_before, inside_after, moved, dropped, vertices_moved;
-    double   depth_before, depth, displacement, most_displacement, length_error, turn, turn_of_guides;
-    double   jump, jump_of_strands;
+    double depth_before, depth, displacement, most_displacement, length_error, turn, turn_of_guides;
+    double jump, jump_of_strands;
 };
 
 struct frame {
@@ -64,7 +64,7 @@ static double turn_of(const float* p, uint32_t segments)
     double most = 0;
     for (uint32_t k = 1; k < segments; ++k) {
         const float *a = p + 3 * (k - 1), *b = a + 3, *c = b + 3;
-        double       dot = 0, product = distance(a, b) * distance(b, c);
+        double dot = 0, product = distance(a, b) * distance(b, c);
         for (int i = 0; i < 3; ++i) dot += ((double)b[i] - (double)a[i]) * ((double)c[i] - (double)b[i]);
         if (product > 0) most = fmax(most, acos(fmin(fmax(dot / product, -1), 1)));
     }
@@ -75,9 +75,9 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
                            double voxel, bool follows, struct found* found)
 {
     const float *p = frame->before + first, *q = frame->after + first;
-    uint32_t     segments = bust->look.segments;
-    double       before = 0, after = 0, most = 0, sum = 0;
-    bool         finite = true;
+    uint32_t segments = bust->look.segments;
+    double before = 0, after = 0, most = 0, sum = 0;
+    bool finite = true;
     for (uint32_t k = 0; k <= segments; ++k) {
         double away = distance(p + 3 * k, q + 3 * k);
         finite &= isfinite(away) != 0;
@@ -85,10 +85,10 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
         sum += away;
         if (follows) {
             const float *a = frame->last_before + first + 3 * k, *b = frame->last_after + first + 3 * k;
-            double       square = 0;
+            double square = 0;
             for (uint32_t i = 0; i < 3; ++i)
                 square += pow((double)q[3 * k + i] - (double)p[3 * k + i] - ((double)b[i] - (double)a[i]), 2);
-            found->jump            = fmax(found->jump, sqrt(square));
+            found->jump = fmax(found->jump, sqrt(square));
             found->jump_of_strands = fmax(found->jump_of_strands, distance(p + 3 * k, a));
         }
         if (k == 0) continue; // The root is where it is.
@@ -98,7 +98,7 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
         found->inside_before += depth > voxel;
         found->inside_after += depth > voxel && left > 0;
         found->depth_before = fmax(found->depth_before, depth);
-        found->depth        = fmax(found->depth, left);
+        found->depth = fmax(found->depth, left);
     }
     found->dropped += !finite || after == 0;
     found->turn = fmax(found->turn, turn_of(q, segments));
@@ -107,7 +107,7 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
     found->vertices_moved += segments + 1;
     found->displacement += sum;
     found->most_displacement = fmax(found->most_displacement, most);
-    found->length_error      = fmax(found->length_error, fabs(after / before - 1));
+    found->length_error = fmax(found->length_error, fabs(after / before - 1));
 }
 
 static bool look_at_frame(struct bench_bust* bust, hair_collision collision, struct frame* frame,
@@ -121,12 +121,12 @@ static bool look_at_frame(struct bench_bust* bust, hair_collision collision, str
         found->turn_of_guides =
             fmax(found->turn_of_guides, turn_of(frame->guides + each * i, bust->look.segments));
     for (size_t i = 0; i < bust->followers; ++i) look_at_strand(bust, frame, each * i, voxel, follows, found);
-    float* swapped     = frame->last_before;
+    float* swapped = frame->last_before;
     frame->last_before = frame->before;
-    frame->before      = swapped;
-    swapped            = frame->last_after;
-    frame->last_after  = frame->after;
-    frame->after       = swapped;
+    frame->before = swapped;
+    swapped = frame->last_after;
+    frame->last_after = frame->after;
+    frame->after = swapped;
     return true;
 }
 
@@ -163,10 +163,10 @@ static void add_row(struct bench_bust* bust, hair_collision collision, uint32_t 
 static bool run_frames(struct bench_bust* bust, hair_collision collision, struct frame* frame)
 {
     enum { EVERY = BUST_FPS / 3 };
-    uint32_t        frames = bust->bench->options.quick ? EVERY + 1 : 11 * EVERY + 1, looked_at = 0, runs = 0;
-    struct found    found = {0};
+    uint32_t frames = bust->bench->options.quick ? EVERY + 1 : 11 * EVERY + 1, looked_at = 0, runs = 0;
+    struct found found = {0};
     hair_field_info field = hair_field_info_default();
-    double          ms    = 0;
+    double ms = 0;
     if (hair_get_field(bust->hair, &field)) return false;
     for (uint32_t i = 1; i <= frames; ++i) {
         if (!bench_bust_step(bust) || bench_was_interrupted()) return false;
@@ -187,10 +187,10 @@ static void measure_shoulders(struct bench* bench, hair_collision collision)
         bench_refuse(bench, "shoulders", names[collision]);
         return;
     }
-    size_t       size  = 3 * sizeof(float) * bust.followers * (bust.look.segments + 1);
+    size_t size = 3 * sizeof(float) * bust.followers * (bust.look.segments + 1);
     struct frame frame = {malloc(size), malloc(size), malloc(size), malloc(size),
                           malloc(3 * sizeof(float) * bust.guides * (bust.look.segments + 1))};
-    bool         room  = frame.before && frame.after && frame.last_before && frame.last_after && frame.guides;
+    bool room = frame.before && frame.after && frame.last_before && frame.last_after && frame.guides;
     if (!room || !run_frames(&bust, collision, &frame)) bench_refuse(bench, "shoulders", names[collision]);
     free(frame.before);
     free(frame.after);
@@ -204,9 +204,9 @@ static void measure_shoulders(struct bench* bench, hair_collision collision)
 static double measure_first_hit(struct bench* bench, hair_first_hit way, double compute)
 {
     static const char* const ways[] = {"auto", "compute", "prepass"};
-    struct bench_bust        bust;
-    double                   ms   = 0;
-    uint32_t                 runs = 0;
+    struct bench_bust bust;
+    double ms = 0;
+    uint32_t runs = 0;
     if (!bench_begin(bench, "first hit", ways[way])) return 0;
     if (!bench_bust_make(bench, bench->options.quick ? 4096 : 32768, 64, way, &bust)) {
         bench_refuse(bench, "first hit", ways[way]);

@@ -14,7 +14,7 @@ static double slow_drag(double reynolds)
 }
 
 static const struct {
-    double      reynolds, published; // 0: by slow_drag
+    double reynolds, published; // 0: by slow_drag
     const char* reference;
 } rows[] = {{0.1, 0, "Kaplun 1957"},
             {0.2, 0, "Kaplun 1957"},
@@ -33,20 +33,20 @@ static const struct {
 // By how fast a strand that nothing holds gathers speed: of the velocity that it lacks, a share `rate` in a second.
 static bool measure(struct bench* bench, double speed, double guess, double* rate)
 {
-    const double        root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
-    double              now[3 * BENCH_MOST_VERTICES];
+    struct bench_scene scene = bench_scene_default();
+    double now[3 * BENCH_MOST_VERTICES];
     bench_scene_straight(&scene, 8, 0.1, root, along);
-    scene.solver             = HAIR_SOLVER_ACCURATE;
-    scene.mapping            = bench->options.mapping;
-    scene.substep            = (double)(float)fmax(1e-3 / guess, 1.1e-5);
+    scene.solver = HAIR_SOLVER_ACCURATE;
+    scene.mapping = bench->options.mapping;
+    scene.substep = (double)(float)fmax(1e-3 / guess, 1.1e-5);
     scene.physics.gravity[1] = 0;
-    scene.physics.drag       = 1;
-    scene.physics.root       = HAIR_ROOT_FREE;
-    scene.wind.velocity[2]   = (float)speed;
+    scene.physics.drag = 1;
+    scene.physics.root = HAIR_ROOT_FREE;
+    scene.wind.velocity[2] = (float)speed;
     if (!bench_live(bench, &scene, &living)) return false;
-    bool   ok   = bench_step(&living, NULL, (SUBSTEPS + 0.5) * scene.substep) && bench_read(&living, now);
+    bool ok = bench_step(&living, NULL, (SUBSTEPS + 0.5) * scene.substep) && bench_read(&living, now);
     double time = SUBSTEPS * scene.substep;
     // From rest z = speed (t - (1 - exp(-rate t)) / rate) = speed rate t^2 / 2 (1 - rate t / 3 + ...).
     *rate = 2 * now[2] / (speed * time * time);
@@ -58,19 +58,19 @@ static bool measure(struct bench* bench, double speed, double guess, double* rat
 void bench_drag(struct bench* bench)
 {
     if (!bench_begin(bench, "drag", "accurate")) return;
-    struct bench_scene   scene   = bench_scene_default();
+    struct bench_scene scene = bench_scene_default();
     struct bench_section section = bench_section_of(&scene.physics);
     double diameter = 2 * (double)scene.physics.fiber_radius, density = (double)scene.wind.density;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         double re = rows[i].reynolds, speed = re * (double)scene.wind.viscosity / (density * diameter);
         double published = rows[i].published > 0 ? rows[i].published : slow_drag(re), rate;
-        double by_rate   = 2 * section.line_density / (density * diameter * speed); // to a coefficient
+        double by_rate = 2 * section.line_density / (density * diameter * speed); // to a coefficient
         if (!measure(bench, speed, published / by_rate, &rate)) {
             bench_refuse(bench, "drag", "accurate");
             return;
         }
-        json_t* row      = bench_rows_add(&bench->rows);
-        double  measured = rate * by_rate, error = fabs(measured / published - 1);
+        json_t* row = bench_rows_add(&bench->rows);
+        double measured = rate * by_rate, error = fabs(measured / published - 1);
         bench_set_text(row, "case", "drag");
         bench_set_text(row, "method", "accurate");
         bench_set_number(row, "reynolds", re);

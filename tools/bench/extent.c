@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define TEXELS 4      // of a shadow map to a pixel, at least
+#define TEXELS 4 // of a shadow map to a pixel, at least
 #define LEAST_MAP 256 // texels to each side
 
 // What is seen through a projection at a distance: pixels per metre.
@@ -15,8 +15,8 @@ static float scale_of(const struct hair_matrices* matrices, float distance, uint
 
 static float distance_of(const struct bench_studio* studio, float away)
 {
-    const struct hair_scene* scene  = &studio->scene;
-    float                    square = 0;
+    const struct hair_scene* scene = &studio->scene;
+    float square = 0;
     for (int i = 0; i < 3; ++i) square += powf(away * (scene->eye[i] - scene->target[i]), 2);
     return sqrtf(square);
 }
@@ -48,15 +48,15 @@ float bench_extent_scale(const struct bench_studio* studio, float away)
 float bench_extent_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
                          const struct hair_matrices* light, uint32_t size)
 {
-    uint32_t pixels   = studio->size * studio->shot.supersample;
-    float    distance = distance_of(studio, studio->shot.away);
+    uint32_t pixels = studio->size * studio->shot.supersample;
+    float distance = distance_of(studio, studio->shot.away);
     return scale_of(camera, distance, pixels) / scale_of(light, 1, size);
 }
 
 bool bench_extent_fits(const struct bench_studio* studio, const struct hair_matrices* light, uint32_t size)
 {
     const struct bench_shot* shot = &studio->shot;
-    float                    wide = 2 * shot->look.radius;
+    float wide = 2 * shot->look.radius;
     if (shot->has_lod && !shot->lod.dynamic) wide /= fmaxf(shot->lod.strands, 1e-3f);
     return shot->map_fits && wide * scale_of(light, 1, size) >= 1;
 }
@@ -72,21 +72,21 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
 }
 
 // The sphere that the head's turns keep all hair in, whose box is seen in perspective.
-struct bench_rectangle bench_extent_hair(const struct bench_studio*  studio,
+struct bench_rectangle bench_extent_hair(const struct bench_studio* studio,
                                          const struct hair_matrices* camera, uint32_t pixels)
 {
-    const float *          v = camera->view, *p = camera->projection;
+    const float *v = camera->view, *p = camera->projection;
     struct bench_rectangle all = {{0, 0}, {(int)pixels, (int)pixels}}, part = all;
-    float                  world[3], seen[3], half = 0.5f * (float)pixels, reach = studio->reach;
+    float world[3], seen[3], half = 0.5f * (float)pixels, reach = studio->reach;
     hair_camera_pivot(&studio->scene, studio->transform, world);
     for (int i = 0; i < 3; ++i)
         seen[i] = v[i] * world[0] + v[4 + i] * world[1] + v[8 + i] * world[2] + v[12 + i];
     if (-seen[2] <= 2 * reach) return all;
     for (int i = 0; i < 2; ++i) {
         float nearest = -seen[2] - reach, farthest = -seen[2] + reach, low = seen[i] - reach,
-              high    = seen[i] + reach;
-        float from    = p[5 * i] * low / (low < 0 ? nearest : farthest) - p[8 + i];
-        float to      = p[5 * i] * high / (high < 0 ? farthest : nearest) - p[8 + i];
+              high = seen[i] + reach;
+        float from = p[5 * i] * low / (low < 0 ? nearest : farthest) - p[8 + i];
+        float to = p[5 * i] * high / (high < 0 ? farthest : nearest) - p[8 + i];
         part.lower[i] = (int)fminf(fmaxf(floorf(half * (1 + from)) - 1, 0), (float)pixels);
         part.upper[i] = (int)fminf(fmaxf(ceilf(half * (1 + to)) + 1, 0), (float)pixels);
     }

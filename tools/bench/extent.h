@@ -26,7 +26,7 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
                           const struct hair_matrices* light);
 
 // Around all that hair can reach. `pixels` to each side of the picture.
-struct bench_rectangle bench_extent_hair(const struct bench_studio*  studio,
+struct bench_rectangle bench_extent_hair(const struct bench_studio* studio,
                                          const struct hair_matrices* camera, uint32_t pixels);
 
 #endif

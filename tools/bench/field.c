@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define SIDE 0.6 // m: of the field's box
-#define BAND 3   // voxels on either side of a surface, where an interpolated value has all its neighbours
+#define BAND 3 // voxels on either side of a surface, where an interpolated value has all its neighbours
 #define MOST_RUNS 41
 #define MIXED 20
 #define MANY 10000
@@ -22,9 +22,9 @@ static const char* const columns[] = {"case",      "method",    "shape",      "r
                                       "ratio",     "limit",     "passes_run", "pass",         NULL};
 
 struct subject {
-    struct bench*   bench;
-    hair_groom*     groom;
-    hair_instance*  hair;
+    struct bench* bench;
+    hair_groom* groom;
+    hair_instance* hair;
     hair_field_info info;
 };
 
@@ -34,23 +34,23 @@ struct subject {
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     enum { VERTICES = 4 };
-    float    positions[6 * VERTICES * 3] = {0};
+    float positions[6 * VERTICES * 3] = {0};
     uint32_t vertices[6];
     for (int i = 0; i < 6; ++i) {
         vertices[i] = VERTICES;
         for (int k = 0; k < VERTICES; ++k) {
-            float at                                  = (float)(SIDE / 2) * (float)(k + 1) / VERTICES;
+            float at = (float)(SIDE / 2) * (float)(k + 1) / VERTICES;
             positions[3 * (VERTICES * i + k) + i / 2] = i % 2 ? at : -at;
         }
     }
     hair_groom_desc desc = hair_groom_desc_default();
-    desc.host            = &bench->host;
-    desc.positions       = positions;
+    desc.host = &bench->host;
+    desc.positions = positions;
     desc.strand_vertices = vertices;
-    desc.strand_count    = 6;
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    desc.guide_vertices  = VERTICES;
-    desc.follower_count  = 0;
+    desc.strand_count = 6;
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices = VERTICES;
+    desc.follower_count = 0;
     return hair_groom_create(&desc, out);
 }
 
@@ -62,9 +62,9 @@ static void die(struct subject* subject)
 
 static bool live(struct bench* bench, uint32_t resolution, struct subject* out)
 {
-    *out               = (struct subject){.bench = bench, .info = hair_field_info_default()};
-    hair_desc desc     = hair_desc_default();
-    desc.field_voxel   = (float)(SIDE / resolution);
+    *out = (struct subject){.bench = bench, .info = hair_field_info_default()};
+    hair_desc desc = hair_desc_default();
+    desc.field_voxel = (float)(SIDE / resolution);
     hair_result result = make_groom(bench, &out->groom);
     if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
     if (!result) return true;
@@ -82,9 +82,9 @@ static bool update(struct subject* subject, const hair_solid* solids, uint32_t c
 static double sum_passes(struct bench* bench, uint32_t* runs)
 {
     hair_timing timings[BENCH_MOST_PASSES];
-    uint32_t    count = hair_timings(bench->context, timings, BENCH_MOST_PASSES);
-    double      sum   = 0;
-    *runs             = 0;
+    uint32_t count = hair_timings(bench->context, timings, BENCH_MOST_PASSES);
+    double sum = 0;
+    *runs = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (!strncmp(timings[i].pass, "field/", 6)) {
             sum += timings[i].total_ms;
@@ -97,7 +97,7 @@ static double sum_passes(struct bench* bench, uint32_t* runs)
 static double time_update(struct subject* subject, const hair_solid* solids, uint32_t count)
 {
     struct bench* bench = subject->bench;
-    uint32_t      runs;
+    uint32_t runs;
     glFinish();
     double gpu = sum_passes(bench, &runs), start = hair_now();
     if (!update(subject, solids, count)) return NAN;
@@ -152,7 +152,7 @@ static double between(uint32_t* seed, double least, double most)
 static hair_solid any_solid(hair_shape shape, double size, double reach, uint32_t* seed)
 {
     hair_solid solid = hair_solid_default();
-    double     norm  = 0, q[4];
+    double norm = 0, q[4];
     for (int i = 0; i < 4; ++i) {
         q[i] = between(seed, -1, 1);
         norm += q[i] * q[i];
@@ -169,31 +169,31 @@ static hair_solid any_solid(hair_shape shape, double size, double reach, uint32_
 // A ball of so many triangles that it is round to 1e-4 of its radius.
 static hair_form* make_ball(struct bench* bench, double radius)
 {
-    size_t         vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
-    float*         positions = malloc(vertices * 3 * sizeof *positions);
-    uint32_t*      indices   = malloc(2 * vertices * 3 * sizeof *indices);
-    hair_form*     form      = NULL;
-    hair_form_desc desc      = hair_form_desc_default();
-    const double   pi        = 3.14159265358979323846;
+    size_t vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
+    float* positions = malloc(vertices * 3 * sizeof *positions);
+    uint32_t* indices = malloc(2 * vertices * 3 * sizeof *indices);
+    hair_form* form = NULL;
+    hair_form_desc desc = hair_form_desc_default();
+    const double pi = 3.14159265358979323846;
     for (uint32_t i = 0; positions && indices && i < vertices; ++i) {
         uint32_t row = i / (2 * ROWS), column = i % (2 * ROWS);
-        double   around      = row % ROWS ? sin(pi * row / ROWS) : 0,
-               turn          = pi * column / ROWS; // At the poles one point.
-        positions[3 * i]     = (float)(radius * around * sin(turn));
+        double around = row % ROWS ? sin(pi * row / ROWS) : 0,
+               turn = pi * column / ROWS; // At the poles one point.
+        positions[3 * i] = (float)(radius * around * sin(turn));
         positions[3 * i + 1] = (float)(radius * cos(pi * row / ROWS));
         positions[3 * i + 2] = (float)(radius * around * cos(turn));
         if (row == ROWS) continue;
-        uint32_t       right  = column + 1 < 2 * ROWS ? i + 1 : i + 1 - 2 * ROWS;
+        uint32_t right = column + 1 < 2 * ROWS ? i + 1 : i + 1 - 2 * ROWS;
         const uint32_t two[6] = {i, i + 2 * ROWS, right, right, i + 2 * ROWS, right + 2 * ROWS};
         memcpy(indices + 3 * triangles, two, sizeof two);
         triangles += 2;
     }
-    desc.host           = &bench->host;
-    desc.positions      = positions;
-    desc.triangles      = indices;
-    desc.vertex_count   = (uint32_t)vertices;
+    desc.host = &bench->host;
+    desc.positions = positions;
+    desc.triangles = indices;
+    desc.vertex_count = (uint32_t)vertices;
     desc.triangle_count = (uint32_t)triangles;
-    desc.resolution     = 128;
+    desc.resolution = 128;
     if (positions && indices && hair_form_create(&desc, &form)) form = NULL;
     free(positions);
     free(indices);
@@ -203,25 +203,25 @@ static hair_form* make_ball(struct bench* bench, double radius)
 // Errors ----------------------------------------------------------------------------------------------------
 
 struct errors {
-    double   most, square, centre; // voxels
-    uint64_t points, wrong;        // wrong: of sign, farther than a voxel from the surface
+    double most, square, centre; // voxels
+    uint64_t points, wrong; // wrong: of sign, farther than a voxel from the surface
 };
 
 // As OpenGL filters.
 static double interpolate(const struct subject* subject, const float* texels, const double at[3])
 {
     const uint32_t* size = subject->info.size;
-    uint32_t        low[3];
-    double          t[3], sum = 0;
+    uint32_t low[3];
+    double t[3], sum = 0;
     for (int k = 0; k < 3; ++k) {
         double x = fmin(fmax(at[k] - 0.5, 0), (double)size[k] - 1.001);
-        low[k]   = (uint32_t)x;
-        t[k]     = x - low[k];
+        low[k] = (uint32_t)x;
+        t[k] = x - low[k];
     }
     for (uint32_t corner = 0; corner < 8; ++corner) {
         uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        double   share = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
-        size_t   texel = ((size_t)(low[2] + z) * size[1] + low[1] + y) * size[0] + low[0] + x;
+        double share = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
+        size_t texel = ((size_t)(low[2] + z) * size[1] + low[1] + y) * size[0] + low[0] + x;
         sum += share * (double)texels[texel];
     }
     return sum;
@@ -231,13 +231,13 @@ static double interpolate(const struct subject* subject, const float* texels, co
 static void measure(const struct subject* subject, const float* texels, const hair_solid* exact,
                     uint32_t points, struct errors* out)
 {
-    const hair_field_info* info  = &subject->info;
-    double                 voxel = (double)info->voxel;
-    uint32_t               seed  = 1;
-    *out                         = (struct errors){0};
+    const hair_field_info* info = &subject->info;
+    double voxel = (double)info->voxel;
+    uint32_t seed = 1;
+    *out = (struct errors){0};
     for (uint32_t i = 0; i < points; ++i) {
         double at[3], point[3];
-        int    centre = i % 2; // Every other point is the middle of a voxel.
+        int centre = i % 2; // Every other point is the middle of a voxel.
         for (int k = 0; k < 3; ++k) {
             at[k] = between(&seed, 0.5, (double)info->size[k] - 0.5) +
                     between(&seed, -2e-5, 2e-5) * info->size[k];
@@ -260,9 +260,9 @@ static void measure(const struct subject* subject, const float* texels, const ha
 
 struct shape_row {
     const char* name;
-    hair_shape  shape;
-    double      rounding; // of its size
-    double      limit;    // voxels
+    hair_shape shape;
+    double rounding; // of its size
+    double limit; // voxels
 };
 
 static void set_errors(json_t* row, const struct shape_row* shape, const struct errors* errors)
@@ -281,13 +281,13 @@ static void set_errors(json_t* row, const struct shape_row* shape, const struct 
 
 static bool run_shape(struct subject* subject, const struct shape_row* shape, hair_form* ball)
 {
-    uint32_t   seed = 5, runs      = subject->bench->options.quick ? 9 : 21;
-    double     ms[MOST_RUNS], size = 0.08;
+    uint32_t seed = 5, runs = subject->bench->options.quick ? 9 : 21;
+    double ms[MOST_RUNS], size = 0.08;
     hair_solid solid = any_solid(shape->shape, size, 0.02, &seed), moved = solid, exact = solid;
     solid.rounding = (float)(shape->rounding * size);
     if (shape->shape == HAIR_SHAPE_FORM) {
-        solid.form    = ball;
-        exact.shape   = HAIR_SHAPE_SPHERE;
+        solid.form = ball;
+        exact.shape = HAIR_SHAPE_SPHERE;
         exact.size[0] = (float)size;
     } else
         exact = solid;
@@ -297,9 +297,9 @@ static bool run_shape(struct subject* subject, const struct shape_row* shape, ha
     for (uint32_t i = 0; i < runs; ++i)
         if (isnan(ms[i] = time_update(subject, i % 2 ? &solid : &moved, 1))) return false;
     if (!update(subject, &solid, 1)) return false;
-    const uint32_t* n      = subject->info.size;
-    size_t          bytes  = (size_t)n[0] * n[1] * n[2] * sizeof(float);
-    float*          texels = malloc(bytes);
+    const uint32_t* n = subject->info.size;
+    size_t bytes = (size_t)n[0] * n[1] * n[2] * sizeof(float);
+    float* texels = malloc(bytes);
     if (!texels || !subject->info.distance_texture) {
         free(texels);
         return false;
@@ -322,7 +322,7 @@ static void run_shapes(struct bench* bench)
         {"cylinder", HAIR_SHAPE_CYLINDER, 0, 0.9}, {"cone", HAIR_SHAPE_CONE, 0, 0.9},
         {"plane", HAIR_SHAPE_PLANE, 0, 0.5},       {"form of a ball", HAIR_SHAPE_FORM, 0, 0.5}};
     static const uint32_t resolutions[] = {32, 64, 128, 256};
-    hair_form*            ball          = NULL;
+    hair_form* ball = NULL;
     for (int r = 0; r < (bench->options.quick ? 2 : 4); ++r)
         for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
             struct subject subject;
@@ -348,8 +348,8 @@ static void make_mixed(hair_solid* solids, uint32_t count, double size)
 static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t count)
 {
     hair_solid solids[MIXED];
-    uint32_t   runs    = mixed->bench->options.quick ? 5 : 15;
-    double     sums[2] = {0}, least[2] = {0}, ms[2][MOST_RUNS];
+    uint32_t runs = mixed->bench->options.quick ? 5 : 15;
+    double sums[2] = {0}, least[2] = {0}, ms[2][MOST_RUNS];
     make_mixed(solids, count, 0.04);
     if (!update(mixed, solids, count)) return false;
     for (uint32_t k = 0; k < count; ++k) {
@@ -381,9 +381,9 @@ static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t cou
 static bool run_all(struct subject* subject, const char* name, uint32_t count, double size, bool still)
 {
     hair_solid* solids = malloc(count * sizeof *solids);
-    uint32_t    runs   = 9, before, after;
-    double      ms[MOST_RUNS];
-    bool        ok = solids;
+    uint32_t runs = 9, before, after;
+    double ms[MOST_RUNS];
+    bool ok = solids;
     if (ok) make_mixed(solids, count, size);
     ok = ok && update(subject, solids, count);
     sum_passes(subject->bench, &before);

@@ -12,7 +12,7 @@ static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     enum { VERTICES = 4 };
-    float    positions[6 * VERTICES * 3] = {0};
+    float positions[6 * VERTICES * 3] = {0};
     uint32_t vertices[6];
     for (int i = 0; i < 6; ++i) {
         vertices[i] = VERTICES;
@@ -20,24 +20,24 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
             positions[3 * (VERTICES * i + k) + i / 2] = (i % 2 ? 0.0375f : -0.0375f) * (float)(k + 1);
     }
     hair_groom_desc desc = hair_groom_desc_default();
-    desc.host            = &bench->host;
-    desc.positions       = positions;
+    desc.host = &bench->host;
+    desc.positions = positions;
     desc.strand_vertices = vertices;
-    desc.strand_count    = 6;
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    desc.guide_vertices  = VERTICES;
-    desc.follower_count  = 0;
+    desc.strand_count = 6;
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices = VERTICES;
+    desc.follower_count = 0;
     return hair_groom_create(&desc, out);
 }
 
 bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bool ball,
                      struct bench_flow* out)
 {
-    struct hair_gl* gl    = &bench->context->gl;
-    hair_solid      solid = hair_solid_default();
-    solid.size[0]         = FLOW_BALL;
-    *out                  = (struct bench_flow){.bench = bench};
-    hair_result result    = make_groom(bench, &out->groom);
+    struct hair_gl* gl = &bench->context->gl;
+    hair_solid solid = hair_solid_default();
+    solid.size[0] = FLOW_BALL;
+    *out = (struct bench_flow){.bench = bench};
+    hair_result result = make_groom(bench, &out->groom);
     if (result) return false;
     hair_gl_enter(gl);
     hair_field_create(&out->field, &bench->context->forms, out->groom, 0.005f);
@@ -49,11 +49,11 @@ bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bo
         bench_flow_die(out);
         return false;
     }
-    out->now   = (struct hair_fluid_now){.head   = origin,
-                                         .wind   = {(float)FLOW_WIND, 0, 0},
-                                         .dt     = 1.0 / 60,
-                                         .field  = &out->field,
-                                         .solids = &out->solids};
+    out->now = (struct hair_fluid_now){.head = origin,
+                                       .wind = {(float)FLOW_WIND, 0, 0},
+                                       .dt = 1.0 / 60,
+                                       .field = &out->field,
+                                       .solids = &out->solids};
     out->faces = 3 * hair_fluid_slots(&out->fluid);
     out->cells = (size_t)desc->cells * desc->cells * desc->cells;
     return true;
@@ -78,8 +78,8 @@ bool bench_flow_step(struct bench_flow* flow)
 
 static double* read_floats(GLuint buffer, size_t count)
 {
-    float*  numbers = malloc(count * sizeof *numbers);
-    double* out     = malloc(count * sizeof *out);
+    float* numbers = malloc(count * sizeof *numbers);
+    double* out = malloc(count * sizeof *out);
     if (!numbers || !out) abort();
     glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *numbers), numbers);
     for (size_t i = 0; i < count; ++i) out[i] = (double)numbers[i];
@@ -89,9 +89,9 @@ static double* read_floats(GLuint buffer, size_t count)
 
 static double* read_open(const struct bench_flow* flow)
 {
-    size_t    count = flow->faces / 3;
+    size_t count = flow->faces / 3;
     uint32_t* slots = malloc(count * sizeof *slots);
-    double*   out   = malloc(3 * count * sizeof *out);
+    double* out = malloc(3 * count * sizeof *out);
     if (!slots || !out) abort();
     glGetNamedBufferSubData(flow->fluid.open.buffer, 0, (GLsizeiptr)(count * sizeof *slots), slots);
     for (size_t i = 0; i < 3 * count; ++i) out[i] = (slots[i % count] >> 10 * (i / count) & 1023) / 1023.0;
@@ -108,10 +108,10 @@ static double rms(const double* numbers, size_t count)
 
 double bench_flow_residual(const struct bench_flow* flow)
 {
-    const struct hair_fluid* fluid    = &flow->fluid;
-    double*                  right    = read_floats(fluid->right.buffer, flow->cells);
-    double*                  pressure = read_floats(fluid->pressure[fluid->pressed].buffer, flow->cells);
-    double *                 open = read_open(flow), *left = malloc(flow->cells * sizeof *left);
+    const struct hair_fluid* fluid = &flow->fluid;
+    double* right = read_floats(fluid->right.buffer, flow->cells);
+    double* pressure = read_floats(fluid->pressure[fluid->pressed].buffer, flow->cells);
+    double *open = read_open(flow), *left = malloc(flow->cells * sizeof *left);
     if (!left) abort();
     hair_reference_residual(fluid->desc.cells, open, right, pressure, left);
     double share = rms(left, flow->cells) / rms(right, flow->cells);
@@ -133,14 +133,14 @@ double bench_flow_at(const struct bench_flow* flow, const double* velocity, int 
     double part[3], sum = 0;
     for (int k = 0; k < 3; ++k) {
         double most = k == axis ? (double)cells : (double)cells - 1;
-        double g    = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), most);
-        double low  = fmin(floor(g), most - 1);
-        part[k]     = g - low;
+        double g = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), most);
+        double low = fmin(floor(g), most - 1);
+        part[k] = g - low;
         base += (size_t)low * stride[k];
     }
     for (int c = 0; c < 8; ++c) {
         double weight = 1;
-        size_t at     = base;
+        size_t at = base;
         for (int k = 0; k < 3; ++k) {
             weight *= c >> k & 1 ? part[k] : 1 - part[k];
             at += (size_t)(c >> k & 1) * stride[k];
@@ -168,12 +168,12 @@ double bench_flow_flux(const struct bench_flow* flow, const double* velocity)
 
 double bench_flow_asymmetry(const struct bench_flow* flow, const double* velocity, int axis)
 {
-    size_t n   = flow->fluid.desc.cells;
+    size_t n = flow->fluid.desc.cells;
     double sum = 0;
     for (size_t i = 0; i < flow->cells; ++i) {
         double place[3] = {(double)(i % n) + 0.5, (double)(i / n % n) + 0.5, (double)(i / n / n) + 0.5};
         double other[3] = {place[0], place[1], place[2]};
-        other[axis]     = (double)n - place[axis];
+        other[axis] = (double)n - place[axis];
         for (int k = 0; k < 3; ++k) {
             double off = bench_flow_at(flow, velocity, k, place) -
                          (k == axis ? -1 : 1) * bench_flow_at(flow, velocity, k, other);

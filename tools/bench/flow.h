@@ -9,16 +9,16 @@
 
 #define FLOW_SIDE 0.8f // m: of the box
 #define FLOW_BALL 0.1f // m: radius of the ball in its middle
-#define FLOW_WIND 5.0  // m/s along x
+#define FLOW_WIND 5.0 // m/s along x
 
 struct bench_flow {
-    struct bench*           bench;
-    hair_groom*             groom; // the field is around it
+    struct bench* bench;
+    hair_groom* groom; // the field is around it
     struct hair_solid_field field;
-    struct hair_solids      solids;
-    struct hair_fluid       fluid;
-    struct hair_fluid_now   now;
-    size_t                  faces, cells; // of velocities; of cells
+    struct hair_solids solids;
+    struct hair_fluid fluid;
+    struct hair_fluid_now now;
+    size_t faces, cells; // of velocities; of cells
 };
 
 // With the OpenGL state entered until it dies. False: the log says why.
@@ -31,7 +31,7 @@ bool bench_flow_step(struct bench_flow* flow);
 double bench_flow_residual(const struct bench_flow* flow);
 // Where the last step left it: to be freed; and one component at a place in cells from the box's corner.
 double* bench_flow_velocity(const struct bench_flow* flow);
-double  bench_flow_at(const struct bench_flow* flow, const double* velocity, int axis, const double place[3]);
+double bench_flow_at(const struct bench_flow* flow, const double* velocity, int axis, const double place[3]);
 // Through the sphere one cell around the ball, as a share of what comes in through it.
 double bench_flow_flux(const struct bench_flow* flow, const double* velocity);
 // Root mean square difference from the mirror image in a plane along the wind.

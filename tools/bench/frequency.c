@@ -14,7 +14,7 @@ static double misfit(const double* samples, uint32_t count, double dt, double fr
     for (uint32_t k = 0; k < count; ++k) {
         double t = 2.0 * k / count - 1, c = cos(frequency * k * dt), s = sin(frequency * k * dt);
         double basis[N] = {c, s, t * c, t * s};
-        double weight   = 0.5 + 0.5 * cos(PI * t);
+        double weight = 0.5 + 0.5 * cos(PI * t);
         squares += weight * samples[k] * samples[k];
         for (int i = 0; i < N; ++i) {
             for (int j = 0; j < N; ++j) a[i][j] += weight * basis[i] * basis[j];
@@ -39,7 +39,7 @@ static double misfit(const double* samples, uint32_t count, double dt, double fr
 double bench_frequency(const double* samples, uint32_t count, double dt, double low, double high)
 {
     const double golden = 0.61803398874989485, step = 0.1 / (count * dt);
-    double       best = low, least = INFINITY;
+    double best = low, least = INFINITY;
     for (double f = low; f <= high; f += step) {
         double m = misfit(samples, count, dt, f);
         if (m < least) least = m, best = f;

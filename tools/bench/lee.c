@@ -21,8 +21,8 @@ static void fluid_at(const struct bench_flow* flow, const double* mean, const do
 // Root mean square difference all around the ball, and behind it.
 static void compare(const struct bench_flow* flow, const double* mean, double off[2])
 {
-    static const double wind[3]  = {1, 0, 0};
-    double              count[2] = {0, 0};
+    static const double wind[3] = {1, 0, 0};
+    double count[2] = {0, 0};
     off[0] = off[1] = 0;
     for (int z = -REACH; z <= REACH; ++z)
         for (int y = -REACH; y <= REACH; ++y)
@@ -43,8 +43,8 @@ static void compare(const struct bench_flow* flow, const double* mean, double of
 void bench_lee_compare(const struct bench_flow* flow, const double* mean)
 {
     struct bench* bench = flow->bench;
-    double        off[2];
-    json_t*       row = bench_rows_add(&bench->rows);
+    double off[2];
+    json_t* row = bench_rows_add(&bench->rows);
     compare(flow, mean, off);
     bench_set_text(row, "case", "past a ball");
     bench_set_text(row, "method", "formulas");
@@ -52,8 +52,8 @@ void bench_lee_compare(const struct bench_flow* flow, const double* mean)
     bench_set_number(row, "off", off[0]);
     bench_set_number(row, "off_behind", off[1]);
     for (int i = 0; i < 26; ++i) {
-        static const double wind[3]  = {1, 0, 0};
-        double              place[3] = {i < 12 ? -3.9 + 0.25 * i : 1.1 + 0.2 * (i - 12), 0, 0}, speed[2][3];
+        static const double wind[3] = {1, 0, 0};
+        double place[3] = {i < 12 ? -3.9 + 0.25 * i : 1.1 + 0.2 * (i - 12), 0, 0}, speed[2][3];
         fluid_at(flow, mean, place, speed[0]);
         hair_reference_around_ball(wind, place, speed[1]);
         for (int k = 0; k < 2; ++k) {
@@ -70,9 +70,9 @@ void bench_lee_compare(const struct bench_flow* flow, const double* mean)
 static bool measure(struct bench* bench, struct bench_scene* scene, struct bench_times* times)
 {
     struct bench_living living;
-    hair_solid          ball = hair_solid_default();
-    ball.size[0]             = 0.1f;
-    ball.position[1]         = -0.15f;
+    hair_solid ball = hair_solid_default();
+    ball.size[0] = 0.1f;
+    ball.position[1] = -0.15f;
     if (!bench_live(bench, scene, &living)) return false;
     bool ok = hair_set_solids(living.hair, &ball, 1, sizeof ball) == HAIR_OK;
     for (int i = 0; i < 10 && ok; ++i) ok = bench_step(&living, NULL, 1.0 / 60);
@@ -85,17 +85,17 @@ static bool measure(struct bench* bench, struct bench_scene* scene, struct bench
 void bench_lee_cost(struct bench* bench)
 {
     static const char* const methods[] = {"no wind", "formulas", "fluid", "fluid, slowed by hair"};
-    const double             root[3] = {0, 0, 0}, along[3] = {0, -1, 0};
+    const double root[3] = {0, 0, 0}, along[3] = {0, -1, 0};
     for (int i = 0; i < 4; ++i) {
         struct bench_scene scene = bench_scene_default();
         struct bench_times times;
         if (!bench_begin(bench, "a step in wind", methods[i])) continue;
         bench_scene_straight(&scene, 16, 0.2, root, along);
-        scene.strands          = STRANDS;
-        scene.mapping          = bench->options.mapping;
+        scene.strands = STRANDS;
+        scene.mapping = bench->options.mapping;
         scene.wind.velocity[0] = i > 0 ? 3 : 0;
-        scene.wind.model       = i > 1 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT;
-        scene.wind.strands     = i > 2 ? 100000 : 0;
+        scene.wind.model = i > 1 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT;
+        scene.wind.strands = i > 2 ? 100000 : 0;
         if (!measure(bench, &scene, &times)) {
             bench_refuse(bench, "a step in wind", methods[i]);
             continue;

@@ -10,24 +10,24 @@
 static hair_result make_groom(struct bench_living* living)
 {
     const struct bench_scene* scene = living->scene;
-    size_t                    count = scene->strands, floats = 3 * (size_t)scene->vertices;
-    float*                    positions = malloc(count * floats * sizeof *positions);
-    uint32_t*                 vertices  = malloc(count * sizeof *vertices);
-    hair_result               result    = HAIR_ERROR_MEMORY;
+    size_t count = scene->strands, floats = 3 * (size_t)scene->vertices;
+    float* positions = malloc(count * floats * sizeof *positions);
+    uint32_t* vertices = malloc(count * sizeof *vertices);
+    hair_result result = HAIR_ERROR_MEMORY;
     if (positions && vertices) {
         for (size_t i = 0; i < count; ++i) {
             memcpy(positions + i * floats, scene->positions, floats * sizeof *positions);
             vertices[i] = scene->vertices;
         }
         hair_groom_desc desc = hair_groom_desc_default();
-        desc.host            = &living->bench->host;
-        desc.positions       = positions;
+        desc.host = &living->bench->host;
+        desc.positions = positions;
         desc.strand_vertices = vertices;
-        desc.strand_count    = scene->strands;
-        desc.strands_are     = HAIR_STRANDS_GUIDES;
-        desc.guide_vertices  = scene->vertices;
-        desc.follower_count  = 0;
-        result               = hair_groom_create(&desc, &living->groom);
+        desc.strand_count = scene->strands;
+        desc.strands_are = HAIR_STRANDS_GUIDES;
+        desc.guide_vertices = scene->vertices;
+        desc.follower_count = 0;
+        result = hair_groom_create(&desc, &living->groom);
     }
     free(positions);
     free(vertices);
@@ -37,8 +37,8 @@ static hair_result make_groom(struct bench_living* living)
 // A strand that the groom repaired, or thinned out, is not the one to be measured.
 static hair_result check_groom(struct bench_living* living)
 {
-    hair_groom_info info   = hair_groom_info_default();
-    hair_result     result = hair_groom_describe(living->groom, &info);
+    hair_groom_info info = hair_groom_info_default();
+    hair_result result = hair_groom_describe(living->groom, &info);
     if (result) return result;
     const struct bench_scene* scene = living->scene;
     if (info.guide_vertex_count == scene->strands * scene->vertices) return HAIR_OK;
@@ -51,18 +51,18 @@ static hair_result check_groom(struct bench_living* living)
 static hair_result make_instance(struct bench_living* living)
 {
     const struct bench_scene* scene = living->scene;
-    hair_desc                 desc  = hair_desc_default();
-    desc.label                      = bench_solver_name(scene->solver);
-    desc.solver                     = scene->solver;
-    desc.mapping                    = scene->mapping;
-    desc.substep                    = (float)scene->substep;
-    desc.max_dt                     = (float)scene->max_dt;
-    desc.physics                    = &scene->physics;
+    hair_desc desc = hair_desc_default();
+    desc.label = bench_solver_name(scene->solver);
+    desc.solver = scene->solver;
+    desc.mapping = scene->mapping;
+    desc.substep = (float)scene->substep;
+    desc.max_dt = (float)scene->max_dt;
+    desc.physics = &scene->physics;
     hair_result result = hair_create(living->bench->context, living->groom, &desc, &living->hair);
     if (!result) result = hair_set_wind(living->hair, &scene->wind);
     if (result) return result;
     // The groom moves vertices that are too near to each other. Where it has them is read with the head at the origin.
-    float    head[16];
+    float head[16];
     uint32_t count;
     bench_matrix(&scene->head, head);
     result = hair_read(living->hair, HAIR_READ_GUIDES, living->positions, scene->vertices, &count);
@@ -70,8 +70,8 @@ static hair_result make_instance(struct bench_living* living)
     if (!result) result = hair_reset(living->hair);
     if (result) return result;
     hair_health health = hair_health_default();
-    result             = hair_get_health(living->hair, &health);
-    living->substep    = (double)health.substep;
+    result = hair_get_health(living->hair, &health);
+    living->substep = (double)health.substep;
     return result;
 }
 
@@ -88,8 +88,8 @@ bool bench_live(struct bench* bench, const struct bench_scene* scene, struct ben
         return false;
     }
     for (uint32_t i = 0; i + 1 < scene->vertices; ++i) {
-        const float* p  = out->positions + 3 * i;
-        double       dx = (double)p[3] - (double)p[0], dy = (double)p[4] - (double)p[1];
+        const float* p = out->positions + 3 * i;
+        double dx = (double)p[3] - (double)p[0], dy = (double)p[4] - (double)p[1];
         out->lengths[i] = hypot(hypot(dx, dy), (double)p[5] - (double)p[2]);
         out->length += out->lengths[i];
     }
@@ -153,8 +153,8 @@ bool bench_settle(struct bench_living* living, double* positions)
 bool bench_strands_are_alike(struct bench_living* living)
 {
     const struct bench_scene* scene = living->scene;
-    uint32_t                  count, all = scene->strands * scene->vertices;
-    size_t                    size = 3 * (size_t)scene->vertices;
+    uint32_t count, all = scene->strands * scene->vertices;
+    size_t size = 3 * (size_t)scene->vertices;
     if (hair_read(living->hair, HAIR_READ_GUIDES, living->read, all, &count)) return false;
     for (uint32_t i = 1; i < scene->strands; ++i)
         if (memcmp(living->read, living->read + i * size, size * sizeof *living->read)) return false;
@@ -165,9 +165,9 @@ double bench_stretch(const struct bench_living* living, const double* positions)
 {
     double most = 0;
     for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
-        const double* p      = positions + 3 * i;
-        double        length = hypot(hypot(p[3] - p[0], p[4] - p[1]), p[5] - p[2]);
-        double        error  = fabs(length / living->lengths[i] - 1);
+        const double* p = positions + 3 * i;
+        double length = hypot(hypot(p[3] - p[0], p[4] - p[1]), p[5] - p[2]);
+        double error = fabs(length / living->lengths[i] - 1);
         if (!(error <= most)) most = error; // NaN too.
     }
     return most;
@@ -186,8 +186,8 @@ bool bench_are_finite(const double* positions, uint32_t vertices)
 static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_PASSES])
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
-    double      ms    = 0;
+    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i) {
         ms += now[i].total_ms - before[i].total_ms;
         before[i] = now[i];
@@ -199,7 +199,7 @@ static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_
 static bool run_frames(struct bench_living* living, uint32_t frames,
                        const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
-    bool        software                  = living->bench->software;
+    bool software = living->bench->software;
     hair_timing before[BENCH_MOST_PASSES] = {{0}};
     glFinish();
     passes_since(living->bench->context, before);
@@ -236,11 +236,11 @@ bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_
                 double dt, struct bench_times* out)
 {
     enum { MOST_RUNS = 15 };
-    double   ms[MOST_RUNS], passed = 0, enough = living->bench->options.quick ? 200 : 2000;
+    double ms[MOST_RUNS], passed = 0, enough = living->bench->options.quick ? 200 : 2000;
     uint32_t runs = 0;
     if (!warm_up(living, dt)) return false;
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
-         passed       = hair_now() - start)
+         passed = hair_now() - start)
         if (!run_once(living, frames, heads, dt, &ms[runs++])) return false;
     *out = bench_times_of(ms, runs);
     return true;
@@ -248,10 +248,10 @@ bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_
 
 void bench_set_material(json_t* row, const struct bench_living* living)
 {
-    static const char* const  mappings[] = {"auto", "group", "thread"};
-    const struct bench_scene* scene      = living->scene;
-    const hair_physics*       p          = &scene->physics;
-    bool                      rod        = scene->solver != HAIR_SOLVER_REDBLACK;
+    static const char* const mappings[] = {"auto", "group", "thread"};
+    const struct bench_scene* scene = living->scene;
+    const hair_physics* p = &scene->physics;
+    bool rod = scene->solver != HAIR_SOLVER_REDBLACK;
     bench_set_text(row, "solver", bench_solver_name(scene->solver));
     bench_set_text(row, "mapping", mappings[scene->mapping]);
     bench_set_number(row, "substep", living->substep);

@@ -7,15 +7,15 @@
 #include "tools/bench/timer.h"
 
 struct bench_living {
-    struct bench*             bench;
+    struct bench* bench;
     const struct bench_scene* scene; // outlives it
-    hair_groom*               groom;
-    hair_instance*            hair;
-    double                    substep;                            // s
-    float*                    read;                               // of all strands
-    float                     positions[3 * BENCH_MOST_VERTICES]; // at rest, as the groom has them
-    double                    length;                             // of the strand, m
-    double                    lengths[BENCH_MOST_VERTICES];
+    hair_groom* groom;
+    hair_instance* hair;
+    double substep; // s
+    float* read; // of all strands
+    float positions[3 * BENCH_MOST_VERTICES]; // at rest, as the groom has them
+    double length; // of the strand, m
+    double lengths[BENCH_MOST_VERTICES];
 };
 
 // False: the library refused, and bench->sentence says why.

@@ -11,8 +11,8 @@
 
 #define SIZE 256
 #define FRAMES 300 // of the walk
-#define FAR 16     // where it ends, in distances of where it starts
-#define AWAY 8     // of the case far
+#define FAR 16 // where it ends, in distances of where it starts
+#define AWAY 8 // of the case far
 
 static const char* const columns[] = {
     "case",          "method",    "scene",       "strands", "size",          "samples",
@@ -21,14 +21,14 @@ static const char* const columns[] = {
     "calm",          "calm_most", "ms_near",     "ms",      "rate",          NULL};
 
 static const char* const scenes[] = {"still", "short", "afro"};
-static const float       shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
+static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
 
 // A scene brought to life when the first row needs it.
 struct scene {
-    struct bench*       bench;
-    const char*         name;
+    struct bench* bench;
+    const char* name;
     struct bench_studio studio;
-    bool                alive, refused;
+    bool alive, refused;
 };
 
 static bool need(struct scene* scene)
@@ -37,8 +37,8 @@ static bool need(struct scene* scene)
     if (scene->alive || scene->refused) return scene->alive;
     struct bench_studio_desc desc = {
         .scene = scene->name, .size = options->size ? options->size : SIZE, .followers = options->strands};
-    scene->alive         = bench_studio_make(scene->bench, &desc, &scene->studio);
-    scene->refused       = !scene->alive;
+    scene->alive = bench_studio_make(scene->bench, &desc, &scene->studio);
+    scene->refused = !scene->alive;
     scene->studio.counts = true;
     return scene->alive;
 }
@@ -46,7 +46,7 @@ static bool need(struct scene* scene)
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
-    shot.samples           = 4;
+    shot.samples = 4;
     return shot;
 }
 
@@ -79,15 +79,15 @@ static json_t* add_row(struct scene* scene, const char* name, const char* method
 
 static bool compare_coverage(struct scene* scene, float share, const char* method)
 {
-    struct bench_picture    full = {0}, thin = {0};
+    struct bench_picture full = {0}, thin = {0};
     struct hair_image_error error;
     if (!need(scene)) return false;
     struct bench_shot shot = shot_of(scene);
-    shot.supersample       = 4;
-    bool ok                = bench_picture_make(scene->studio.size, &full) &&
+    shot.supersample = 4;
+    bool ok = bench_picture_make(scene->studio.size, &full) &&
               bench_picture_make(scene->studio.size, &thin) && take(&scene->studio, &shot, &full) &&
               bench_picture_cover(&full);
-    shot.has_lod     = true;
+    shot.has_lod = true;
     shot.lod.dynamic = 0;
     shot.lod.strands = share;
     ok = ok && take(&scene->studio, &shot, &thin) && bench_picture_compare(&full, &full, &thin, &error);
@@ -120,20 +120,20 @@ static void measure_coverage(struct bench* bench)
 // With and without, this frame and the one before.
 struct walk {
     struct bench_picture picture[2][2];
-    double               flip, flip_without, flip_more; // the greatest
-    uint64_t             first, last;                   // segments that are drawn with
+    double flip, flip_without, flip_more; // the greatest
+    uint64_t first, last; // segments that are drawn with
 };
 
 static bool walk_on(struct scene* scene, struct walk* walk, uint32_t frame, uint32_t frames)
 {
-    struct bench_shot       shot = shot_of(scene);
+    struct bench_shot shot = shot_of(scene);
     struct hair_image_error with, without;
     shot.away = powf(FAR, (float)frame / (float)(frames - 1));
     for (int i = 0; i < 2; ++i) {
         struct bench_picture before = walk->picture[i][0];
-        walk->picture[i][0]         = walk->picture[i][1];
-        walk->picture[i][1]         = before;
-        shot.has_lod                = i == 0;
+        walk->picture[i][0] = walk->picture[i][1];
+        walk->picture[i][1] = before;
+        shot.has_lod = i == 0;
         if (!take(&scene->studio, &shot, &walk->picture[i][1])) return false;
         if (i == 0) walk->last = scene->studio.primitives / 2; // of a ribbon
     }
@@ -146,17 +146,17 @@ static bool walk_on(struct scene* scene, struct walk* walk, uint32_t frame, uint
     if (!bench_picture_cover(before)) return false;
     if (!bench_picture_compare(before, &walk->picture[0][0], &walk->picture[0][1], &with)) return false;
     if (!bench_picture_compare(before, before, &walk->picture[1][1], &without)) return false;
-    walk->flip         = fmax(walk->flip, with.flip);
+    walk->flip = fmax(walk->flip, with.flip);
     walk->flip_without = fmax(walk->flip_without, without.flip);
-    walk->flip_more    = fmax(walk->flip_more, with.flip - without.flip);
+    walk->flip_more = fmax(walk->flip_more, with.flip - without.flip);
     return true;
 }
 
 static bool walk_away(struct scene* scene)
 {
-    struct walk walk   = {.flip_more = -1};
-    uint32_t    frames = scene->bench->options.quick ? FRAMES / 25 : FRAMES;
-    bool        ok     = need(scene);
+    struct walk walk = {.flip_more = -1};
+    uint32_t frames = scene->bench->options.quick ? FRAMES / 25 : FRAMES;
+    bool ok = need(scene);
     for (int i = 0; i < 4 && ok; ++i)
         ok = bench_picture_make(scene->studio.size, &walk.picture[i / 2][i % 2]);
     for (uint32_t k = 0; k < frames && ok; ++k) ok = walk_on(scene, &walk, k, frames);
@@ -179,17 +179,17 @@ static bool walk_away(struct scene* scene)
 
 static bool look_from_far(struct scene* scene)
 {
-    struct bench_picture    full = {0}, less = {0};
-    struct bench_times      near_by, far_off;
+    struct bench_picture full = {0}, less = {0};
+    struct bench_times near_by, far_off;
     struct hair_image_error error;
-    double                  enough = scene->bench->options.quick ? 50 : 1000;
+    double enough = scene->bench->options.quick ? 50 : 1000;
     if (!need(scene)) return false;
     struct bench_shot shot = shot_of(scene);
-    bool              ok   = bench_picture_make(scene->studio.size, &full) &&
+    bool ok = bench_picture_make(scene->studio.size, &full) &&
               bench_picture_make(scene->studio.size, &less) && bench_studio_set(&scene->studio, &shot) &&
               bench_studio_time(&scene->studio, enough, &near_by);
-    shot.away    = AWAY;
-    ok           = ok && take(&scene->studio, &shot, &full) && bench_picture_cover(&full);
+    shot.away = AWAY;
+    ok = ok && take(&scene->studio, &shot, &full) && bench_picture_cover(&full);
     shot.has_lod = true;
     ok = ok && take(&scene->studio, &shot, &less) && bench_picture_compare(&full, &full, &less, &error) &&
          bench_studio_time(&scene->studio, enough, &far_off);

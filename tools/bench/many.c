@@ -12,7 +12,7 @@
 
 #define VERTICES 32
 #define LENGTH 0.3f // m
-#define SIDE 0.4f   // m: of the square that roots are on
+#define SIDE 0.4f // m: of the square that roots are on
 #define RADIUS 0.01f
 #define MOST_RUNS 41
 #define POSTS 10
@@ -24,13 +24,13 @@ enum kind { BALLS, FORMS, POSTS_WHOLE, POSTS_OF_BALLS };
 static const char* const names[] = {"balls", "forms", "posts", "posts of balls"};
 
 struct subject {
-    struct bench*  bench;
-    hair_groom*    groom;
+    struct bench* bench;
+    hair_groom* groom;
     hair_instance* hair;
-    hair_form*     form;
-    hair_solid*    solids;
-    enum kind      kind;
-    uint32_t       count, guides, frame;
+    hair_form* form;
+    hair_solid* solids;
+    enum kind kind;
+    uint32_t count, guides, frame;
 };
 
 static float random_in(uint32_t* state, float least, float most)
@@ -42,26 +42,26 @@ static float random_in(uint32_t* state, float least, float most)
 // Straight strands that hang from a level square.
 static hair_result make_groom(struct subject* subject)
 {
-    uint32_t  row = (uint32_t)sqrt((double)subject->guides), count = row * row;
-    float*    positions = malloc(sizeof(float) * 3 * VERTICES * count);
-    uint32_t* vertices  = malloc(sizeof *vertices * count);
+    uint32_t row = (uint32_t)sqrt((double)subject->guides), count = row * row;
+    float* positions = malloc(sizeof(float) * 3 * VERTICES * count);
+    uint32_t* vertices = malloc(sizeof *vertices * count);
     for (uint32_t i = 0; i < count && positions && vertices; ++i) {
         vertices[i] = VERTICES;
         for (uint32_t k = 0; k < VERTICES; ++k) {
             float* at = positions + 3 * (VERTICES * i + k);
-            at[0]     = SIDE * ((float)(i % row) / (float)row - 0.5f);
-            at[1]     = -LENGTH * (float)k / (VERTICES - 1);
-            at[2]     = SIDE * ((float)(i / row) / (float)row - 0.5f);
+            at[0] = SIDE * ((float)(i % row) / (float)row - 0.5f);
+            at[1] = -LENGTH * (float)k / (VERTICES - 1);
+            at[2] = SIDE * ((float)(i / row) / (float)row - 0.5f);
         }
     }
     hair_groom_desc desc = hair_groom_desc_default();
-    desc.host            = &subject->bench->host;
-    desc.positions       = positions;
+    desc.host = &subject->bench->host;
+    desc.positions = positions;
     desc.strand_vertices = vertices;
-    desc.strand_count    = count;
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    desc.guide_vertices  = VERTICES;
-    desc.follower_count  = 0;
+    desc.strand_count = count;
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices = VERTICES;
+    desc.follower_count = 0;
     hair_result result =
         positions && vertices ? hair_groom_create(&desc, &subject->groom) : HAIR_ERROR_MEMORY;
     subject->guides = count;
@@ -73,16 +73,16 @@ static hair_result make_groom(struct subject* subject)
 // An octahedron, each of whose faces is cut into four: nearly a ball.
 static hair_result make_form(struct subject* subject)
 {
-    static const float corners[6][3]  = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const float corners[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     static const uint32_t faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                                          {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-    float                 positions[8 * 6 * 3];
-    uint32_t              triangles[8 * 4 * 3];
+    float positions[8 * 6 * 3];
+    uint32_t triangles[8 * 4 * 3];
     for (uint32_t f = 0; f < 8; ++f) {
         static const uint32_t cut[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
         for (uint32_t c = 0; c < 6; ++c) {
             const float *a = corners[faces[f][c % 3]], *b = corners[faces[f][c < 3 ? c : (c + 1) % 3]];
-            float        v[3], l                          = 0;
+            float v[3], l = 0;
             for (int k = 0; k < 3; ++k) v[k] = a[k] + b[k], l += v[k] * v[k];
             for (int k = 0; k < 3; ++k) positions[3 * (6 * f + c) + (uint32_t)k] = RADIUS * v[k] / sqrtf(l);
         }
@@ -90,12 +90,12 @@ static hair_result make_form(struct subject* subject)
             for (uint32_t k = 0; k < 3; ++k) triangles[3 * (4 * f + t) + k] = 6 * f + cut[t][k];
     }
     hair_form_desc desc = hair_form_desc_default();
-    desc.host           = &subject->bench->host;
-    desc.positions      = positions;
-    desc.triangles      = triangles;
-    desc.vertex_count   = 8 * 6;
+    desc.host = &subject->bench->host;
+    desc.positions = positions;
+    desc.triangles = triangles;
+    desc.vertex_count = 8 * 6;
     desc.triangle_count = 8 * 4;
-    desc.resolution     = 24;
+    desc.resolution = 24;
     return hair_form_create(&desc, &subject->form);
 }
 
@@ -112,24 +112,24 @@ static hair_solid solid_of(const struct subject* subject, enum kind kind, uint32
 {
     hair_solid solid = hair_solid_default();
     if (kind == BALLS || kind == FORMS) {
-        solid.shape       = kind == FORMS ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
-        solid.form        = subject->form;
-        solid.size[0]     = kind == FORMS ? 0 : RADIUS;
+        solid.shape = kind == FORMS ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
+        solid.form = subject->form;
+        solid.size[0] = kind == FORMS ? 0 : RADIUS;
         solid.position[0] = random_in(random, -SIDE / 2, SIDE / 2);
         solid.position[1] = random_in(random, -LENGTH, -0.03f);
         solid.position[2] = random_in(random, -SIDE / 2, SIDE / 2);
         return solid;
     }
     uint32_t per_post = subject->count / POSTS, post = i / per_post;
-    float    half = 0.5f * LENGTH - 3 * POST_RADIUS, share = (float)(i % per_post) / (float)(per_post - 1);
-    solid.size[0]     = POST_RADIUS;
+    float half = 0.5f * LENGTH - 3 * POST_RADIUS, share = (float)(i % per_post) / (float)(per_post - 1);
+    solid.size[0] = POST_RADIUS;
     solid.position[0] = SIDE * ((float)(post % 5) - 2) / 5;
     solid.position[1] = -0.5f * LENGTH;
     solid.position[2] = post < 5 ? -0.25f * SIDE : 0.25f * SIDE;
     if (kind == POSTS_OF_BALLS) {
         solid.position[1] += half * (2 * share - 1);
     } else {
-        solid.shape   = HAIR_SHAPE_CAPSULE;
+        solid.shape = HAIR_SHAPE_CAPSULE;
         solid.size[1] = half;
     }
     return solid;
@@ -137,13 +137,13 @@ static hair_solid solid_of(const struct subject* subject, enum kind kind, uint32
 
 static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind kind, struct subject* out)
 {
-    *out               = (struct subject){.bench = bench, .kind = kind, .count = count, .guides = guides};
-    hair_desc   desc   = hair_desc_default();
-    uint32_t    random = 7;
+    *out = (struct subject){.bench = bench, .kind = kind, .count = count, .guides = guides};
+    hair_desc desc = hair_desc_default();
+    uint32_t random = 7;
     hair_result result;
     desc.mapping = bench->options.mapping;
-    out->solids  = malloc(sizeof *out->solids * count);
-    result       = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
+    out->solids = malloc(sizeof *out->solids * count);
+    result = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
     if (!result && kind == FORMS) result = make_form(out);
     if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
     for (uint32_t i = 0; i < count && !result; ++i) out->solids[i] = solid_of(out, kind, i, &random);
@@ -156,8 +156,8 @@ static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind
 static double time_of_passes(hair_context* context)
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t    count = hair_timings(context, now, BENCH_MOST_PASSES);
-    double      ms    = 0;
+    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (strncmp(now[i].pass, "sim/", 4) == 0) ms += now[i].total_ms;
     return ms;
@@ -166,7 +166,7 @@ static double time_of_passes(hair_context* context)
 // Posts move together, else every solid its own way.
 static bool ask_for_frame(struct subject* subject, double* ms_host)
 {
-    float  way   = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
+    float way = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
     double start = hair_now();
     for (uint32_t i = 0; i < subject->count; ++i)
         subject->solids[i].position[subject->kind >= POSTS_WHOLE ? 0 : i % 3] += way;
@@ -217,7 +217,7 @@ static void add_row(struct subject* subject, double* ms, double* host, uint32_t 
 static bool time_frame(struct subject* subject, struct subject* other, double* ms, double* ms_host)
 {
     double none;
-    bool   whole = true;
+    bool whole = true;
     for (uint32_t k = 0; k < BUSY_FRAMES && whole && other->hair; ++k) whole = ask_for_frame(other, &none);
     glFinish();
     return whole && run_frame(subject, ms, ms_host);
@@ -228,8 +228,8 @@ static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind
                          double limit)
 {
     struct subject few, many, other = {0};
-    double         ms[2][MOST_RUNS], host[2][MOST_RUNS], none;
-    uint32_t       runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
+    double ms[2][MOST_RUNS], host[2][MOST_RUNS], none;
+    uint32_t runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
     uint32_t guides = bench->options.strands ? bench->options.strands : bench->options.quick ? 16 : 1024;
     if (!bench_begin(bench, "many solids", names[kind])) return;
     if (!live(bench, guides, POSTS, few_kind, &few)) {
@@ -237,7 +237,7 @@ static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind
         return;
     }
     bool whole = bench->software || live(bench, guides, POSTS, few_kind, &other);
-    whole      = live(bench, guides, count, kind, &many) && whole;
+    whole = live(bench, guides, count, kind, &many) && whole;
     for (uint32_t k = 0; k < 3 && whole; ++k)
         whole = run_frame(&few, &none, &none) && run_frame(&many, &none, &none);
     for (; runs < most && whole; runs += whole)

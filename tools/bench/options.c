@@ -32,7 +32,7 @@ enum name {
 
 static const struct row {
     const char* name;
-    int         option;
+    int option;
     const char* argument; // NULL: it takes none
     const char* about;
 } rows[] = {
@@ -100,9 +100,9 @@ static int misuse(void)
 static bool parse_count(const char* option, const char* text, uint32_t least, uint32_t most, uint32_t* out)
 {
     char* end;
-    errno                    = 0;
+    errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
-    *out                     = (uint32_t)value;
+    *out = (uint32_t)value;
     if (*text >= '0' && *text <= '9' && !*end && !errno && value >= least && value <= most) return true;
     hair_complain(BENCH_TOOL, "--%s is %s, not a whole number in [%u, %u]", option, text, least, most);
     return false;
@@ -111,8 +111,8 @@ static bool parse_count(const char* option, const char* text, uint32_t least, ui
 // Of scenes: N, or N-M with both ends.
 static bool parse_range(const char* option, const char* text, struct bench_options* out)
 {
-    char        first[16] = "";
-    uint32_t    last;
+    char first[16] = "";
+    uint32_t last;
     const char* dash = strchr(text, '-');
     snprintf(first, sizeof first, "%.*s", (int)(dash ? dash - text : 12), text);
     if (!parse_count(option, first, 0, MOST_SCENE, &out->scene)) return false;

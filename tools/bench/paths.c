@@ -20,7 +20,7 @@ static const char* const columns[] = {"case",   "method",  "strands", "size", "s
 
 static const struct way {
     const char* name;
-    hair_path   path;
+    hair_path path;
 } ways[] = {{"tessellation", HAIR_PATH_TESSELLATION},
             {"instanced", HAIR_PATH_INSTANCED},
             {"expanded", HAIR_PATH_EXPANDED},
@@ -28,9 +28,9 @@ static const struct way {
 
 // A column of lib/draw/paths.inl.
 static const struct kind {
-    const char*    name;
+    const char* name;
     hair_primitive primitive;
-    bool           has_lod, of_depth; // else of colour
+    bool has_lod, of_depth; // else of colour
 } kinds[] = {{"ribbons", HAIR_RIBBONS, false, false},
              {"lines", HAIR_LINES, false, false},
              {"ribbons, lod", HAIR_RIBBONS, true, false},
@@ -40,23 +40,23 @@ static const struct kind {
 enum { WAYS = sizeof ways / sizeof *ways, KINDS = sizeof kinds / sizeof *kinds };
 
 struct scene {
-    struct bench*       bench;
+    struct bench* bench;
     struct bench_studio studio;
-    bool                alive, refused;
+    bool alive, refused;
 };
 
 static bool need(struct scene* scene)
 {
-    const struct bench_options* options  = &scene->bench->options;
-    bool                        software = scene->bench->software;
+    const struct bench_options* options = &scene->bench->options;
+    bool software = scene->bench->software;
     uint32_t size = software ? SIZE_OF_SOFTWARE : SIZE, strands = software ? STRANDS_OF_SOFTWARE : 0;
     if (scene->alive || scene->refused) return scene->alive;
-    struct bench_studio_desc desc = {.scene     = "demo",
-                                     .size      = options->size ? options->size : size,
+    struct bench_studio_desc desc = {.scene = "demo",
+                                     .size = options->size ? options->size : size,
                                      .followers = options->strands ? options->strands : strands};
-    scene->alive                  = bench_studio_make(scene->bench, &desc, &scene->studio);
-    scene->refused                = !scene->alive;
-    scene->studio.bare            = true;
+    scene->alive = bench_studio_make(scene->bench, &desc, &scene->studio);
+    scene->refused = !scene->alive;
+    scene->studio.bare = true;
     return scene->alive;
 }
 
@@ -71,14 +71,14 @@ static bool run_frames(struct scene* scene, const struct kind* kind, hair_path p
                        double* ms)
 {
     struct bench_studio* studio = &scene->studio;
-    struct bench_shot    shot   = bench_studio_shot(studio);
-    shot.samples                = 4;
-    shot.view.path              = kind->of_depth ? HAIR_PATH_AUTO : path;
-    shot.map_path               = kind->of_depth ? path : HAIR_PATH_AUTO;
-    shot.map_apart              = true;
-    shot.view.primitive         = kind->primitive;
-    shot.has_lod                = kind->has_lod;
-    shot.away                   = kind->has_lod ? AWAY : 1;
+    struct bench_shot shot = bench_studio_shot(studio);
+    shot.samples = 4;
+    shot.view.path = kind->of_depth ? HAIR_PATH_AUTO : path;
+    shot.map_path = kind->of_depth ? path : HAIR_PATH_AUTO;
+    shot.map_apart = true;
+    shot.view.primitive = kind->primitive;
+    shot.has_lod = kind->has_lod;
+    shot.away = kind->has_lod ? AWAY : 1;
     if (!bench_studio_set(studio, &shot)) return false;
     glFinish();
     double start = now(scene->bench);
@@ -93,8 +93,8 @@ static bool run_frames(struct scene* scene, const struct kind* kind, hair_path p
 static const char* drawn_by(struct scene* scene, const struct kind* kind)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[32];
-    uint32_t         count = 0;
+    hair_report_row rows[32];
+    uint32_t count = 0;
     if (hair_report(scene->studio.hair, 1, &info, rows, sizeof *rows, 32, &count)) return "";
     for (uint32_t i = 0; i < count && i < 32; ++i)
         if (!strcmp(rows[i].work, kind->of_depth ? "depth" : "color") && rows[i].pass) return rows[i].pass;
@@ -103,10 +103,10 @@ static const char* drawn_by(struct scene* scene, const struct kind* kind)
 
 static bool compare(struct scene* scene, const struct kind* kind)
 {
-    double             ms[WAYS][ROUNDS], first;
+    double ms[WAYS][ROUNDS], first;
     struct bench_times times[WAYS];
-    const char *       passes[WAYS], *taken; // by HAIR_PATH_AUTO
-    bool               software = scene->bench->software;
+    const char *passes[WAYS], *taken; // by HAIR_PATH_AUTO
+    bool software = scene->bench->software;
     uint32_t frames = software ? 1 : 60, rounds = scene->bench->options.quick ? 2 : ROUNDS, fastest = 0;
     if (!need(scene)) return false;
     for (uint32_t i = 0; i < WAYS; ++i) { // They compile what they need.

@@ -21,8 +21,8 @@ void bench_add_peers(struct bench* bench)
 {
     static const struct {
         const char* method;
-        uint32_t    substeps, iterations;
-        double      stretch, mm, us;
+        uint32_t substeps, iterations;
+        double stretch, mm, us;
     } swings[] = {
 #define PEER_SWING(...) {__VA_ARGS__},
 #define PEER_STATIC(...)
@@ -32,14 +32,14 @@ void bench_add_peers(struct bench* bench)
     };
     static const struct {
         const char* method;
-        double      error[3];
+        double error[3];
     } statics[] = {
 #define PEER_SWING(...)
 #define PEER_STATIC(method, a, b, c) {method, {a, b, c}},
 #include "tools/bench/peers.inl"
     };
     static const double lengths[] = {0.05, 0.1, 0.3};
-    const char*         only      = bench->options.only_case;
+    const char* only = bench->options.only_case;
     for (size_t i = 0; i < sizeof swings / sizeof *swings && (!only || !strcmp(only, "swing")); ++i) {
         json_t* row = add_peer(bench, "swing", swings[i].method, LENGTH);
         bench_set_number(row, "substeps", swings[i].substeps);

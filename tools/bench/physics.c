@@ -14,8 +14,8 @@ const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SO
 json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
                           double limit, const char* reference)
 {
-    double  error = expected == 0 ? fabs(measured) : fabs(measured / expected - 1);
-    json_t* row   = bench_rows_add(&living->bench->rows);
+    double error = expected == 0 ? fabs(measured) : fabs(measured / expected - 1);
+    json_t* row = bench_rows_add(&living->bench->rows);
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(living->scene->solver));
     bench_set_count(row, "vertices", living->scene->vertices);
@@ -42,11 +42,11 @@ bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double d
 struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
                                      double root, double length)
 {
-    const double       at[3] = {root, 0, 0}, along[3] = {1, 0, 0};
+    const double at[3] = {root, 0, 0}, along[3] = {1, 0, 0};
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, vertices, length, at, along);
-    scene.solver          = solver;
-    scene.mapping         = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     scene.physics.damping = 4;
     return scene;
 }

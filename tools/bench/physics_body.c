@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define VERTICES 48
-#define SPIN 8.0   // rad/s
+#define SPIN 8.0 // rad/s
 #define PULL 10.0f // Hz: what carries the helix along with the head until it is let go
 #define DRAG 20.0f // 1/s, meanwhile
 #define SECONDS_UP 1.0
@@ -15,17 +15,17 @@
 
 struct body {
     struct bench_living living;
-    double              positions[3 * VERTICES], velocities[3 * VERTICES];
+    double positions[3 * VERTICES], velocities[3 * VERTICES];
 };
 
 static struct bench_scene make_helix(const struct bench* bench, hair_solver solver)
 {
-    const struct bench_coil coil  = {.radius = 0.02, .pitch = 0.04, .turns = 3, .vertices = VERTICES};
-    struct bench_scene      scene = bench_scene_default();
+    const struct bench_coil coil = {.radius = 0.02, .pitch = 0.04, .turns = 3, .vertices = VERTICES};
+    struct bench_scene scene = bench_scene_default();
     bench_scene_coil(&scene, &coil);
-    scene.solver             = solver;
-    scene.mapping            = bench->options.mapping;
-    scene.physics.root       = HAIR_ROOT_FREE;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
+    scene.physics.root = HAIR_ROOT_FREE;
     scene.physics.gravity[1] = 0;
     return scene;
 }
@@ -34,14 +34,14 @@ static struct bench_scene make_helix(const struct bench* bench, hair_solver solv
 static struct hair_reference_rod_pose find_head(const double axis[3], double time)
 {
     const double middle[3] = {-0.02, -0.06, 0};
-    double       rise      = SECONDS_UP / 2;
-    double       angle     = SPIN * (time < rise ? time * time / (2 * rise) : time - rise / 2);
-    double       s = sin(angle), c = 1 - cos(angle), move[3];
+    double rise = SECONDS_UP / 2;
+    double angle = SPIN * (time < rise ? time * time / (2 * rise) : time - rise / 2);
+    double s = sin(angle), c = 1 - cos(angle), move[3];
     for (int k = 0; k < 3; ++k) { // middle - R middle, by Rodrigues' formula
-        int    a = (k + 1) % 3, b = (k + 2) % 3;
+        int a = (k + 1) % 3, b = (k + 2) % 3;
         double cross = axis[a] * middle[b] - axis[b] * middle[a];
         double along = axis[0] * middle[0] + axis[1] * middle[1] + axis[2] * middle[2];
-        move[k]      = -(s * cross + c * (axis[k] * along - middle[k]));
+        move[k] = -(s * cross + c * (axis[k] * along - middle[k]));
     }
     return bench_pose(axis, angle, move);
 }
@@ -50,9 +50,9 @@ static struct hair_reference_rod_pose find_head(const double axis[3], double tim
 static bool spin_up(struct body* body, const double axis[3])
 {
     struct bench_living* living = &body->living;
-    hair_physics         calm = living->scene->physics, pulled = calm;
+    hair_physics calm = living->scene->physics, pulled = calm;
     pulled.pull_root = pulled.pull_tip = PULL;
-    pulled.damping                     = DRAG;
+    pulled.damping = DRAG;
     if (hair_set_physics(living->hair, &pulled)) return false;
     for (double time = STEP; time < SECONDS_UP + STEP / 2; time += STEP) {
         struct hair_reference_rod_pose head = find_head(axis, time);
@@ -87,7 +87,7 @@ static void find_momentum(const struct body* body, const double* masses, double 
     memset(out, 0, 3 * sizeof *out);
     for (int i = 0; i < VERTICES; ++i)
         for (int k = 0; k < 3; ++k) {
-            int    a = (k + 1) % 3, b = (k + 2) % 3;
+            int a = (k + 1) % 3, b = (k + 2) % 3;
             double xa = body->positions[3 * i + a] - centre[a] / mass;
             double xb = body->positions[3 * i + b] - centre[b] / mass;
             double va = body->velocities[3 * i + a] - drift[a] / mass;
@@ -131,7 +131,7 @@ static double compare(struct body* body, struct hair_reference_rod* rod)
 static bool run(struct body* body, struct hair_reference_rod* rod, bool precesses)
 {
     const double axes[2][3] = {{0, 1, 0}, {0.6, 0.8, 0}};
-    double       masses[VERTICES], first[3], last[3], turned = 0;
+    double masses[VERTICES], first[3], last[3], turned = 0;
     hair_reference_rod_masses(rod, masses);
     if (!spin_up(body, axes[precesses]) || !look(body)) return false;
     if (precesses) {
@@ -153,8 +153,8 @@ static void measure(struct bench* bench, hair_solver solver, bool precesses)
 {
     const char *name = precesses ? "precession" : "helix_spin", *method = bench_solver_name(solver);
     if (!bench_begin(bench, name, method)) return;
-    struct bench_scene         scene = make_helix(bench, solver);
-    struct body                body;
+    struct bench_scene scene = make_helix(bench, solver);
+    struct body body;
     struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod || !bench_live(bench, &scene, &body.living)) {
         bench_refuse(bench, name, method);

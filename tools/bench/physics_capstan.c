@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#define RADIUS 0.05  // m, of the collider
-#define SHORT 0.02   // m, that hangs on the side of the root
+#define RADIUS 0.05 // m, of the collider
+#define SHORT 0.02 // m, that hangs on the side of the root
 #define SLIPPED 0.01 // m, in two seconds
-#define CREEP 5e-5   // m/s
+#define CREEP 5e-5 // m/s
 
 // The chain slips when the long side hangs down by as much as this. With the angle t over the
 // cylinder, a weight w of a metre, friction m and radius R, tension grows as T' = m T + w R (cos t + m
@@ -36,23 +36,23 @@ static void find_place(double at, double radius, double out[2])
 static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
                                      double friction, double fraction)
 {
-    struct bench_scene scene  = bench_scene_default();
-    double             margin = 0.001, radius = RADIUS + margin;
-    double             length = SHORT + BENCH_PI * radius + fraction * find_limit(friction, radius);
-    scene.vertices            = vertices;
+    struct bench_scene scene = bench_scene_default();
+    double margin = 0.001, radius = RADIUS + margin;
+    double length = SHORT + BENCH_PI * radius + fraction * find_limit(friction, radius);
+    scene.vertices = vertices;
     for (uint32_t i = 0; i < vertices; ++i) {
         double at[2];
         find_place(length * i / (vertices - 1), radius, at);
-        scene.positions[3 * i]     = (float)at[0];
+        scene.positions[3 * i] = (float)at[0];
         scene.positions[3 * i + 1] = (float)at[1];
     }
-    scene.solver           = solver;
-    scene.mapping          = bench->options.mapping;
-    scene.physics.root     = HAIR_ROOT_FREE;
-    scene.physics.young    = 0;
-    scene.physics.damping  = 4;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
+    scene.physics.root = HAIR_ROOT_FREE;
+    scene.physics.young = 0;
+    scene.physics.damping = 4;
     scene.physics.friction = (float)friction;
-    scene.physics.margin   = (float)margin;
+    scene.physics.margin = (float)margin;
     return scene;
 }
 
@@ -66,9 +66,9 @@ static bool wait_and_read(struct bench_living* living, int frames, double* out)
 static void add_row(struct bench_living* living, double friction, double fraction, double slipped,
                     double creep)
 {
-    bool    slips = fraction > 1;
-    json_t* row   = bench_physics_row(living, "capstan", slips, slipped > SLIPPED, 0,
-                                      "weights over a rough cylinder: 1 slips, 0 holds");
+    bool slips = fraction > 1;
+    json_t* row = bench_physics_row(living, "capstan", slips, slipped > SLIPPED, 0,
+                                    "weights over a rough cylinder: 1 slips, 0 holds");
     bench_set_number(row, "friction", friction);
     bench_set_number(row, "load", fraction);
     bench_set_number(row, "creep", creep);
@@ -83,12 +83,12 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "capstan", method)) return;
     double first[3 * BENCH_MOST_VERTICES], middle[3 * BENCH_MOST_VERTICES], last[3 * BENCH_MOST_VERTICES];
-    struct bench_scene  scene = make_scene(bench, solver, vertices, friction, fraction);
+    struct bench_scene scene = make_scene(bench, solver, vertices, friction, fraction);
     struct bench_living living;
-    hair_solid          cylinder = hair_solid_default();
-    cylinder.shape               = HAIR_SHAPE_CAPSULE;
-    cylinder.size[0]             = (float)RADIUS;
-    cylinder.size[1]             = 0.2f;
+    hair_solid cylinder = hair_solid_default();
+    cylinder.shape = HAIR_SHAPE_CAPSULE;
+    cylinder.size[0] = (float)RADIUS;
+    cylinder.size[1] = 0.2f;
     cylinder.rotation[0] = cylinder.rotation[3] = (float)sqrt(0.5); // local y along z
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "capstan", method);
@@ -106,7 +106,7 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
 void bench_capstan(struct bench* bench)
 {
     static const double frictions[] = {0.2, 0.5}, fractions[] = {0.95, 1.05};
-    bool                quick = bench->options.quick;
+    bool quick = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s)
         for (uint32_t vertices = 32; vertices <= (quick ? 32 : 128); vertices *= 2)
             for (int f = 0; f < (quick ? 1 : 2); ++f)

@@ -9,10 +9,10 @@
 
 static void add_fine_row(struct bench_living* living, const char* name, double gamma, const double* positions)
 {
-    struct hair_reference_elastica rest   = hair_reference_elastica(gamma, 0, 0);
-    double                         length = living->length, across = rest.across, down = rest.down;
-    const double*                  tip = positions + 3 * (living->scene->vertices - 1);
-    double  off = hypot(hypot(tip[0] / length - across, tip[1] / length + down), tip[2] / length);
+    struct hair_reference_elastica rest = hair_reference_elastica(gamma, 0, 0);
+    double length = living->length, across = rest.across, down = rest.down;
+    const double* tip = positions + 3 * (living->scene->vertices - 1);
+    double off = hypot(hypot(tip[0] / length - across, tip[1] / length + down), tip[2] / length);
     json_t* row = gamma < 0.1
                       ? bench_physics_row(living, name, down, -tip[1] / length, 0.005, "elastica, H/L")
                       : bench_physics_row(living, name, 0, off, 0.005, "elastica, off by over L");
@@ -23,11 +23,11 @@ static void measure_fine(struct bench* bench, hair_solver solver, uint32_t verti
 {
     const char *name = length < 0.02 ? "fur" : "fine_segments", *method = bench_solver_name(solver);
     if (!bench_begin(bench, name, method)) return;
-    double               positions[3 * BENCH_MOST_VERTICES];
-    struct bench_living  living;
-    struct bench_scene   scene   = bench_level_scene(bench, solver, vertices, 0, length);
+    double positions[3 * BENCH_MOST_VERTICES];
+    struct bench_living living;
+    struct bench_scene scene = bench_level_scene(bench, solver, vertices, 0, length);
     struct bench_section section = bench_section_of(&scene.physics);
-    double               gamma   = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
+    double gamma = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, name, method);
         return;
@@ -42,7 +42,7 @@ static void measure_fine(struct bench* bench, hair_solver solver, uint32_t verti
 void bench_fine_segments(struct bench* bench)
 {
     const double length = 0.0631; // m: of a gamma of 2 by default
-    bool         quick  = bench->options.quick;
+    bool quick = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s) {
         for (uint32_t vertices = 32; vertices <= (quick ? 32 : 256); vertices *= 2)
             measure_fine(bench, bench_rod_solvers[s], vertices, length);
@@ -58,10 +58,10 @@ void bench_fine_segments(struct bench* bench)
 // The fastest vertex within the last half of 14 s goes into the row as `speed`.
 static bool run_tip(struct bench_living* living, const double* truth, double gamma)
 {
-    struct bench_rest_desc desc     = {14, 0.5, 14, bench_was_interrupted};
-    uint32_t               vertices = living->scene->vertices;
-    double                 now[3 * BENCH_MOST_VERTICES];
-    struct bench_rest      rest;
+    struct bench_rest_desc desc = {14, 0.5, 14, bench_was_interrupted};
+    uint32_t vertices = living->scene->vertices;
+    double now[3 * BENCH_MOST_VERTICES];
+    struct bench_rest rest;
     if (!bench_measure_rest(living->hair, 1, vertices, &desc, &rest) || !bench_read(living, now))
         return false;
     json_t* row =
@@ -77,13 +77,13 @@ static void measure_tip(struct bench* bench, hair_solver solver, uint32_t vertic
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "tip_mass", method)) return;
-    double              truth[3 * BENCH_MOST_VERTICES];
+    double truth[3 * BENCH_MOST_VERTICES];
     struct bench_living living;
-    struct bench_scene  scene = bench_level_scene(bench, solver, vertices, 0, TIP_LENGTH);
+    struct bench_scene scene = bench_level_scene(bench, solver, vertices, 0, TIP_LENGTH);
     bench_scene_set_gamma(&scene, TIP_LENGTH, gamma);
-    scene.physics.tip_mass           = TIP_MASS;
-    struct hair_reference_rod* rod   = bench_reference(&scene);
-    bool                       found = rod && hair_reference_rod_rest(rod).converged;
+    scene.physics.tip_mass = TIP_MASS;
+    struct hair_reference_rod* rod = bench_reference(&scene);
+    bool found = rod && hair_reference_rod_rest(rod).converged;
     if (found) hair_reference_rod_positions(rod, truth);
     hair_reference_rod_destroy(rod);
     snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
@@ -98,7 +98,7 @@ static void measure_tip(struct bench* bench, hair_solver solver, uint32_t vertic
 void bench_tip_masses(struct bench* bench)
 {
     static const double gammas[] = {2, 184, 3000};
-    bool                quick    = bench->options.quick;
+    bool quick = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s)
         for (uint32_t vertices = quick ? 32 : 16; vertices <= 32; vertices *= 2)
             for (int k = 0; k < (quick ? 1 : 3); ++k)

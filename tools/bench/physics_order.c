@@ -11,13 +11,13 @@
 static struct bench_scene make_hair(const struct bench* bench, hair_solver solver, uint32_t vertices,
                                     double angle)
 {
-    const double       radians = angle * BENCH_PI / 180;
-    const double       root[3] = {0, 0, 0}, along[3] = {cos(radians), sin(radians), 0};
+    const double radians = angle * BENCH_PI / 180;
+    const double root[3] = {0, 0, 0}, along[3] = {cos(radians), sin(radians), 0};
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
-    scene.solver               = solver;
-    scene.mapping              = bench->options.mapping;
-    scene.physics.young        = 3e9f;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
+    scene.physics.young = 3e9f;
     scene.physics.fiber_radius = 5e-5f;
     return scene;
 }
@@ -30,7 +30,7 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
 // Root mean square of the vertices, over the frames, against the converged rod, over the length. NaN: refused.
 static double error_of(struct bench_living* living, const double* truth)
 {
-    double   positions[3 * ORDER_VERTICES], squares = 0;
+    double positions[3 * ORDER_VERTICES], squares = 0;
     uint32_t size = 3 * ORDER_VERTICES;
     for (int k = 0; k < ORDER_FRAMES; ++k) {
         if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return NAN;
@@ -50,9 +50,9 @@ static void measure_order(struct bench* bench, hair_solver solver, uint32_t subs
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "order", method)) return;
-    double                     truth[ORDER_FRAMES * 3 * ORDER_VERTICES], error[3] = {NAN, NAN, NAN};
-    struct bench_scene         scene = make_hair(bench, solver, ORDER_VERTICES, -30);
-    struct hair_reference_rod* rod   = bench_reference(&scene);
+    double truth[ORDER_FRAMES * 3 * ORDER_VERTICES], error[3] = {NAN, NAN, NAN};
+    struct bench_scene scene = make_hair(bench, solver, ORDER_VERTICES, -30);
+    struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod) return;
     hair_reference_rod_converge(rod, ORDER_FRAMES, NULL, FRAME, 256, 8192, 1e-8 * LENGTH, truth);
     hair_reference_rod_destroy(rod);
@@ -114,10 +114,10 @@ static void measure_energy(struct bench* bench, hair_solver solver, double angle
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "energy", method)) return;
-    struct bench_living        living;
-    struct bench_scene         scene = make_hair(bench, solver, VERTICES, angle);
-    struct hair_reference_rod* rod   = bench_reference(&scene);
-    double                     first, last;
+    struct bench_living living;
+    struct bench_scene scene = make_hair(bench, solver, VERTICES, angle);
+    struct hair_reference_rod* rod = bench_reference(&scene);
+    double first, last;
     if (!rod || !bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "energy", method);
         hair_reference_rod_destroy(rod);
@@ -125,7 +125,7 @@ static void measure_energy(struct bench* bench, hair_solver solver, double angle
     }
     if (average_energy(&living, rod, &first) && pass_substeps(&living, 100000 - 2 * WINDOW) &&
         average_energy(&living, rod, &last)) {
-        double  mass = bench_section_of(&scene.physics).line_density * LENGTH;
+        double mass = bench_section_of(&scene.physics).line_density * LENGTH;
         json_t* row =
             bench_physics_row(&living, "energy", 0, (last - first) / (mass * BENCH_GRAVITY * LENGTH / 2),
                               solver == HAIR_SOLVER_ACCURATE && angle < -45 ? 1e-5 : BENCH_NO_LIMIT,
@@ -156,10 +156,10 @@ static bool run_whip(struct bench_living* living, struct hair_reference_rod* rod
         if (!bench_step(living, NULL, h) || !bench_read(living, at[k])) return false;
     for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (at[2][i] - at[0][i]) / (2 * h);
     hair_reference_rod_set_state(rod, at[1], velocity);
-    double  energy = hair_reference_rod_energy(rod).total / (weight * LENGTH / 2) + 1;
-    json_t* row    = bench_physics_row(living, "whip_energy", 1, energy,
+    double energy = hair_reference_rod_energy(rod).total / (weight * LENGTH / 2) + 1;
+    json_t* row = bench_physics_row(living, "whip_energy", 1, energy,
                                     living->scene->solver == HAIR_SOLVER_ACCURATE ? 0.05 : BENCH_NO_LIMIT,
-                                       "energy above hanging down, after 5 s, over that at the start");
+                                    "energy above hanging down, after 5 s, over that at the start");
     bench_set_number(row, "substeps", bench_substeps(living));
     return true;
 }
@@ -168,9 +168,9 @@ static void measure_whip(struct bench* bench, hair_solver solver)
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "whip_energy", method)) return;
-    struct bench_living        living;
-    struct bench_scene         scene = make_hair(bench, solver, VERTICES, 0);
-    struct hair_reference_rod* rod   = bench_reference(&scene);
+    struct bench_living living;
+    struct bench_scene scene = make_hair(bench, solver, VERTICES, 0);
+    struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod || !bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "whip_energy", method);
         hair_reference_rod_destroy(rod);

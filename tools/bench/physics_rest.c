@@ -19,10 +19,10 @@ static double degrees(double angle)
 static void add_tip_row(struct bench_living* living, const char* name, const double* positions, double across,
                         double down, double gamma, double angle, const char* reference)
 {
-    const double* tip   = positions + 3 * (living->scene->vertices - 1);
-    double        off   = hypot(hypot(tip[0] - across, tip[1] + down), tip[2]) / living->length;
-    double        limit = living->scene->vertices == 32 ? 0.005 : 0.001;
-    json_t*       row   = bench_physics_row(living, name, 0, off, limit, reference);
+    const double* tip = positions + 3 * (living->scene->vertices - 1);
+    double off = hypot(hypot(tip[0] - across, tip[1] + down), tip[2]) / living->length;
+    double limit = living->scene->vertices == 32 ? 0.005 : 0.001;
+    json_t* row = bench_physics_row(living, name, 0, off, limit, reference);
     bench_set_number(row, "gamma", gamma);
     bench_set_number(row, "angle", angle);
 }
@@ -35,24 +35,24 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "cantilever", method)) return;
-    const double        length = 0.1, along[3] = {cos(degrees(angle)), sin(degrees(angle)), 0};
-    double              positions[3 * BENCH_MOST_VERTICES];
+    const double length = 0.1, along[3] = {cos(degrees(angle)), sin(degrees(angle)), 0};
+    double positions[3 * BENCH_MOST_VERTICES];
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
+    struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, vertices, length, nowhere, along);
-    scene.solver               = solver;
-    scene.mapping              = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     scene.physics.fiber_radius = 1e-4f;
-    scene.physics.damping      = 20;
+    scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "cantilever", method);
         return;
     }
     if (bench_settle(&living, positions)) {
-        struct hair_reference_elastica rest  = hair_reference_elastica(gamma, 0, -degrees(angle));
-        const double*                  tip   = positions + 3 * (vertices - 1);
-        double                         limit = vertices == 32 ? 0.01 : 0.004;
+        struct hair_reference_elastica rest = hair_reference_elastica(gamma, 0, -degrees(angle));
+        const double* tip = positions + 3 * (vertices - 1);
+        double limit = vertices == 32 ? 0.01 : 0.004;
         if (gamma > 200) limit = vertices == 32 ? 0.03 : 0.015;
         json_t* row = bench_physics_row(&living, "cantilever", rest.down / rest.across, -tip[1] / tip[0],
                                         limit, "elastica, H/W");
@@ -69,14 +69,14 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
 // their segments: one of twice as many vertices as the other.
 static bool find_arc_at_rest(const struct bench_scene* scene, double length, double turn, double tip[2])
 {
-    const double       along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
+    const double along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
     struct bench_scene fine = *scene;
-    double             positions[3 * BENCH_MOST_VERTICES], found[2][2];
+    double positions[3 * BENCH_MOST_VERTICES], found[2][2];
     for (uint32_t k = 0; k < 2; ++k) {
         uint32_t vertices = (FINE_SEGMENTS >> k) + 1;
         bench_scene_arc(&fine, vertices, length, turn, along, across);
-        struct hair_reference_rod* rod  = bench_reference(&fine);
-        bool                       rest = rod && hair_reference_rod_rest(rod).converged;
+        struct hair_reference_rod* rod = bench_reference(&fine);
+        bool rest = rod && hair_reference_rod_rest(rod).converged;
         if (rest) hair_reference_rod_positions(rod, positions);
         hair_reference_rod_destroy(rod);
         if (!rest) return false;
@@ -91,15 +91,15 @@ static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertic
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "cantilever_arc", method)) return;
-    const double        length = 0.1, along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
-    double              positions[3 * BENCH_MOST_VERTICES], tip[2];
+    const double length = 0.1, along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
+    double positions[3 * BENCH_MOST_VERTICES], tip[2];
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
+    struct bench_scene scene = bench_scene_default();
     bench_scene_arc(&scene, vertices, length, degrees(turn), along, across);
-    scene.solver               = solver;
-    scene.mapping              = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     scene.physics.fiber_radius = 1e-4f;
-    scene.physics.damping      = 20;
+    scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
     snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
     if (!find_arc_at_rest(&scene, length, degrees(turn), tip) || !bench_live(bench, &scene, &living)) {
@@ -119,7 +119,7 @@ void bench_cantilever(struct bench* bench)
     static const double horizontal[] = {0.1, 0.3, 1, 3, 5, 10, 30, 50, 100, 200, 300, 1000};
     static const double inclined[] = {7, 42, 150, 700}, angles[] = {-40, 35};
     static const double arcs[] = {1000, 100, 10, 1};
-    bool                quick  = bench->options.quick;
+    bool quick = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s)
         for (uint32_t vertices = 32; vertices <= (quick ? 32 : 64); vertices *= 2) {
             for (size_t i = quick ? 5 : 0; i < (quick ? 6 : ARRAY_SIZE(horizontal)); ++i)
@@ -151,18 +151,18 @@ static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t v
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "catenary", method)) return;
-    const double        length = 0.3, along[3]                     = {sqrt(0.5), -sqrt(0.5), 0};
-    double              positions[3 * BENCH_MOST_VERTICES], lowest = 0;
+    const double length = 0.3, along[3] = {sqrt(0.5), -sqrt(0.5), 0};
+    double positions[3 * BENCH_MOST_VERTICES], lowest = 0;
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
-    hair_tie            tie   = hair_tie_default();
+    struct bench_scene scene = bench_scene_default();
+    hair_tie tie = hair_tie_default();
     bench_scene_straight(&scene, vertices, length, nowhere, along);
-    scene.solver          = solver;
-    scene.mapping         = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     scene.physics.damping = 6;
-    scene.physics.young   = 0;
-    scene.physics.root    = HAIR_ROOT_HINGED;
-    tie.position[0]       = (float)(span * length);
+    scene.physics.young = 0;
+    scene.physics.root = HAIR_ROOT_HINGED;
+    tie.position[0] = (float)(span * length);
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "catenary", method);
         return;
@@ -192,18 +192,18 @@ void bench_catenary(struct bench* bench)
 #define RISE 6.0 // s
 
 struct buckling {
-    const char*        name;
+    const char* name;
     struct bench_scene scene;
-    double             critical; // of gamma
-    double             share;    // of that, at the end
-    bool               leaves;   // the plane
-    double             phi;      // natural turn, for the row: degrees
+    double critical; // of gamma
+    double share; // of that, at the end
+    bool leaves; // the plane
+    double phi; // natural turn, for the row: degrees
 };
 
 static void disturb(struct bench_scene* scene, double length)
 {
     for (uint32_t i = 0; i < scene->vertices; ++i) {
-        double s                    = (double)i / (scene->vertices - 1);
+        double s = (double)i / (scene->vertices - 1);
         scene->positions[3 * i + 2] = (float)(1e-4 * length * s * s);
     }
 }
@@ -222,12 +222,12 @@ static void measure_buckling(struct bench* bench, hair_solver solver, struct buc
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, buckling->name, method)) return;
-    double              positions[3 * BENCH_MOST_VERTICES], most = 0;
+    double positions[3 * BENCH_MOST_VERTICES], most = 0;
     struct bench_living living;
     struct bench_scene* scene = &buckling->scene;
-    hair_physics        full  = scene->physics;
-    scene->solver             = solver;
-    scene->mapping            = bench->options.mapping;
+    hair_physics full = scene->physics;
+    scene->solver = solver;
+    scene->mapping = bench->options.mapping;
     scene->physics.gravity[1] = 0;
     if (!bench_live(bench, scene, &living)) {
         bench_refuse(bench, buckling->name, method);
@@ -254,19 +254,19 @@ void bench_bend_twist(struct bench* bench)
 {
     static const struct {
         double turns, critical[2]; // of the natural circle
-    } rows[]             = {{1, {12.548, 44.759}}, {2, {36.23, 452.48}}};
+    } rows[] = {{1, {12.548, 44.759}}, {2, {36.23, 452.48}}};
     const double down[3] = {0, -1, 0}, across[3] = {1, 0, 0}, length = 0.1;
     for (int s = 0; s < BENCH_RODS && !bench->options.quick; ++s)
         for (size_t i = 0; i < 8; ++i) {
             struct buckling b = {.name = "bend_twist", .scene = bench_scene_default()};
-            b.phi             = 360 * rows[i / 4].turns;
-            b.critical        = rows[i / 4].critical[i / 2 % 2];
-            b.share           = i % 2 ? 1.05 : 0.95;
-            b.leaves          = i / 2 % 2 != i % 2; // Above the first, below the second.
+            b.phi = 360 * rows[i / 4].turns;
+            b.critical = rows[i / 4].critical[i / 2 % 2];
+            b.share = i % 2 ? 1.05 : 0.95;
+            b.leaves = i / 2 % 2 != i % 2; // Above the first, below the second.
             bench_scene_arc(&b.scene, 64, length, degrees(b.phi), down, across);
             disturb(&b.scene, length);
             b.scene.physics.fiber_radius = 1e-4f;
-            b.scene.physics.damping      = 10;
+            b.scene.physics.damping = 10;
             bench_scene_set_gamma(&b.scene, length, b.critical * b.share);
             measure_buckling(bench, bench_rod_solvers[s], &b);
         }
@@ -281,18 +281,18 @@ void bench_lateral_buckling(struct bench* bench)
         for (int i = 0; i < 2; ++i) {
             struct buckling b = {
                 .name = "lateral_buckling", .scene = bench_scene_default(), .critical = critical};
-            b.share  = i ? 1.05 : 0.95;
+            b.share = i ? 1.05 : 0.95;
             b.leaves = i;
             bench_scene_straight(&b.scene, 64, length, nowhere, along);
             disturb(&b.scene, length);
             hair_physics* p = &b.scene.physics;
             p->fiber_radius = 1e-4f;
-            p->damping      = 10;
-            p->flatness     = 0.1f;
-            p->poisson      = 0.43493f;
+            p->damping = 10;
+            p->flatness = 0.1f;
+            p->poisson = 0.43493f;
             // Stiffness is proportional to Young's modulus.
             struct bench_section section = bench_section_of(p);
-            double               root    = sqrt(section.bend[0] * section.twist);
+            double root = sqrt(section.bend[0] * section.twist);
             p->young *=
                 (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) / (root * critical * b.share));
             measure_buckling(bench, bench_rod_solvers[s], &b);

@@ -8,10 +8,10 @@
 #define LENGTH 0.1 // m
 #define SECONDS 6
 #define MOST_RATE 240 // Hz
-#define NUDGE 1.02    // Times gravity, to set it swinging.
+#define NUDGE 1.02 // Times gravity, to set it swinging.
 
 struct seen {
-    double sag;       // H/W
+    double sag; // H/W
     double frequency; // Hz
 };
 
@@ -20,7 +20,7 @@ struct seen {
 static bool look(struct bench_living* living, hair_physics physics, uint32_t rate, const double modes[2],
                  struct seen* out)
 {
-    double   positions[3 * BENCH_MOST_VERTICES], samples[SECONDS * MOST_RATE], tip = 0;
+    double positions[3 * BENCH_MOST_VERTICES], samples[SECONDS * MOST_RATE], tip = 0;
     uint32_t last = 3 * (living->scene->vertices - 1), count = SECONDS * rate;
     physics.gravity[1] *= (float)NUDGE;
     for (int part = 0; part < 2; ++part) { // Part 0: to rest, for where it rests. Part 1: to rest, nudged.
@@ -31,7 +31,7 @@ static bool look(struct bench_living* living, hair_physics physics, uint32_t rat
         if (part == 0) out->sag = -positions[last + 1] / positions[last];
         if (part == 0) tip = atan2(positions[last + 1], positions[last]);
     }
-    physics         = living->scene->physics;
+    physics = living->scene->physics;
     physics.damping = 0;
     if (hair_set_physics(living->hair, &physics)) return false;
     for (uint32_t k = 0; k < count; ++k) {
@@ -62,16 +62,16 @@ static void measure(struct bench* bench, const char* name, hair_solver solver, d
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, name, method)) return;
-    const double        root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
     struct bench_living living;
-    struct bench_scene  scene = bench_scene_default();
-    struct seen         seen;
-    double              modes[2]; // in the plane and across it, whichever is lower first
+    struct bench_scene scene = bench_scene_default();
+    struct seen seen;
+    double modes[2]; // in the plane and across it, whichever is lower first
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
-    scene.solver               = solver;
-    scene.mapping              = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     scene.physics.fiber_radius = 1e-4f;
-    scene.physics.damping      = 15;
+    scene.physics.damping = 15;
     bench_scene_set_gamma(&scene, LENGTH, gamma);
     struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod || !hair_reference_rod_rest(rod).converged || hair_reference_rod_modes(rod, 2, modes) < 2 ||
@@ -94,7 +94,7 @@ static const double gammas[] = {10, 50};
 void bench_frame_rates(struct bench* bench)
 {
     static const char* const references[] = {"H/W at 60 Hz", "swing at 60 Hz, Hz"};
-    static const uint32_t    rates[]      = {60, 30, 120, 240};
+    static const uint32_t rates[] = {60, 30, 120, 240};
     for (int s = 0; s < BENCH_RODS && !bench->options.quick; ++s)
         for (int g = 0; g < 2; ++g) {
             struct seen standard = {0, 0};
@@ -107,7 +107,7 @@ void bench_frame_rates(struct bench* bench)
 void bench_vertex_counts(struct bench* bench)
 {
     static const char* const references[] = {"H/W of 64 vertices", "swing of 64 vertices, Hz"};
-    static const uint32_t    vertices[]   = {64, 32, 16};
+    static const uint32_t vertices[] = {64, 32, 16};
     for (int s = 0; s < BENCH_RODS && !bench->options.quick; ++s)
         for (int g = 0; g < 2; ++g) {
             struct seen standard = {0, 0};

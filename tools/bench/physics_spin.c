@@ -4,8 +4,8 @@
 #include <math.h>
 
 #define LENGTH 0.3 // m
-#define ROOT 0.1   // m, from the axis
-#define RISE 2.0   // s, until the head turns evenly
+#define ROOT 0.1 // m, from the axis
+#define RISE 2.0 // s, until the head turns evenly
 #define STEADY 4.0 // s, evenly
 #define STEP (1.0 / 240)
 
@@ -32,25 +32,25 @@ static bool turn(struct bench_living* living, struct hair_reference_rod* rod, do
 // damped.
 static bool find_truth(const struct bench_scene* scene, double rate, double* truth)
 {
-    double             start[3 * BENCH_MOST_VERTICES], velocities[3 * BENCH_MOST_VERTICES];
+    double start[3 * BENCH_MOST_VERTICES], velocities[3 * BENCH_MOST_VERTICES];
     struct bench_scene turned = *scene;
-    double             angle = find_angle(rate, RISE), spin = 2 * BENCH_PI * rate;
-    turned.head                    = bench_pose(up, angle, none);
+    double angle = find_angle(rate, RISE), spin = 2 * BENCH_PI * rate;
+    turned.head = bench_pose(up, angle, none);
     struct hair_reference_rod* rod = bench_reference(&turned);
     if (!rod) return false;
     for (uint32_t i = 0; i < scene->vertices; ++i) {
-        double far            = (double)scene->positions[3 * i];
-        start[3 * i]          = far * cos(angle);
-        start[3 * i + 1]      = 0;
-        start[3 * i + 2]      = -far * sin(angle);
-        velocities[3 * i]     = -far * spin * sin(angle);
+        double far = (double)scene->positions[3 * i];
+        start[3 * i] = far * cos(angle);
+        start[3 * i + 1] = 0;
+        start[3 * i + 2] = -far * sin(angle);
+        velocities[3 * i] = -far * spin * sin(angle);
         velocities[3 * i + 1] = 0;
         velocities[3 * i + 2] = -far * spin * cos(angle);
     }
     hair_reference_rod_set_state(rod, start, velocities);
-    double   longest  = hair_reference_rod_longest_substep(rod) / 2;
+    double longest = hair_reference_rod_longest_substep(rod) / 2;
     uint32_t substeps = (uint32_t)fmax(8, ceil(STEP / longest));
-    bool     whole    = turn(NULL, rod, rate, RISE, RISE + STEADY, substeps);
+    bool whole = turn(NULL, rod, rate, RISE, RISE + STEADY, substeps);
     hair_reference_rod_positions(rod, truth);
     hair_reference_rod_destroy(rod);
     return whole;
@@ -59,8 +59,8 @@ static bool find_truth(const struct bench_scene* scene, double rate, double* tru
 static void add_row(struct bench_living* living, double rate, double error)
 {
     hair_health health = hair_health_default();
-    json_t*     row    = bench_physics_row(living, "head_spin", 0, error, 0.005,
-                                           "rod in double precision, farthest over the length");
+    json_t* row = bench_physics_row(living, "head_spin", 0, error, 0.005,
+                                    "rod in double precision, farthest over the length");
     bench_set_number(row, "rate", rate);
     if (hair_get_health(living->hair, &health)) return;
     uint64_t fallbacks = (uint64_t)health.euler + health.parts + health.follow + health.reset;
@@ -72,8 +72,8 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "head_spin", method)) return;
-    double              truth[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES];
-    struct bench_scene  scene = bench_level_scene(bench, solver, vertices, ROOT, LENGTH);
+    double truth[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES];
+    struct bench_scene scene = bench_level_scene(bench, solver, vertices, ROOT, LENGTH);
     struct bench_living living;
     if (!bench_live_in_step(bench, &scene, STEP, &living)) {
         bench_refuse(bench, "head_spin", method);

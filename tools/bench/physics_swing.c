@@ -11,10 +11,10 @@
 static struct bench_scene make_chain(const struct bench* bench, hair_solver solver)
 {
     struct bench_scene scene = bench_scene_default();
-    scene.solver             = solver;
-    scene.mapping            = bench->options.mapping;
-    scene.physics.young      = 0;
-    scene.physics.root       = HAIR_ROOT_HINGED;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
+    scene.physics.young = 0;
+    scene.physics.root = HAIR_ROOT_HINGED;
     return scene;
 }
 
@@ -26,7 +26,7 @@ static struct bench_scene make_chain(const struct bench* bench, hair_solver solv
 #define WIDEST 0.01 // rad: the steepest link. By a sixteenth of its square large swings are slower.
 
 struct mode {
-    double frequency;   // rad/s
+    double frequency; // rad/s
     double y[VERTICES]; // across, to some scale
     double mass[VERTICES];
 };
@@ -35,14 +35,14 @@ struct mode {
 static struct mode find_mode(uint32_t number)
 {
     struct mode mode = {0};
-    double      lengths[LINKS], link = LENGTH / LINKS, hanging = 0;
+    double lengths[LINKS], link = LENGTH / LINKS, hanging = 0;
     for (int j = 0; j < LINKS; ++j) {
-        lengths[j]       = link;
+        lengths[j] = link;
         mode.mass[j + 1] = j + 1 < LINKS ? link : link / 2;
     }
     mode.frequency = hair_reference_linkage_frequency(number, LINKS, lengths, mode.mass + 1, BENCH_GRAVITY);
-    mode.y[LINKS]  = 1;
-    double pull    = 0; // of the links below, across
+    mode.y[LINKS] = 1;
+    double pull = 0; // of the links below, across
     for (int i = LINKS; i > 0; --i) {
         hanging += mode.mass[i];
         pull += mode.mass[i] * mode.frequency * mode.frequency * mode.y[i];
@@ -57,7 +57,7 @@ static void place(const struct mode* mode, struct bench_scene* scene)
     for (int j = 0; j < LINKS; ++j) steepest = fmax(steepest, fabs(mode->y[j + 1] - mode->y[j]) / link);
     scene->vertices = VERTICES;
     for (int i = 0; i < VERTICES; ++i) {
-        scene->positions[3 * i]     = (float)at[0];
+        scene->positions[3 * i] = (float)at[0];
         scene->positions[3 * i + 1] = (float)at[1];
         if (i == LINKS) break;
         double angle = WIDEST * (mode->y[i + 1] - mode->y[i]) / link / steepest;
@@ -80,12 +80,12 @@ static bool record(struct bench_living* living, const struct mode* mode, double*
 
 static void measure_mode(struct bench* bench, hair_solver solver, uint32_t number)
 {
-    static const double far[]  = {0.001, 0.005, 0.02}; // Limits against the continuous chain.
-    const char*         method = bench_solver_name(solver);
+    static const double far[] = {0.001, 0.005, 0.02}; // Limits against the continuous chain.
+    const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "chain_modes", method)) return;
-    double              samples[FRAMES];
-    struct mode         mode  = find_mode(number);
-    struct bench_scene  scene = make_chain(bench, solver);
+    double samples[FRAMES];
+    struct mode mode = find_mode(number);
+    struct bench_scene scene = make_chain(bench, solver);
     struct bench_living living;
     place(&mode, &scene);
     if (!bench_live(bench, &scene, &living)) {
@@ -96,7 +96,7 @@ static void measure_mode(struct bench* bench, hair_solver solver, uint32_t numbe
         double expected[] = {mode.frequency,
                              hair_reference_chain_frequency(number, LENGTH, BENCH_GRAVITY, 0)};
         double measured = bench_frequency(samples, FRAMES, FRAME, 0.8 * mode.frequency, 1.2 * mode.frequency);
-        bool   held     = solver == HAIR_SOLVER_ACCURATE;
+        bool held = solver == HAIR_SOLVER_ACCURATE;
         for (int i = 0; i < 2; ++i) {
             json_t* row = bench_physics_row(&living, "chain_modes", expected[i] / (2 * BENCH_PI),
                                             measured / (2 * BENCH_PI),
@@ -124,11 +124,11 @@ void bench_chain_modes(struct bench* bench)
 static double farthest(struct bench_living* living)
 {
     uint32_t links = living->scene->vertices - 1;
-    double   lengths[2], masses[2], angles[2], rates[2] = {0, 0}, positions[9], most = 0;
+    double lengths[2], masses[2], angles[2], rates[2] = {0, 0}, positions[9], most = 0;
     for (uint32_t j = 0; j < links; ++j) {
         lengths[j] = LENGTH / links;
-        masses[j]  = j + 1 < links ? 1 : 0.5;
-        angles[j]  = BENCH_PI / 2;
+        masses[j] = j + 1 < links ? 1 : 0.5;
+        angles[j] = BENCH_PI / 2;
     }
     for (int k = 0; k < 60; ++k) {
         if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return -1;
@@ -146,11 +146,11 @@ static double farthest(struct bench_living* living)
 
 static void measure_pendulum(struct bench* bench, hair_solver solver, uint32_t vertices)
 {
-    const char* name   = vertices == 2 ? "pendulum" : "double_pendulum";
+    const char* name = vertices == 2 ? "pendulum" : "double_pendulum";
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, name, method)) return;
-    const double        root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_scene  scene = make_chain(bench, solver);
+    const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
+    struct bench_scene scene = make_chain(bench, solver);
     struct bench_living living;
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     if (!bench_live(bench, &scene, &living)) {

@@ -10,9 +10,9 @@
 bool bench_picture_make(uint32_t size, struct bench_picture* out)
 {
     size_t pixels = (size_t)size * size;
-    *out          = (struct bench_picture){.size = size};
-    out->rgba     = calloc(4 * pixels, sizeof *out->rgba);
-    out->shown    = calloc(3 * pixels, sizeof *out->shown);
+    *out = (struct bench_picture){.size = size};
+    out->rgba = calloc(4 * pixels, sizeof *out->rgba);
+    out->shown = calloc(3 * pixels, sizeof *out->shown);
     return out->rgba && out->shown;
 }
 
@@ -33,7 +33,7 @@ static double encode(double light)
 
 void bench_picture_finish(struct bench_picture* picture, uint32_t count, double exposure)
 {
-    size_t pixels     = (size_t)picture->size * picture->size;
+    size_t pixels = (size_t)picture->size * picture->size;
     picture->coverage = 0;
     for (size_t i = 0; i < 4 * pixels; ++i) picture->rgba[i] /= count;
     for (size_t i = 0; i < pixels; ++i) {

@@ -5,11 +5,11 @@
 #include "tools/common/image_error.h"
 
 struct bench_picture {
-    uint32_t       size;
-    double*        rgba;     // light, and how much of the pixel is hair
-    float*         shown;    // RGB, sRGB
-    unsigned char* mask;     // of pixels to compare; NULL: bench_picture_cover has not made it
-    double         coverage; // pixels' worth of hair
+    uint32_t size;
+    double* rgba; // light, and how much of the pixel is hair
+    float* shown; // RGB, sRGB
+    unsigned char* mask; // of pixels to compare; NULL: bench_picture_cover has not made it
+    double coverage; // pixels' worth of hair
 };
 
 // Black. False: out of memory, then it is to be freed as well.

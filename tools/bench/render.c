@@ -18,8 +18,8 @@
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 4500 // As wide on its pixels as 18,000 are on 1,024.
-#define MOST_RADIUS 0.01f        // m: hair_look's
-#define LEAST_RATIO 5            // of a reported error and that of the reference
+#define MOST_RADIUS 0.01f // m: hair_look's
+#define LEAST_RATIO 5 // of a reported error and that of the reference
 
 static const char* const columns[] = {
     "case",    "width",          "method",        "primitive",  "lod",     "segments",
@@ -32,10 +32,10 @@ static const char* const columns[] = {
 static const struct subject {
     const char* name;
     const char* scene;
-    float       away;
-    bool        quick;
-    float       width;   // 0: as the scene has it
-    uint32_t    strands; // likewise
+    float away;
+    bool quick;
+    float width; // 0: as the scene has it
+    uint32_t strands; // likewise
 } subjects[] = {{"long", "still", 1, true, 0, 0},
                 {"long far", "still", 4, false, 0, 0},
                 {"curly", "curly", 1, false, 0, 0},
@@ -47,16 +47,16 @@ static const struct subject {
 
 static const struct path {
     const char* name;
-    hair_path   path;
+    hair_path path;
 } paths[] = {{"tessellation", HAIR_PATH_TESSELLATION},
              {"instanced", HAIR_PATH_INSTANCED},
              {"expanded", HAIR_PATH_EXPANDED},
              {"computed", HAIR_PATH_COMPUTED}};
 
 static const struct primitive {
-    const char*    name;
+    const char* name;
     hair_primitive primitive;
-    hair_coverage  coverage;
+    hair_coverage coverage;
 } primitives[] = {{"ribbons", HAIR_RIBBONS, HAIR_COVERAGE_SAMPLES},
                   {"lines", HAIR_LINES, HAIR_COVERAGE_SAMPLES},
                   {"shares", HAIR_RIBBONS, HAIR_COVERAGE_SHARES}};
@@ -64,8 +64,8 @@ static const struct primitive {
 // Fewer strands, and wider for it; 0: by how large they appear.
 static const struct lod {
     const char* name;
-    float       share;
-    bool        quick;
+    float share;
+    bool quick;
 } lods[] = {{"100 %", 1, true},
             {"50 %", 0.5f, false},
             {"25 %", 0.25f, true},
@@ -78,7 +78,7 @@ enum { FEWEST_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MOST_OF_CLOSE = 32, MOST_SEGMEN
 // Of one pixel. Four pixels for one take software rasterisers less time than four samples.
 static const struct samples {
     uint32_t msaa, supersample;
-    bool     quick, of_software;
+    bool quick, of_software;
 } samples[] = {{1, 1, true, false}, {4, 1, true, false},  {8, 1, false, false}, {1, 2, true, true},
                {4, 2, true, false}, {8, 4, false, false}, {4, 4, false, false}};
 
@@ -86,14 +86,14 @@ static const struct samples {
 
 // A subject brought to life, and its reference.
 struct scene {
-    struct bench*         bench;
+    struct bench* bench;
     const struct subject* subject;
-    struct bench_studio   studio;
-    bool                  alive, refused;
-    uint32_t              most_samples; // of OpenGL
-    struct bench_truth    truth;
-    double                halves_differ;
-    struct bench_versus   versus;
+    struct bench_studio studio;
+    bool alive, refused;
+    uint32_t most_samples; // of OpenGL
+    struct bench_truth truth;
+    double halves_differ;
+    struct bench_versus versus;
 };
 
 static uint32_t strands_of(const struct bench* bench, const struct subject* subject, uint32_t size)
@@ -107,12 +107,12 @@ static uint32_t strands_of(const struct bench* bench, const struct subject* subj
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
-    shot.look.radius       = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
-    shot.away              = scene->subject->away;
-    shot.map_fits          = scene->bench->software; // Compute, which is faster elsewhere, makes no lines.
+    shot.look.radius = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
+    shot.away = scene->subject->away;
+    shot.map_fits = scene->bench->software; // Compute, which is faster elsewhere, makes no lines.
     if (scene->subject->width > 0) {
         shot.look.radius = 0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
-        shot.look.taper  = hair_curve_line(1, 1);
+        shot.look.taper = hair_curve_line(1, 1);
     }
     return shot;
 }
@@ -120,10 +120,10 @@ static struct bench_shot shot_of(const struct scene* scene)
 static bool find_truth(struct scene* scene)
 {
     struct hair_image_error error;
-    struct bench_truth*     truth = &scene->truth;
-    struct bench_shot       shot  = shot_of(scene);
-    shot.look.segments            = REFERENCE_SEGMENTS;
-    bool ok                       = bench_truth_make(scene->studio.size, truth) &&
+    struct bench_truth* truth = &scene->truth;
+    struct bench_shot shot = shot_of(scene);
+    shot.look.segments = REFERENCE_SEGMENTS;
+    bool ok = bench_truth_make(scene->studio.size, truth) &&
               bench_truth_take(&scene->studio, &shot, REFERENCE_SAMPLES, 0, truth) &&
               bench_picture_cover(&truth->whole) &&
               bench_picture_compare(&truth->whole, &truth->half[0], &truth->half[1], &error);
@@ -138,11 +138,11 @@ static bool need(struct scene* scene)
     uint32_t size = scene->bench->software ? SIZE_OF_SOFTWARE : SIZE;
     if (scene->bench->options.quick) size /= 2;
     if (scene->bench->options.size) size = scene->bench->options.size;
-    struct bench_studio_desc desc = {.scene     = scene->subject->scene,
-                                     .size      = size,
+    struct bench_studio_desc desc = {.scene = scene->subject->scene,
+                                     .size = size,
                                      .followers = strands_of(scene->bench, scene->subject, size)};
-    scene->most_samples           = bench_most_samples();
-    scene->alive   = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
+    scene->most_samples = bench_most_samples();
+    scene->alive = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
     scene->refused = !scene->alive;
     return scene->alive;
 }
@@ -150,17 +150,17 @@ static bool need(struct scene* scene)
 // Rows ----------------------------------------------------------------------------------------------------------
 
 struct setting {
-    const struct path*      path;
+    const struct path* path;
     const struct primitive* primitive;
-    const struct lod*       lod;
-    uint32_t                segments;
-    const struct samples*   samples;
+    const struct lod* lod;
+    uint32_t segments;
+    const struct samples* samples;
 };
 
 static bool add_row(struct scene* scene, const struct setting* setting, const struct bench_times* times,
                     const struct hair_image_error* error, double coverage)
 {
-    json_t*  row  = bench_rows_add(&scene->bench->rows);
+    json_t* row = bench_rows_add(&scene->bench->rows);
     uint32_t side = setting->samples->supersample;
     bench_set_text(row, "case", scene->subject->name);
     if (scene->subject->width > 0) bench_set_number(row, "width", (double)scene->subject->width);
@@ -190,19 +190,19 @@ static bool add_row(struct scene* scene, const struct setting* setting, const st
 
 static bool look(struct scene* scene, const struct setting* setting)
 {
-    struct bench_shot           shot  = shot_of(scene);
+    struct bench_shot shot = shot_of(scene);
     const struct bench_picture* truth = &scene->truth.whole;
-    struct bench_picture        picture;
-    struct bench_times          times;
-    struct hair_image_error     error;
-    shot.view.path      = setting->path->path;
+    struct bench_picture picture;
+    struct bench_times times;
+    struct hair_image_error error;
+    shot.view.path = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
-    shot.view.coverage  = setting->primitive->coverage;
-    shot.look.segments  = setting->segments;
-    shot.has_lod        = setting->lod->share < 1;
-    shot.lod.dynamic    = setting->lod->share > 0 ? 0 : 1;
+    shot.view.coverage = setting->primitive->coverage;
+    shot.look.segments = setting->segments;
+    shot.has_lod = setting->lod->share < 1;
+    shot.lod.dynamic = setting->lod->share > 0 ? 0 : 1;
     if (setting->lod->share > 0) shot.lod.strands = setting->lod->share;
-    shot.samples     = setting->samples->msaa;
+    shot.samples = setting->samples->msaa;
     shot.supersample = setting->samples->supersample;
     if (!bench_picture_make(scene->studio.size, &picture)) return false;
     double enough = scene->bench->options.quick ? 50 : scene->bench->software ? 300 : 30;

@@ -19,8 +19,8 @@ struct bench_rest_desc bench_rest_desc_default(void)
 bool bench_is_asleep(hair_instance* hair)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[MAX_ROWS];
-    uint32_t         count = 0;
+    hair_report_row rows[MAX_ROWS];
+    uint32_t count = 0;
     if (hair_report(hair, 1, &info, rows, sizeof *rows, MAX_ROWS, &count)) return false;
     for (uint32_t i = 0; i < count && i < MAX_ROWS; ++i)
         if (!strcmp(rows[i].work, "solve")) return rows[i].why == HAIR_WHY_ASLEEP;
@@ -28,12 +28,12 @@ bool bench_is_asleep(hair_instance* hair)
 }
 
 struct state {
-    hair_instance*                hair;
+    hair_instance* hair;
     const struct bench_rest_desc* desc;
-    uint32_t                      guides, vertices;
-    double                        time;
-    float *                       now, *before;
-    bool*                         moving; // per guide
+    uint32_t guides, vertices;
+    double time;
+    float *now, *before;
+    bool* moving; // per guide
 };
 
 static bool has_to_stop(const struct state* state)
@@ -65,7 +65,7 @@ static void compare(struct state* state, double passed, struct bench_rest* out)
         for (uint32_t k = 0; k < 3; ++k)
             squares += pow((double)state->now[3 * i + k] - (double)state->before[3 * i + k], 2);
         double speed = sqrt(squares) / passed;
-        out->finite  = out->finite && isfinite(speed);
+        out->finite = out->finite && isfinite(speed);
         if (!(speed <= out->max_speed)) out->max_speed = speed;
         if (!(speed <= BENCH_REST_MOVING)) state->moving[i / state->vertices] = true;
     }
@@ -108,13 +108,13 @@ static bool measure(struct state* state, struct bench_rest* out)
 bool bench_measure_rest(hair_instance* hair, uint32_t guides, uint32_t vertices,
                         const struct bench_rest_desc* desc, struct bench_rest* out)
 {
-    size_t       size  = 3 * sizeof(float) * guides * vertices;
+    size_t size = 3 * sizeof(float) * guides * vertices;
     struct state state = {.hair = hair, .desc = desc, .guides = guides, .vertices = vertices};
-    state.now          = malloc(size);
-    state.before       = malloc(size);
-    state.moving       = calloc(guides, sizeof *state.moving);
-    *out               = (struct bench_rest){.seconds_asleep = INFINITY, .finite = true};
-    bool whole         = state.now && state.before && state.moving && measure(&state, out);
+    state.now = malloc(size);
+    state.before = malloc(size);
+    state.moving = calloc(guides, sizeof *state.moving);
+    *out = (struct bench_rest){.seconds_asleep = INFINITY, .finite = true};
+    bool whole = state.now && state.before && state.moving && measure(&state, out);
     for (size_t i = 0; i < 3 * (size_t)guides * vertices && whole; ++i)
         out->finite = out->finite && isfinite(state.now[i]);
     free(state.now);

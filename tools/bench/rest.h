@@ -8,17 +8,17 @@
 #include <stdbool.h>
 
 struct bench_rest_desc {
-    double seconds;     // s before the speed is measured
-    double window;      // s during which it is measured, the last part of `seconds`
-    double patience;    // s in all, to fall asleep
+    double seconds; // s before the speed is measured
+    double window; // s during which it is measured, the last part of `seconds`
+    double patience; // s in all, to fall asleep
     bool (*stop)(void); // Returns true to give up. NULL: never.
 };
 
 struct bench_rest {
-    double max_speed;       // m/s, of the fastest vertex within the window; 0 when asleep by then
+    double max_speed; // m/s, of the fastest vertex within the window; 0 when asleep by then
     double moving_fraction; // fraction of the guides with a vertex above BENCH_REST_MOVING
-    double seconds_asleep;  // s until it fell asleep; infinite when it did not
-    bool   finite;
+    double seconds_asleep; // s until it fell asleep; infinite when it did not
+    bool finite;
 };
 
 #define BENCH_REST_MOVING 0.01 // m/s

@@ -84,7 +84,7 @@ static bool is_of_one_kind(const json_t* a, const json_t* b)
 
 void bench_mark_front(json_t* rows, const char* cost, const char* error)
 {
-    size_t  i, j;
+    size_t i, j;
     json_t *row, *other;
     json_array_foreach(rows, i, row)
     {
@@ -140,7 +140,7 @@ void bench_write_csv(const struct bench_rows* rows, FILE* file)
     for (const char* const* column = rows->columns; *column; ++column)
         fprintf(file, "%s%s", column == rows->columns ? "" : ",", *column);
     fputs("\r\n", file);
-    size_t  i;
+    size_t i;
     json_t* row;
     json_array_foreach(rows->rows, i, row)
     {
@@ -162,9 +162,9 @@ static int width_of(const char* text)
 
 static int column_width(const struct bench_rows* rows, const char* column)
 {
-    char    text[MOST_TEXT];
-    int     width = width_of(column);
-    size_t  i;
+    char text[MOST_TEXT];
+    int width = width_of(column);
+    size_t i;
     json_t* row;
     json_array_foreach(rows->rows, i, row)
     {
@@ -176,8 +176,8 @@ static int column_width(const struct bench_rows* rows, const char* column)
 
 static bool is_same_in_all(const struct bench_rows* rows, const char* column)
 {
-    size_t        i;
-    json_t*       row;
+    size_t i;
+    json_t* row;
     const json_t* first = json_object_get(json_array_get(rows->rows, 0), column);
     json_array_foreach(rows->rows, i, row) if (!json_equal(json_object_get(row, column), first)) return false;
     return true;
@@ -192,7 +192,7 @@ static void write_cell(const char* text, int width, bool left, FILE* file)
 // What all rows share, in one line.
 static void write_shared(const struct bench_rows* rows, FILE* file)
 {
-    char        text[MOST_TEXT];
+    char text[MOST_TEXT];
     const char* comma = "";
     for (const char* const* column = rows->columns; *column; ++column) {
         const json_t* value = json_object_get(json_array_get(rows->rows, 0), *column);
@@ -212,7 +212,7 @@ void bench_write_table(const struct bench_rows* rows, FILE* file)
         for (const char* const* column = rows->columns; *column; ++column) {
             if (is_same_in_all(rows, *column)) continue;
             const json_t* value = json_object_get(row, *column);
-            int           width = column_width(rows, *column);
+            int width = column_width(rows, *column);
             write_cell(row ? print(value, text) : *column, width, row && !json_is_number(value), file);
         }
         fputc('\n', file);

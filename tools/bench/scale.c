@@ -14,8 +14,8 @@ static const char* const columns[] = {
 
 static const struct point {
     const char* name;
-    uint32_t    guides, followers;
-    bool        quick, small; // small: not too much for a CPU that draws
+    uint32_t guides, followers;
+    bool quick, small; // small: not too much for a CPU that draws
 } points[] = {
     {"guides", 64, 4096, true, true},       {"guides", 166, 4096, false, true},
     {"guides", 512, 4096, true, true},      {"guides", 2048, 4096, false, true},
@@ -28,7 +28,7 @@ static void add_row(const struct bench_studio* studio, const struct point* point
                     struct bench_times draw)
 {
     const hair_groom_info* info = &studio->info;
-    json_t*                row  = bench_rows_add(&studio->bench->rows);
+    json_t* row = bench_rows_add(&studio->bench->rows);
     bench_set_text(row, "case", point->name);
     bench_set_text(row, "method", bench_solver_name(studio->scene.settings.desc.solver));
     bench_set_count(row, "guides", info->guide_count);
@@ -51,11 +51,11 @@ static void add_row(const struct bench_studio* studio, const struct point* point
 static bool run(struct bench_studio* studio, const struct point* point)
 {
     enum { MOST_FRAMES = 60 };
-    double            step[MOST_FRAMES], draw[MOST_FRAMES], passed = 0;
-    double            enough = studio->bench->options.quick ? 100 : 1000;
-    uint32_t          frames = 0;
-    struct bench_shot shot   = bench_studio_shot(studio);
-    shot.samples             = 4;
+    double step[MOST_FRAMES], draw[MOST_FRAMES], passed = 0;
+    double enough = studio->bench->options.quick ? 100 : 1000;
+    uint32_t frames = 0;
+    struct bench_shot shot = bench_studio_shot(studio);
+    shot.samples = 4;
     if (!bench_studio_set(studio, &shot)) return false;
     for (int i = 0; i < 2; ++i) // They compile what they need.
         if (!bench_studio_step(studio, NULL) || !bench_studio_draw(studio, NULL)) return false;
@@ -70,13 +70,13 @@ static bool run(struct bench_studio* studio, const struct point* point)
 
 static void measure(struct bench* bench, const struct point* point)
 {
-    struct bench_studio      studio;
-    const char*              method = bench_solver_name(HAIR_SOLVER_DIRECT);
-    struct bench_studio_desc desc   = {.scene     = "demo",
-                                       .size      = bench->options.size ? bench->options.size : SIZE,
-                                       .guides    = point->guides,
-                                       .followers = point->followers,
-                                       .solver    = HAIR_SOLVER_DIRECT};
+    struct bench_studio studio;
+    const char* method = bench_solver_name(HAIR_SOLVER_DIRECT);
+    struct bench_studio_desc desc = {.scene = "demo",
+                                     .size = bench->options.size ? bench->options.size : SIZE,
+                                     .guides = point->guides,
+                                     .followers = point->followers,
+                                     .solver = HAIR_SOLVER_DIRECT};
     if (!bench_begin(bench, point->name, method) || (bench->software && !point->small)) return;
     if (!bench_studio_make(bench, &desc, &studio)) {
         bench_refuse(bench, point->name, method);

@@ -20,13 +20,13 @@
 
 static const struct color {
     const char* name;
-    hair_color  color;
+    hair_color color;
 } colors[] = {{"blond", HAIR_COLOR_BLOND}, {"brown", HAIR_COLOR_BROWN}, {"black", HAIR_COLOR_BLACK}};
 
 // Towards the light: to the right of the picture, up in it, out of it.
 static const struct lit {
     const char* name;
-    float       way[3];
+    float way[3];
 } lits[] = {{"front", {0.2f, 0.4f, 0.9f}}, {"side", {0.95f, 0.3f, 0}}, {"back", {0.2f, 0.4f, -0.9f}}};
 
 static const struct method {
@@ -39,33 +39,33 @@ static const struct method {
 #define METHODS (sizeof methods / sizeof *methods)
 
 struct scatter {
-    struct bench*              bench;
-    struct bench_studio        studio;
-    struct bench_shot          shot;
-    float                      colors[COLORS][3];
-    double                     to_light[LITS][3];
-    double*                    from; // of rays
-    double*                    way;
+    struct bench* bench;
+    struct bench_studio studio;
+    struct bench_shot shot;
+    float colors[COLORS][3];
+    double to_light[LITS][3];
+    double* from; // of rays
+    double* way;
     struct hair_reference_glow glow;
     double dark[3], covers; // of a picture without light; pixels' worth of hair, 0: it has not been taken
 };
 
 static bool make(struct scatter* scatter)
 {
-    struct bench_studio*     studio  = &scatter->studio;
-    uint32_t                 strands = scatter->bench->options.strands, size = scatter->bench->options.size;
+    struct bench_studio* studio = &scatter->studio;
+    uint32_t strands = scatter->bench->options.strands, size = scatter->bench->options.size;
     struct bench_studio_desc desc = {
         .scene = "still", .size = size ? size : SIZE, .followers = strands ? strands : STRANDS};
     if (!bench_studio_make(scatter->bench, &desc, studio)) return false;
     hair_set_solids(studio->hair, NULL, 0, 0); // Paths meet none.
-    studio->bare              = true;
-    scatter->shot             = bench_studio_shot(studio);
-    hair_look* look           = &scatter->shot.look;
-    look->taper               = hair_curve_line(1, 1);
-    look->segments            = SEGMENTS;
-    look->radius              = look->radius * studio->fewer; // In all as much hair.
-    look->tilt_spread         = 0;
-    scatter->shot.samples     = 4;
+    studio->bare = true;
+    scatter->shot = bench_studio_shot(studio);
+    hair_look* look = &scatter->shot.look;
+    look->taper = hair_curve_line(1, 1);
+    look->segments = SEGMENTS;
+    look->radius = look->radius * studio->fewer; // In all as much hair.
+    look->tilt_spread = 0;
+    scatter->shot.samples = 4;
     scatter->shot.supersample = 2;
     memset(scatter->shot.view.ambient, 0, sizeof scatter->shot.view.ambient);
     for (size_t i = 0; i < COLORS; ++i) {
@@ -82,17 +82,17 @@ static bool make(struct scatter* scatter)
 static bool make_rays(struct scatter* scatter, uint32_t rays)
 {
     const struct hair_scene* scene = &scatter->studio.scene;
-    struct hair_matrices     camera;
-    uint64_t                 random = 1;
-    scatter->from                   = malloc(3 * sizeof *scatter->from * rays);
-    scatter->way                    = malloc(3 * sizeof *scatter->way * rays);
+    struct hair_matrices camera;
+    uint64_t random = 1;
+    scatter->from = malloc(3 * sizeof *scatter->from * rays);
+    scatter->way = malloc(3 * sizeof *scatter->way * rays);
     if (!scatter->from || !scatter->way) return false;
     hair_camera_matrices(scene, scatter->studio.transform, scatter->studio.reach, &camera);
     for (uint32_t i = 0; i < rays; ++i) {
         double in[3] = {0, 0, -1}, length = 0, *way = scatter->way + 3 * (size_t)i;
         for (int k = 0; k < 2; ++k) {
             random = random * 6364136223846793005u + 1442695040888963407u;
-            in[k]  = (2 * (double)(random >> 11) / 9007199254740992.0 - 1) / (double)camera.projection[5 * k];
+            in[k] = (2 * (double)(random >> 11) / 9007199254740992.0 - 1) / (double)camera.projection[5 * k];
         }
         for (int k = 0; k < 3; ++k) {
             way[k] = 0;
@@ -127,12 +127,12 @@ static double absorption_of(double reflectance, double roughness)
 static bool trace(struct scatter* scatter)
 {
     static hair_fibre_table table;
-    const hair_look*        look  = &scatter->shot.look;
-    struct hair_fibre       of    = {look->roughness[1], look->roughness[0], REFRACTION};
-    uint32_t                rays  = scatter->bench->options.quick ? RAYS_OF_QUICK : RAYS;
-    uint32_t                count = scatter->studio.info.follower_count * (SEGMENTS + 1), there = 0;
-    float *                 positions = malloc(3 * sizeof *positions * count), variance[3];
-    double                  mu[3 * COLORS];
+    const hair_look* look = &scatter->shot.look;
+    struct hair_fibre of = {look->roughness[1], look->roughness[0], REFRACTION};
+    uint32_t rays = scatter->bench->options.quick ? RAYS_OF_QUICK : RAYS;
+    uint32_t count = scatter->studio.info.follower_count * (SEGMENTS + 1), there = 0;
+    float *positions = malloc(3 * sizeof *positions * count), variance[3];
+    double mu[3 * COLORS];
     hair_fibre_fill(&of, table);
     hair_fibre_variances(of.along, variance);
     for (size_t i = 0; i < 3 * COLORS; ++i)
@@ -141,14 +141,14 @@ static bool trace(struct scatter* scatter)
               !hair_read(scatter->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &there) &&
               there == count;
     struct hair_reference_hair hair = {.positions = positions,
-                                       .count     = scatter->studio.info.follower_count,
-                                       .each      = SEGMENTS + 1,
-                                       .radius    = (double)look->radius,
-                                       .fibre    = {&table[0][0][0], (double)variance[0], (double)look->tilt},
-                                       .mu       = mu,
-                                       .colors   = 3 * COLORS,
+                                       .count = scatter->studio.info.follower_count,
+                                       .each = SEGMENTS + 1,
+                                       .radius = (double)look->radius,
+                                       .fibre = {&table[0][0][0], (double)variance[0], (double)look->tilt},
+                                       .mu = mu,
+                                       .colors = 3 * COLORS,
                                        .to_light = scatter->to_light[0],
-                                       .lights   = LITS};
+                                       .lights = LITS};
     if (ok) hair_reference_paths(&hair, scatter->from, scatter->way, rays, 1, &scatter->glow);
     free(positions);
     return ok && scatter->glow.met > 0;
@@ -160,8 +160,8 @@ static bool trace(struct scatter* scatter)
 static bool take(struct scatter* scatter, double sum[3], double* covers)
 {
     struct bench_picture picture;
-    size_t               pixels = (size_t)scatter->studio.size * scatter->studio.size;
-    bool                 ok     = bench_picture_make(scatter->studio.size, &picture) &&
+    size_t pixels = (size_t)scatter->studio.size * scatter->studio.size;
+    bool ok = bench_picture_make(scatter->studio.size, &picture) &&
               bench_studio_set(&scatter->studio, &scatter->shot) &&
               bench_studio_draw(&scatter->studio, NULL) && bench_studio_add(&scatter->studio, picture.rgba);
     sum[0] = sum[1] = sum[2] = *covers = 0;
@@ -177,7 +177,7 @@ static bool take(struct scatter* scatter, double sum[3], double* covers)
 static bool measure_light(struct scatter* scatter, float scattering, double mean[3])
 {
     hair_light* light = &scatter->studio.scene.settings.light;
-    double      covers;
+    double covers;
     for (int k = 0; k < 3; ++k) light->color[k] = 0;
     if (scatter->covers <= 0 && !take(scatter, scatter->dark, &scatter->covers)) return false;
     for (int k = 0; k < 3; ++k) light->color[k] = 1;
@@ -191,10 +191,10 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
                     const struct lit* lit)
 {
     static const char* const keys[] = {"bias_red", "bias_green", "bias_blue"};
-    hair_look*               look   = &scatter->shot.look;
-    hair_light*              light  = &scatter->studio.scene.settings.light;
-    size_t                   of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
-    double                   all[3], once[3], truth[3], alone[3], error = 0;
+    hair_look* look = &scatter->shot.look;
+    hair_light* light = &scatter->studio.scene.settings.light;
+    size_t of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
+    double all[3], once[3], truth[3], alone[3], error = 0;
     look->shadow = method->shadow;
     memcpy(look->root_color, scatter->colors[of / 3], sizeof look->root_color);
     memcpy(look->tip_color, scatter->colors[of / 3], sizeof look->tip_color);
@@ -205,7 +205,7 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
         alone[k] = scatter->glow.once[from][of + k];
         error += scatter->glow.error[from][of + k];
     }
-    double  sum = truth[0] + truth[1] + truth[2];
+    double sum = truth[0] + truth[1] + truth[2];
     json_t* row = bench_rows_add(&scatter->bench->rows);
     bench_set_text(row, "case", "scatter");
     bench_set_text(row, "method", method->name);
@@ -226,7 +226,7 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
 void bench_measure_scatter(struct bench* bench)
 {
     struct scatter scatter = {.bench = bench};
-    bool           alive = false, tried = false;
+    bool alive = false, tried = false;
     for (size_t m = 0; m < METHODS; ++m)
         for (size_t c = 0; c < COLORS; ++c)
             for (size_t l = 0; l < LITS; ++l) {

@@ -9,11 +9,11 @@
 struct bench_scene bench_scene_default(void)
 {
     struct bench_scene scene = {.strands = 1, .max_dt = 0.1, .head = {{0, 0, 0}, {0, 0, 0, 1}}};
-    hair_physics*      p     = &scene.physics;
-    *p                       = hair_physics_default();
-    scene.wind               = hair_wind_default();
+    hair_physics* p = &scene.physics;
+    *p = hair_physics_default();
+    scene.wind = hair_wind_default();
     p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = p->sleep = 0;
-    p->angular                                                               = 0;
+    p->angular = 0;
     return scene;
 }
 
@@ -43,9 +43,9 @@ void bench_scene_arc(struct bench_scene* scene, uint32_t vertices, double length
 
 void bench_scene_set_gamma(struct bench_scene* scene, double length, double gamma)
 {
-    hair_physics* p      = &scene->physics;
-    double        radius = (double)p->fiber_radius;
-    p->young             = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
+    hair_physics* p = &scene->physics;
+    double radius = (double)p->fiber_radius;
+    p->young = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
                        (gamma * radius * radius));
 }
 
@@ -67,8 +67,8 @@ struct bench_section bench_section_of(const hair_physics* physics)
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
     double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->young;
     return (struct bench_section){
-        .bend         = {round * flat, round / flat},
-        .twist        = 2 * round / (1 + (double)physics->poisson) * flat / (1 + flat * flat),
+        .bend = {round * flat, round / flat},
+        .twist = 2 * round / (1 + (double)physics->poisson) * flat / (1 + flat * flat),
         .line_density = (double)physics->fiber_density * BENCH_PI * radius * radius};
 }
 
@@ -86,11 +86,11 @@ struct hair_reference_rod_pose bench_pose(const double axis[3], double angle, co
 void bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16])
 {
     const double* q = pose->rotation;
-    double        x = q[0], y = q[1], z = q[2], w = q[3];
-    const double  m[16] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),     0,
-                           2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),     0,
-                           2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y), 0,
-                           pose->position[0],       pose->position[1],       pose->position[2],       1};
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double m[16] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),     0,
+                          2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),     0,
+                          2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y), 0,
+                          pose->position[0],       pose->position[1],       pose->position[2],       1};
     for (int i = 0; i < 16; ++i) matrix[i] = (float)m[i];
 }
 
@@ -109,10 +109,10 @@ static void find_root_frame(const double* positions, double frame[4])
         return;
     }
     double norm = sqrt(2 * (1 + d[1]));
-    frame[0]    = d[2] / norm; // y cross d
-    frame[1]    = 0;
-    frame[2]    = -d[0] / norm;
-    frame[3]    = norm / 2;
+    frame[0] = d[2] / norm; // y cross d
+    frame[1] = 0;
+    frame[2] = -d[0] / norm;
+    frame[3] = norm / 2;
 }
 
 static double between(float root, float tip, uint32_t i, uint32_t count)
@@ -131,16 +131,16 @@ static int is_straight(const struct bench_scene* scene, const double* strain)
 // the energy of the chord between tangents.
 static bool is_mixed(const struct bench_scene* scene, const double root_frame[4])
 {
-    struct hair_rest        rest[BENCH_MOST_VERTICES]  = {0};
-    struct hair_rod_borne   borne[BENCH_MOST_VERTICES] = {0};
+    struct hair_rest rest[BENCH_MOST_VERTICES] = {0};
+    struct hair_rod_borne borne[BENCH_MOST_VERTICES] = {0};
     struct hair_rods_report report;
-    const hair_vec4         frame = {(float)root_frame[0], (float)root_frame[1], (float)root_frame[2],
-                                     (float)root_frame[3]};
-    struct hair_guide       guide = {.root_frame = frame, .count = scene->vertices};
+    const hair_vec4 frame = {(float)root_frame[0], (float)root_frame[1], (float)root_frame[2],
+                             (float)root_frame[3]};
+    struct hair_guide guide = {.root_frame = frame, .count = scene->vertices};
     if (scene->solver != HAIR_SOLVER_DIRECT && scene->solver != HAIR_SOLVER_ACCURATE) return false;
     for (uint32_t i = 0; i < scene->vertices; ++i) {
-        const float* p   = scene->positions + 3 * i;
-        bool         tip = i + 1 == scene->vertices;
+        const float* p = scene->positions + 3 * i;
+        bool tip = i + 1 == scene->vertices;
         rest[i].position =
             (hair_vec4){p[0], p[1], p[2], tip ? 0 : hypotf(hypotf(p[3] - p[0], p[4] - p[1]), p[5] - p[2])};
         rest[i].frame = frame;
@@ -152,39 +152,39 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
 
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
 {
-    double                         positions[3 * BENCH_MOST_VERTICES], strain[3 * BENCH_MOST_VERTICES];
-    double                         scale[BENCH_MOST_VERTICES], pull[BENCH_MOST_VERTICES];
-    const hair_physics*            p       = &scene->physics;
-    struct bench_section           section = bench_section_of(p);
-    struct hair_reference_rod_desc desc    = hair_reference_rod_desc_default();
+    double positions[3 * BENCH_MOST_VERTICES], strain[3 * BENCH_MOST_VERTICES];
+    double scale[BENCH_MOST_VERTICES], pull[BENCH_MOST_VERTICES];
+    const hair_physics* p = &scene->physics;
+    struct bench_section section = bench_section_of(p);
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
     for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
     for (uint32_t i = 0; i < scene->vertices; ++i) {
         scale[i] = between(p->stiffness_root, p->stiffness_tip, i, scene->vertices);
-        pull[i]  = 2 * BENCH_PI * between(p->pull_root, p->pull_tip, i, scene->vertices);
+        pull[i] = 2 * BENCH_PI * between(p->pull_root, p->pull_tip, i, scene->vertices);
     }
     find_root_frame(positions, desc.root_frame);
     hair_reference_rod_strain(scene->vertices, positions, desc.root_frame, strain);
-    desc.vertices     = scene->vertices;
-    desc.positions    = positions;
+    desc.vertices = scene->vertices;
+    desc.positions = positions;
     desc.line_density = section.line_density;
-    desc.tip_mass     = (double)p->tip_mass * section.line_density * bench_scene_length(scene);
-    desc.bend[0]      = section.bend[0];
-    desc.bend[1]      = section.bend[1];
-    desc.twist        = section.twist;
-    desc.scale        = scale;
-    desc.rest_strain  = is_straight(scene, strain) ? NULL : strain;
-    desc.straight     = !desc.rest_strain && !is_mixed(scene, desc.root_frame);
-    desc.root         = (enum hair_reference_rod_root)p->root;
-    desc.damping      = (double)p->damping;
-    desc.pull         = pull;
-    desc.head         = scene->head;
+    desc.tip_mass = (double)p->tip_mass * section.line_density * bench_scene_length(scene);
+    desc.bend[0] = section.bend[0];
+    desc.bend[1] = section.bend[1];
+    desc.twist = section.twist;
+    desc.scale = scale;
+    desc.rest_strain = is_straight(scene, strain) ? NULL : strain;
+    desc.straight = !desc.rest_strain && !is_mixed(scene, desc.root_frame);
+    desc.root = (enum hair_reference_rod_root)p->root;
+    desc.damping = (double)p->damping;
+    desc.pull = pull;
+    desc.head = scene->head;
     for (uint32_t k = 0; k < 3; ++k) {
         desc.gravity[k] = (double)p->gravity[k];
-        desc.wind[k]    = (double)scene->wind.velocity[k];
+        desc.wind[k] = (double)scene->wind.velocity[k];
         if (desc.wind[k] != 0) desc.drag = (double)p->drag;
     }
     desc.diameter = 2 * (double)p->fiber_radius;
-    desc.air      = (struct hair_reference_air){(double)scene->wind.density, (double)scene->wind.viscosity};
+    desc.air = (struct hair_reference_air){(double)scene->wind.density, (double)scene->wind.viscosity};
     return hair_reference_rod_create(&desc);
 }
 

@@ -12,15 +12,15 @@
 #define BENCH_GRAVITY 9.81
 
 struct bench_scene {
-    float        positions[3 * BENCH_MOST_VERTICES]; // at rest, in the head's frame
-    uint32_t     vertices;
-    uint32_t     strands; // alike
-    hair_solver  solver;
+    float positions[3 * BENCH_MOST_VERTICES]; // at rest, in the head's frame
+    uint32_t vertices;
+    uint32_t strands; // alike
+    hair_solver solver;
     hair_mapping mapping;
-    double       substep; // s; 0: as the solver wants
-    double       max_dt;  // s
+    double substep; // s; 0: as the solver wants
+    double max_dt; // s
     hair_physics physics;
-    hair_wind    wind;
+    hair_wind wind;
 
     struct hair_reference_rod_pose head; // at the start
 };
@@ -49,7 +49,7 @@ struct bench_section bench_section_of(const hair_physics* physics);
 
 // Turned by `angle` about the unit vector `axis` through the origin, then moved.
 struct hair_reference_rod_pose bench_pose(const double axis[3], double angle, const double move[3]);
-void                           bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16]);
+void bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16]);
 
 // The strand in double precision. NULL: its numbers make no rod.
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene);

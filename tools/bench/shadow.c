@@ -46,26 +46,26 @@ static const char body_glsl[] =
     "}\n";
 
 struct scene {
-    struct bench*        bench;
-    struct bench_studio  studio;
+    struct bench* bench;
+    struct bench_studio studio;
     struct bench_strands strands;
-    struct bench_shot    shot;
-    hair_shader *        by_table, *by_library;
-    unsigned             buffer, texture;
-    float*               light; // per vertex
-    uint32_t             vertices, rays;
+    struct bench_shot shot;
+    hair_shader *by_table, *by_library;
+    unsigned buffer, texture;
+    float* light; // per vertex
+    uint32_t vertices, rays;
     struct bench_picture truth;
-    double               mean, halves_differ;
-    bool                 alive, refused;
+    double mean, halves_differ;
+    bool alive, refused;
 };
 
 static bool make_shader(struct scene* scene, const char* own, hair_shader** out)
 {
-    char             text[2048];
+    char text[2048];
     hair_shader_desc desc = hair_shader_desc_default();
     snprintf(text, sizeof text, "%s%s", own, body_glsl);
     desc.label = "shadow";
-    desc.glsl  = text;
+    desc.glsl = text;
     return !hair_shader_create(scene->bench->context, &desc, out);
 }
 
@@ -90,10 +90,10 @@ static bool take(struct scene* scene, hair_shader* shader, struct bench_picture*
 // Each half of the rays makes a picture too.
 static bool find_truth(struct scene* scene)
 {
-    struct bench_picture    halves[2] = {{0}};
+    struct bench_picture halves[2] = {{0}};
     struct hair_image_error error;
-    float*                  sum = calloc(scene->vertices, sizeof *sum);
-    bool                    ok  = sum;
+    float* sum = calloc(scene->vertices, sizeof *sum);
+    bool ok = sum;
     for (uint32_t i = 0; i < 2 && ok; ++i) {
         ok = bench_light_by_rays(&scene->strands, scene->rays / 2, i, scene->light) &&
              take(scene, scene->by_table, &halves[i]);
@@ -113,21 +113,21 @@ static bool find_truth(struct scene* scene)
 static void set_shot(struct scene* scene)
 {
     hair_look* look = &scene->shot.look;
-    scene->shot     = bench_studio_shot(&scene->studio);
+    scene->shot = bench_studio_shot(&scene->studio);
     hair_look_color(look, HAIR_COLOR_BLOND);
-    look->taper             = hair_curve_line(1, 1);
-    look->segments          = SEGMENTS;
-    look->radius            = look->radius * sqrtf(scene->studio.fewer);
-    scene->shot.samples     = 4;
+    look->taper = hair_curve_line(1, 1);
+    look->segments = SEGMENTS;
+    look->radius = look->radius * sqrtf(scene->studio.fewer);
+    scene->shot.samples = 4;
     scene->shot.supersample = 2;
-    scene->studio.bare      = true;
+    scene->studio.bare = true;
 }
 
 static bool read_strands(struct scene* scene)
 {
-    float    to[3];
-    uint32_t count     = scene->studio.info.follower_count * (SEGMENTS + 1);
-    float*   positions = malloc(3 * sizeof *positions * count);
+    float to[3];
+    uint32_t count = scene->studio.info.follower_count * (SEGMENTS + 1);
+    float* positions = malloc(3 * sizeof *positions * count);
     hair_light_direction(&scene->studio.scene, to);
     hair_set_solids(scene->studio.hair, NULL, 0, 0); // Rays meet none.
     bool ok = positions && bench_studio_set(&scene->studio, &scene->shot) &&
@@ -142,10 +142,10 @@ static bool read_strands(struct scene* scene)
 static bool need(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
-    uint32_t                 strands = scene->bench->options.strands, size = scene->bench->options.size;
+    uint32_t strands = scene->bench->options.strands, size = scene->bench->options.size;
     struct bench_studio_desc desc = {
         .scene = "still", .size = size ? size : SIZE, .followers = strands ? strands : STRANDS};
-    scene->rays    = scene->bench->options.quick ? RAYS_OF_QUICK : RAYS;
+    scene->rays = scene->bench->options.quick ? RAYS_OF_QUICK : RAYS;
     scene->refused = !bench_studio_make(scene->bench, &desc, &scene->studio);
     if (scene->refused) return false;
     set_shot(scene);
@@ -158,7 +158,7 @@ static bool need(struct scene* scene)
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &scene->texture);
         glTextureBuffer(scene->texture, GL_R32F, scene->buffer);
     }
-    scene->alive   = scene->alive && find_truth(scene);
+    scene->alive = scene->alive && find_truth(scene);
     scene->refused = !scene->alive;
     return scene->alive;
 }
@@ -177,10 +177,10 @@ static bool by_layers(struct scene* scene, const float* with)
 static const struct method {
     const char* name;
     bool (*find)(struct scene* scene, const float* with); // NULL: the library's own
-    float       with[3];
-    uint32_t    count;  // of layers
+    float with[3];
+    uint32_t count; // of layers
     hair_shadow shadow; // of the library
-    bool        unmapped;
+    bool unmapped;
 } methods[] = {{"depth", NULL, {0}, 0, HAIR_SHADOW_DEPTH, false},
                {"strands", NULL, {0.004f}, 0, HAIR_SHADOW_STRANDS, false},
                {"grid", NULL, {0.012f}, 0, HAIR_SHADOW_STRANDS, true},
@@ -201,10 +201,10 @@ static double time_of(struct scene* scene)
 
 static bool look(struct scene* scene, const struct method* method)
 {
-    struct bench_picture    picture = {0};
+    struct bench_picture picture = {0};
     struct hair_image_error error;
     scene->shot.look.shadow = method->shadow;
-    scene->shot.unmapped    = method->unmapped;
+    scene->shot.unmapped = method->unmapped;
     if (method->shadow == HAIR_SHADOW_STRANDS) scene->shot.look.voxel = method->with[0];
     bool ok = (!method->find || method->find(scene, method->with)) &&
               take(scene, method->find ? scene->by_table : scene->by_library, &picture) &&
@@ -235,17 +235,17 @@ static bool look(struct scene* scene, const struct method* method)
 // m^2 across the light.
 static bool shade_by_rays(const struct scene* scene, double* area)
 {
-    const struct bench_strands* s    = &scene->strands;
-    double                      r    = (double)s->radius;
-    struct hair_reference_rays  rays = {.count = SHADE_RAYS, .stopped = calloc(SHADE_RAYS, SHADE_RAYS)};
+    const struct bench_strands* s = &scene->strands;
+    double r = (double)s->radius;
+    struct hair_reference_rays rays = {.count = SHADE_RAYS, .stopped = calloc(SHADE_RAYS, SHADE_RAYS)};
     if (!rays.stopped) return false;
     for (int k = 0; k < 2; ++k) {
         rays.lower[k] = (double)s->lower[k] - r;
-        rays.side     = fmax(rays.side, (double)(s->upper[k] - s->lower[k]) + 2 * r);
+        rays.side = fmax(rays.side, (double)(s->upper[k] - s->lower[k]) + 2 * r);
     }
     for (uint32_t v = 0; v < s->count * s->each; ++v) {
-        const float* p    = s->seen + 3 * (size_t)v;
-        double       a[2] = {(double)p[0], (double)p[1]}, b[2];
+        const float* p = s->seen + 3 * (size_t)v;
+        double a[2] = {(double)p[0], (double)p[1]}, b[2];
         if (v % s->each == s->each - 1) continue;
         b[0] = (double)p[3], b[1] = (double)p[4];
         hair_reference_stop(&rays, a, b, r, r);
@@ -260,10 +260,10 @@ static bool shade_by_map(struct scene* scene, GLsizei size, double* area)
 {
     struct bench_studio* studio = &scene->studio;
     struct hair_matrices light;
-    hair_view            view = hair_view_default();
-    float                none = 0, *texels = malloc((size_t)size * (size_t)size * sizeof *texels);
-    double               texel = 2 * (double)studio->reach / size;
-    GLuint               framebuffer, texture;
+    hair_view view = hair_view_default();
+    float none = 0, *texels = malloc((size_t)size * (size_t)size * sizeof *texels);
+    double texel = 2 * (double)studio->reach / size;
+    GLuint framebuffer, texture;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, GL_R16F, size, size);

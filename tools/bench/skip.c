@@ -19,14 +19,14 @@ static const char* const columns[] = {"case",       "method",         "scene", "
 // A row of heads, of which the first `moving` are shaken; `seen` of them are in view.
 struct scene {
     uint32_t heads, moving, seen;
-    bool     sleeps, solids, fluid, blind; // blind: nothing is drawn
+    bool sleeps, solids, fluid, blind; // blind: nothing is drawn
     uint32_t lights;
     enum { NO_DEPTH, NO_WALL, WALL } before; // in a buffer of depth, which
-    bool lends;                              // it lends the view
+    bool lends; // it lends the view
 };
 
 static const struct pair {
-    const char*  name;
+    const char* name;
     struct scene all, less;
 } pairs[] = {
     {"idle head",
@@ -50,22 +50,22 @@ static const struct pair {
 };
 
 struct heads {
-    struct bench*  bench;
-    struct scene   scene;
-    hair_groom*    groom;
+    struct bench* bench;
+    struct scene scene;
+    hair_groom* groom;
     hair_instance* hair[MOST_HEADS];
-    GLuint         frame, color, depth;
-    uint32_t       frames;
+    GLuint frame, color, depth;
+    uint32_t frames;
 };
 
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     hair_style_desc style = hair_style_desc_default();
-    hair_groom_desc desc  = hair_groom_desc_default();
-    hair_asset*     asset = NULL;
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_asset* asset = NULL;
     style.host = desc.host = &bench->host;
-    style.guide_count      = 64;
-    hair_result result     = hair_asset_generate(&style, &asset);
+    style.guide_count = 64;
+    hair_result result = hair_asset_generate(&style, &asset);
     if (!result) result = hair_asset_fill(asset, &desc);
     desc.follower_count = bench->options.strands ? bench->options.strands : 2000;
     if (!result) result = hair_groom_create(&desc, out);
@@ -85,10 +85,10 @@ static void die(struct heads* heads)
 static hair_result live(struct heads* heads)
 {
     hair_physics physics = hair_physics_default();
-    hair_desc    desc    = hair_desc_default();
-    desc.physics         = &physics;
-    physics.sleep        = heads->scene.sleeps ? 1e-3f : 0;
-    hair_result result   = make_groom(heads->bench, &heads->groom);
+    hair_desc desc = hair_desc_default();
+    desc.physics = &physics;
+    physics.sleep = heads->scene.sleeps ? 1e-3f : 0;
+    hair_result result = make_groom(heads->bench, &heads->groom);
     for (uint32_t i = 0; i < heads->scene.heads && !result; ++i) {
         result = hair_create(heads->bench->context, heads->groom, &desc, &heads->hair[i]);
         if (!result && heads->scene.solids) {
@@ -97,10 +97,10 @@ static hair_result live(struct heads* heads)
             result = hair_set_solids(heads->hair[i], &solid, 1, sizeof solid);
         }
         if (!result && heads->scene.fluid) {
-            hair_wind wind   = hair_wind_default();
-            wind.model       = HAIR_WIND_FLUID;
+            hair_wind wind = hair_wind_default();
+            wind.model = HAIR_WIND_FLUID;
             wind.velocity[0] = 2;
-            result           = hair_set_wind(heads->hair[i], &wind);
+            result = hair_set_wind(heads->hair[i], &wind);
         }
     }
     glCreateFramebuffers(1, &heads->frame);
@@ -117,12 +117,12 @@ static hair_result live(struct heads* heads)
 // Heads stand 2 m apart; each of those in view has a view of its own, the others one that looks past them.
 static hair_result run_frame(struct heads* heads, bool draws)
 {
-    hair_view   view   = hair_view_default();
+    hair_view view = hair_view_default();
     hair_result result = HAIR_OK;
-    float       angle  = 0.4f * sinf(0.15f * (float)heads->frames++);
+    float angle = 0.4f * sinf(0.15f * (float)heads->frames++);
     view.projection[0] = view.projection[5] = view.projection[10] = 2.5f;
-    view.view[13]                                                 = -1.5f;
-    view.light_count                                              = heads->scene.lights;
+    view.view[13] = -1.5f;
+    view.light_count = heads->scene.lights;
     glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
     glViewport(0, 0, SIZE, SIZE);
     view.depth_texture = heads->scene.lends ? heads->depth : 0;
@@ -134,10 +134,10 @@ static hair_result run_frame(struct heads* heads, bool draws)
         glDisable(GL_DEPTH_TEST);
     }
     for (uint32_t i = 0; i < heads->scene.heads && !result; ++i) {
-        float       a = i < heads->scene.moving ? angle : 0, x = 2 * (float)i;
+        float a = i < heads->scene.moving ? angle : 0, x = 2 * (float)i;
         const float head[16] = {cosf(a), 0, -sinf(a), 0, 0, 1, 0, 0, sinf(a), 0, cosf(a), 0, x, 0, 0, 1};
-        view.view[12]        = -x - (i < heads->scene.seen ? 0 : 50);
-        result               = hair_set_transform(heads->hair[i], head);
+        view.view[12] = -x - (i < heads->scene.seen ? 0 : 50);
+        result = hair_set_transform(heads->hair[i], head);
         if (!result) result = hair_step(heads->hair[i], 1.0f / 60);
         if (!result && draws) result = hair_draw(heads->hair[i], &view);
     }
@@ -154,24 +154,24 @@ static int compare(const void* a, const void* b)
 static bool measure(struct bench* bench, const struct scene* scene, double* ms, uint32_t* runs, json_t* row)
 {
     struct heads heads = {.bench = bench, .scene = *scene};
-    double       times[MOST_RUNS], start = hair_now();
-    hair_result  result = live(&heads);
-    uint32_t     rest   = scene->sleeps && scene->moving < scene->heads ? REST : 10;
+    double times[MOST_RUNS], start = hair_now();
+    hair_result result = live(&heads);
+    uint32_t rest = scene->sleeps && scene->moving < scene->heads ? REST : 10;
     for (uint32_t i = 0; i < rest && !result; ++i) {
         result = run_frame(&heads, i == 0);
         glFinish(); // hair falls asleep by what has come back, and a GPU far behind would still be at it when measured
     }
     uint32_t most = bench->options.quick ? 3 : MOST_RUNS;
-    start         = hair_now();
+    start = hair_now();
     for (*runs = 0; *runs < most && !result && (*runs < 3 || hair_now() - start < 4000); ++*runs) {
         double begin = hair_now();
-        result       = run_frame(&heads, !scene->blind);
+        result = run_frame(&heads, !scene->blind);
         glFinish();
         times[*runs] = hair_now() - begin;
     }
     hair_report_info info = hair_report_info_default();
-    hair_report_row  works[64];
-    uint32_t         count = 0, ran = 0;
+    hair_report_row works[64];
+    uint32_t count = 0, ran = 0;
     if (!result) result = hair_report(heads.hair[0], 1, &info, works, sizeof *works, 64, &count);
     for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].why == HAIR_WHY_DONE;
     if (!result) {
@@ -190,7 +190,7 @@ static bool measure(struct bench* bench, const struct scene* scene, double* ms, 
 static void run(struct bench* bench)
 {
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
-        double   all = 0, less = 0;
+        double all = 0, less = 0;
         uint32_t runs = 0;
         if (bench->options.quick && pairs[i].all.heads > 1) continue;
         if (!bench_begin(bench, pairs[i].name, "direct")) continue;

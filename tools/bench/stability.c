@@ -62,7 +62,7 @@ static double distance(const double* a, const double* b)
 static double stretch_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_living* living = watch->living;
-    double                     most = 0, farthest[3] = {0}, none[3] = {0}, away = 0;
+    double most = 0, farthest[3] = {0}, none[3] = {0}, away = 0;
     for (uint32_t i = 0; i < 3 * living->scene->vertices; ++i)
         farthest[i % 3] = fmax(farthest[i % 3], fabs(positions[i]));
     for (uint32_t i = 0; i < living->scene->vertices; ++i)
@@ -70,7 +70,7 @@ static double stretch_of(const struct bench_watch* watch, const double* position
     double resolved = 1.2e-7 * (distance(farthest, none) + away);
     for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
         double off = fabs(distance(positions + 3 * i, positions + 3 * i + 3) - living->lengths[i]);
-        most       = fmax(most, (off - resolved) / living->lengths[i]);
+        most = fmax(most, (off - resolved) / living->lengths[i]);
     }
     return most;
 }
@@ -79,11 +79,11 @@ static double stretch_of(const struct bench_watch* watch, const double* position
 static double depth_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_scene* scene = watch->living->scene;
-    double                    most  = 0;
+    double most = 0;
     for (uint32_t s = 0; s < watch->solid_count; ++s) {
-        const hair_solid* solid     = &watch->solids[s];
-        const double      centre[3] = {(double)solid->position[0], (double)solid->position[1],
-                                       (double)solid->position[2]};
+        const hair_solid* solid = &watch->solids[s];
+        const double centre[3] = {(double)solid->position[0], (double)solid->position[1],
+                                  (double)solid->position[2]};
         for (uint32_t i = scene->solver == HAIR_SOLVER_REDBLACK ? 2 : 1; i < scene->vertices; ++i)
             most = fmax(most, (double)solid->size[0] - distance(positions + 3 * i, centre));
     }
@@ -93,8 +93,8 @@ static double depth_of(const struct bench_watch* watch, const double* positions)
 static void look(struct bench_watch* watch, const double* now, double passed)
 {
     const struct bench_living* living = watch->living;
-    uint32_t                   count  = living->scene->vertices;
-    watch->finite                     = watch->finite && bench_are_finite(now, count);
+    uint32_t count = living->scene->vertices;
+    watch->finite = watch->finite && bench_are_finite(now, count);
     if (!watch->finite) return;
     watch->stretch = fmax(watch->stretch, stretch_of(watch, now));
     for (uint32_t i = 0; i < count && passed > 0; ++i)
@@ -112,7 +112,7 @@ bool bench_watch(struct bench_living* living, struct bench_watch* out)
 bool bench_watch_step(struct bench_watch* watch, double dt)
 {
     struct bench_living* living = watch->living;
-    double               now[3 * BENCH_MOST_VERTICES];
+    double now[3 * BENCH_MOST_VERTICES];
     // The hair moves only in whole substeps: a speed is by the time that they took.
     double done = floor(watch->time / living->substep + 1e-4);
     if (hair_set_solids(living->hair, watch->solids, watch->solid_count, sizeof *watch->solids)) return false;
@@ -127,7 +127,7 @@ bool bench_watch_step(struct bench_watch* watch, double dt)
 
 json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch)
 {
-    bool    rod = living->scene->solver != HAIR_SOLVER_REDBLACK;
+    bool rod = living->scene->solver != HAIR_SOLVER_REDBLACK;
     json_t* row = bench_rows_add(&living->bench->rows);
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(living->scene->solver));
@@ -148,8 +148,8 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
     struct bench_scene scene = *watch->living->scene;
     if (scene.solver == HAIR_SOLVER_REDBLACK) return false; // It has no material.
     memcpy(scene.positions, watch->living->positions, sizeof scene.positions);
-    scene.physics                  = watch->calm;
-    scene.head                     = watch->head;
+    scene.physics = watch->calm;
+    scene.head = watch->head;
     struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod) return false;
     bool found = hair_reference_rod_rest(rod).converged;
@@ -163,8 +163,8 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
 static bool recover(struct bench_watch* watch, const double* rest, double* seconds)
 {
     struct bench_living* living = watch->living;
-    watch->solid_count          = 0;
-    *seconds                    = 0;
+    watch->solid_count = 0;
+    *seconds = 0;
     if (hair_set_physics(living->hair, &watch->calm) || hair_set_wind(living->hair, NULL)) return false;
     for (int k = 1; k <= 360; ++k) {
         if (!bench_watch_step(watch, FRAME)) return false;
@@ -180,9 +180,9 @@ static bool recover(struct bench_watch* watch, const double* rest, double* secon
 
 static void add_row(struct bench_watch* watch, const char* name, const double* rest)
 {
-    struct bench_living* living  = watch->living;
-    hair_health          health  = hair_health_default();
-    double               seconds = NAN;
+    struct bench_living* living = watch->living;
+    hair_health health = hair_health_default();
+    double seconds = NAN;
     if (hair_get_health(living->hair, &health) || (rest && !recover(watch, rest, &seconds))) {
         bench_refuse(living->bench, name, bench_solver_name(living->scene->solver));
         return;
@@ -199,15 +199,15 @@ static void add_row(struct bench_watch* watch, const char* name, const double* r
 
 static struct bench_scene make_scene(const struct bench* bench, hair_solver solver)
 {
-    const double       root[3] = {0.1, 0, 0}, along[3] = {cos(BENCH_PI / 6), -sin(BENCH_PI / 6), 0};
+    const double root[3] = {0.1, 0, 0}, along[3] = {cos(BENCH_PI / 6), -sin(BENCH_PI / 6), 0};
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, 32, 0.3, root, along);
-    scene.solver               = solver;
-    scene.mapping              = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
-    scene.substep              = solver == HAIR_SOLVER_REDBLACK ? FRAME : 0;
-    scene.physics.damping      = 4;
-    scene.physics.margin       = 0.001f;
-    scene.physics.young        = 3e9f;
+    scene.solver = solver;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.substep = solver == HAIR_SOLVER_REDBLACK ? FRAME : 0;
+    scene.physics.damping = 4;
+    scene.physics.margin = 0.001f;
+    scene.physics.young = 3e9f;
     scene.physics.fiber_radius = 5e-5f;
     return scene;
 }
@@ -216,10 +216,10 @@ static void measure(struct bench* bench, const struct bench_stress* stress, hair
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, stress->name, method)) return;
-    double              rest[3 * BENCH_MOST_VERTICES];
-    struct bench_scene  scene = make_scene(bench, solver);
+    double rest[3 * BENCH_MOST_VERTICES];
+    struct bench_scene scene = make_scene(bench, solver);
     struct bench_living living;
-    struct bench_watch  watch;
+    struct bench_watch watch;
     if (stress->prepare) stress->prepare(&scene);
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, stress->name, method);

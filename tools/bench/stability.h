@@ -9,17 +9,17 @@
 #define BENCH_MOST_SOLIDS 128
 
 struct bench_watch {
-    struct bench_living*           living;
-    hair_physics                   calm; // of the time after the stress; the scene's own to begin with
+    struct bench_living* living;
+    hair_physics calm; // of the time after the stress; the scene's own to begin with
     struct hair_reference_rod_pose head;
-    hair_solid                     solids[BENCH_MOST_SOLIDS];
-    uint32_t                       solid_count;
-    bool                           had_solids;
-    double                         spared; // s from now: depth in solids does not count yet
+    hair_solid solids[BENCH_MOST_SOLIDS];
+    uint32_t solid_count;
+    bool had_solids;
+    double spared; // s from now: depth in solids does not count yet
 
-    bool   finite;
+    bool finite;
     double stretch, speed, penetration; // greatest so far
-    double time;                        // s stepped
+    double time; // s stepped
     double before[3 * BENCH_MOST_VERTICES];
 };
 
@@ -48,8 +48,8 @@ bool bench_rest_must_sleep(hair_solver solver);
 struct bench_stress {
     const char* name;
     void (*prepare)(struct bench_scene* scene); // NULL: as it is
-    bool (*run)(struct bench_watch* watch);     // the stress
-    bool rods;                                  // redblack has nothing that it could be put on
+    bool (*run)(struct bench_watch* watch); // the stress
+    bool rods; // redblack has nothing that it could be put on
 };
 extern const struct bench_stress bench_stresses[]; // stability_stresses.c; ends with a name of NULL
 

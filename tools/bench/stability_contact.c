@@ -10,12 +10,12 @@
 
 struct contact {
     const char* name;
-    uint32_t    vertices;
-    double      x, y;    // m, of the roots
-    double      dip;     // rad, of the strands below the horizontal
-    bool        is_free; // Roots are let go too.
-    hair_shape  shape;
-    float       position[3], rotation[4], size[3];
+    uint32_t vertices;
+    double x, y; // m, of the roots
+    double dip; // rad, of the strands below the horizontal
+    bool is_free; // Roots are let go too.
+    hair_shape shape;
+    float position[3], rotation[4], size[3];
 };
 
 // clang-format off
@@ -52,35 +52,35 @@ static const struct contact contacts[] = {
 // A fan: roots 1 cm apart along z, each strand turned a little more than the one before.
 static hair_result make_groom(struct bench* bench, const struct contact* contact, hair_groom** out)
 {
-    float           positions[3 * STRANDS * BENCH_MOST_VERTICES];
-    uint32_t        vertices[STRANDS];
+    float positions[3 * STRANDS * BENCH_MOST_VERTICES];
+    uint32_t vertices[STRANDS];
     hair_groom_desc desc = hair_groom_desc_default();
     for (uint32_t s = 0; s < STRANDS; ++s) {
         double across = 0.01 * s - 0.035, turn = 0.05 * s - 0.175;
         vertices[s] = contact->vertices;
         for (uint32_t i = 0; i < contact->vertices; ++i) {
-            float* p      = positions + 3 * ((size_t)s * contact->vertices + i);
+            float* p = positions + 3 * ((size_t)s * contact->vertices + i);
             double length = LENGTH * i / (contact->vertices - 1);
-            double level  = cos(contact->dip) * length;
-            p[0]          = (float)(contact->x + cos(turn) * level);
-            p[1]          = (float)(contact->y - sin(contact->dip) * length);
-            p[2]          = (float)(across + sin(turn) * level);
+            double level = cos(contact->dip) * length;
+            p[0] = (float)(contact->x + cos(turn) * level);
+            p[1] = (float)(contact->y - sin(contact->dip) * length);
+            p[2] = (float)(across + sin(turn) * level);
         }
     }
-    desc.host            = &bench->host;
-    desc.positions       = positions;
+    desc.host = &bench->host;
+    desc.positions = positions;
     desc.strand_vertices = vertices;
-    desc.strand_count    = STRANDS;
-    desc.strands_are     = HAIR_STRANDS_GUIDES;
-    desc.guide_vertices  = contact->vertices;
-    desc.follower_count  = 0;
+    desc.strand_count = STRANDS;
+    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.guide_vertices = contact->vertices;
+    desc.follower_count = 0;
     return hair_groom_create(&desc, out);
 }
 
 static hair_result add_collider(const struct contact* contact, hair_instance* hair)
 {
     hair_solid solid = hair_solid_default();
-    solid.shape      = contact->shape;
+    solid.shape = contact->shape;
     memcpy(solid.position, contact->position, sizeof solid.position);
     memcpy(solid.rotation, contact->rotation, sizeof solid.rotation);
     memcpy(solid.size, contact->size, sizeof solid.size);
@@ -89,13 +89,13 @@ static hair_result add_collider(const struct contact* contact, hair_instance* ha
 
 static bool run(struct bench* bench, const char* name, hair_instance* hair, const struct bench_scene* scene)
 {
-    struct bench_rest_desc desc   = {20, 0.5, 30, bench_was_interrupted};
-    struct bench_living    living = {.bench = bench, .scene = scene};
-    hair_health            health = hair_health_default();
-    struct bench_rest      rest;
+    struct bench_rest_desc desc = {20, 0.5, 30, bench_was_interrupted};
+    struct bench_living living = {.bench = bench, .scene = scene};
+    hair_health health = hair_health_default();
+    struct bench_rest rest;
     if (!bench_measure_rest(hair, STRANDS, scene->vertices, &desc, &rest)) return false;
     if (hair_get_health(hair, &health)) return false;
-    json_t* row    = bench_rows_add(&bench->rows);
+    json_t* row = bench_rows_add(&bench->rows);
     living.substep = (double)health.substep;
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
@@ -110,24 +110,24 @@ static bool run(struct bench* bench, const char* name, hair_instance* hair, cons
 
 static void measure(struct bench* bench, const struct contact* contact, hair_solver solver)
 {
-    char        name[32];
+    char name[32];
     const char* method = bench_solver_name(solver);
     snprintf(name, sizeof name, "contact %s", contact->name);
     if (!bench_begin(bench, name, method)) return;
-    hair_groom*        groom = NULL;
-    hair_instance*     hair  = NULL;
+    hair_groom* groom = NULL;
+    hair_instance* hair = NULL;
     struct bench_scene scene = bench_scene_default();
-    hair_desc          desc  = hair_desc_default();
-    scene.physics            = hair_physics_default();
+    hair_desc desc = hair_desc_default();
+    scene.physics = hair_physics_default();
     scene.physics.pull_root = scene.physics.pull_tip = scene.physics.hold = 0;
-    scene.physics.damping                                                 = 4;
+    scene.physics.damping = 4;
     scene.physics.root = contact->is_free ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
-    scene.vertices     = contact->vertices;
-    scene.solver       = solver;
-    scene.mapping      = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
-    desc.physics       = &scene.physics;
-    desc.solver        = solver;
-    desc.mapping       = scene.mapping;
+    scene.vertices = contact->vertices;
+    scene.solver = solver;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    desc.physics = &scene.physics;
+    desc.solver = solver;
+    desc.mapping = scene.mapping;
     if (make_groom(bench, contact, &groom) || hair_create(bench->context, groom, &desc, &hair) ||
         add_collider(contact, hair) || !run(bench, name, hair, &scene))
         bench_refuse(bench, name, method);
@@ -145,7 +145,7 @@ void bench_rest_contacts(struct bench* bench)
 {
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
-    bool                     quick     = bench->options.quick;
+    bool quick = bench->options.quick;
     for (size_t i = 0; i < (quick ? 1 : CONTACTS); ++i)
         for (int s = 0; s < (quick ? 1 : 4); ++s)
             if (is_known(solvers[s], contacts[i].shape)) measure(bench, &contacts[i], solvers[s]);

@@ -8,27 +8,27 @@
 
 #define TURNS 5
 #define SECONDS 10.0
-#define NUDGE 0.05         // s
+#define NUDGE 0.05 // s
 #define NUDGE_GRAVITY 0.2f // m/s^2: 10 mm/s at its end. Soft coils creep back for long after more.
 #define MAX_ENERGY 1.01
 
 struct curl {
-    struct bench_living        living;
+    struct bench_living living;
     struct hair_reference_rod* rod; // NULL: follow and redblack have no energy.
-    hair_physics               calm;
-    double                     time;
-    double                     start;      // J, after the nudge
-    double                     max_energy; // J
-    double                     max_speed;  // m/s, in the last half second
-    double                     at[3][3 * BENCH_MOST_VERTICES];
-    bool                       finite;
+    hair_physics calm;
+    double time;
+    double start; // J, after the nudge
+    double max_energy; // J
+    double max_speed; // m/s, in the last half second
+    double at[3][3 * BENCH_MOST_VERTICES];
+    bool finite;
 };
 
 // Energy without that of the centre of mass, whose motion costs a free coil nothing.
 static double find_energy(struct curl* curl, double h)
 {
     uint32_t vertices = curl->living.scene->vertices;
-    double   velocities[3 * BENCH_MOST_VERTICES], masses[BENCH_MOST_VERTICES], momentum[3] = {0}, mass = 0;
+    double velocities[3 * BENCH_MOST_VERTICES], masses[BENCH_MOST_VERTICES], momentum[3] = {0}, mass = 0;
     for (uint32_t i = 0; i < 3 * vertices; ++i) velocities[i] = (curl->at[2][i] - curl->at[0][i]) / (2 * h);
     hair_reference_rod_set_state(curl->rod, curl->at[1], velocities);
     hair_reference_rod_masses(curl->rod, masses);
@@ -36,7 +36,7 @@ static double find_energy(struct curl* curl, double h)
     for (uint32_t i = 0; i < vertices; ++i) mass += masses[i];
     for (uint32_t i = 0; i < 3 * vertices; ++i) momentum[i % 3] += masses[i / 3] * velocities[i];
     double squares = pow(momentum[0], 2) + pow(momentum[1], 2) + pow(momentum[2], 2);
-    bool   is_free = curl->living.scene->physics.root == HAIR_ROOT_FREE;
+    bool is_free = curl->living.scene->physics.root == HAIR_ROOT_FREE;
     return energy.kinetic + energy.elastic - (is_free ? squares / (2 * mass) : 0);
 }
 
@@ -56,7 +56,7 @@ static double find_speed(const struct curl* curl, double h)
 static bool step_frame(struct curl* curl)
 {
     struct bench_living* living = &curl->living;
-    double               h = living->substep, count = fmax(round(1 / (60 * h)), 2);
+    double h = living->substep, count = fmax(round(1 / (60 * h)), 2);
     if (!bench_step(living, NULL, (count - 2) * h) || !bench_read(living, curl->at[0])) return false;
     for (int k = 1; k < 3; ++k)
         if (!bench_step(living, NULL, h) || !bench_read(living, curl->at[k])) return false;
@@ -69,8 +69,8 @@ static bool step_frame(struct curl* curl)
 static bool nudge(struct curl* curl)
 {
     struct bench_living* living = &curl->living;
-    hair_physics         push   = curl->calm;
-    push.root                   = HAIR_ROOT_CLAMPED; // A free coil would only fall.
+    hair_physics push = curl->calm;
+    push.root = HAIR_ROOT_CLAMPED; // A free coil would only fall.
     push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
     double h = living->substep, count = ceil(NUDGE / h);
     return !hair_set_physics(living->hair, &push) && bench_step(living, &living->scene->head, count * h) &&
@@ -94,13 +94,13 @@ static bool run(struct curl* curl)
 
 static void add_row(struct curl* curl, const char* name, double radius, uint32_t each)
 {
-    static const char* const  roots[] = {"clamped", "hinged", "free"};
-    struct bench_living*      living  = &curl->living;
-    const struct bench_scene* scene   = living->scene;
-    hair_health               health  = hair_health_default();
-    json_t*                   row     = bench_rows_add(&living->bench->rows);
-    bool                      damped = scene->physics.damping > 0, pass = curl->finite;
-    double                    ratio = curl->max_energy / curl->start;
+    static const char* const roots[] = {"clamped", "hinged", "free"};
+    struct bench_living* living = &curl->living;
+    const struct bench_scene* scene = living->scene;
+    hair_health health = hair_health_default();
+    json_t* row = bench_rows_add(&living->bench->rows);
+    bool damped = scene->physics.damping > 0, pass = curl->finite;
+    double ratio = curl->max_energy / curl->start;
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
@@ -121,11 +121,11 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
 static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, double radius,
                                      uint32_t each)
 {
-    struct bench_coil  coil  = {radius, 4 * radius, TURNS, TURNS * each + 1};
+    struct bench_coil coil = {radius, 4 * radius, TURNS, TURNS * each + 1};
     struct bench_scene scene = bench_scene_default();
     bench_scene_coil(&scene, &coil);
-    scene.solver             = solver;
-    scene.mapping            = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
     scene.physics.gravity[1] = 0;
     if (solver == HAIR_SOLVER_REDBLACK) scene.physics.angular = hair_physics_default().angular;
     return scene;
@@ -133,15 +133,15 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
 
 static void measure(struct bench* bench, double radius, uint32_t each, hair_solver solver, int variant)
 {
-    char        name[32];
+    char name[32];
     const char* method = bench_solver_name(solver);
     snprintf(name, sizeof name, "rest curl %g", 1000 * radius);
     if (!bench_begin(bench, name, method)) return;
-    struct curl        curl  = {.finite = true};
+    struct curl curl = {.finite = true};
     struct bench_scene scene = make_scene(bench, solver, radius, each);
-    scene.physics.root       = variant % 2 ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
-    scene.physics.damping    = variant / 2 ? 4 : 0;
-    curl.calm                = scene.physics;
+    scene.physics.root = variant % 2 ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
+    scene.physics.damping = variant / 2 ? 4 : 0;
+    curl.calm = scene.physics;
     if (!bench_live(bench, &scene, &curl.living)) {
         bench_refuse(bench, name, method);
         return;
@@ -157,11 +157,11 @@ static void measure(struct bench* bench, double radius, uint32_t each, hair_solv
 
 void bench_rest_curls(struct bench* bench)
 {
-    static const double      radii[]   = {0.002, 0.003, 0.0045, 0.006, 0.008, 0.012, 0.02};
-    static const uint32_t    each[]    = {6, 12, 20};
+    static const double radii[] = {0.002, 0.003, 0.0045, 0.006, 0.008, 0.012, 0.02};
+    static const uint32_t each[] = {6, 12, 20};
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
-    bool                     quick     = bench->options.quick;
+    bool quick = bench->options.quick;
     for (size_t r = quick ? 3 : 0; r < (quick ? 4 : sizeof radii / sizeof *radii); ++r)
         for (int s = 0; s < 4; ++s)
             for (int k = quick ? 1 : 0; k < (quick ? 2 : 3); ++k)

@@ -13,8 +13,8 @@
 static uint64_t draw(uint64_t* state)
 {
     uint64_t x = *state += 0x9e3779b97f4a7c15u;
-    x          = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x          = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
@@ -58,30 +58,30 @@ static void any_vector(uint64_t* state, double longest, float out[3])
 
 static void any_physics(uint64_t* state, hair_physics* p, hair_wind* wind)
 {
-    p->damping        = any(state, 4, 0, 1000);
-    p->pull_root      = any(state, 4, 0, 30);
-    p->pull_tip       = any(state, 1, 0, 30);
-    p->angular        = any(state, 8, 0, 30);
-    p->bend           = any(state, 0.1, 0, 1);
-    p->iterations     = 1 + one_of(state, 30);
-    p->margin         = any(state, 0.001, 0, 0.1);
-    p->young          = any(state, 4e9, 0, 1e12);
-    p->poisson        = any(state, 0.45, 0, 0.5);
-    p->fiber_radius   = any(state, 4e-5, 1e-6, 1e-3);
-    p->fiber_density  = any(state, 1300, 1, 1e5);
-    p->flatness       = any(state, 0.8, 0.03, 1);
+    p->damping = any(state, 4, 0, 1000);
+    p->pull_root = any(state, 4, 0, 30);
+    p->pull_tip = any(state, 1, 0, 30);
+    p->angular = any(state, 8, 0, 30);
+    p->bend = any(state, 0.1, 0, 1);
+    p->iterations = 1 + one_of(state, 30);
+    p->margin = any(state, 0.001, 0, 0.1);
+    p->young = any(state, 4e9, 0, 1e12);
+    p->poisson = any(state, 0.45, 0, 0.5);
+    p->fiber_radius = any(state, 4e-5, 1e-6, 1e-3);
+    p->fiber_density = any(state, 1300, 1, 1e5);
+    p->flatness = any(state, 0.8, 0.03, 1);
     p->stiffness_root = any(state, 1, 0, 1e4);
-    p->stiffness_tip  = any(state, 1, 0, 1e4);
-    p->hold           = any(state, 1, 0, 1);
-    p->root           = one_of(state, 4) ? HAIR_ROOT_CLAMPED : (hair_root)one_of(state, 3);
-    p->tip_mass       = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
-    p->friction       = any(state, 0.3, 0, 10);
+    p->stiffness_tip = any(state, 1, 0, 1e4);
+    p->hold = any(state, 1, 0, 1);
+    p->root = one_of(state, 4) ? HAIR_ROOT_CLAMPED : (hair_root)one_of(state, 3);
+    p->tip_mass = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
+    p->friction = any(state, 0.3, 0, 10);
     any_vector(state, 1000, p->gravity);
     any_vector(state, 1000, wind->velocity);
     if (one_of(state, 2)) {
         p->gravity[0] = p->gravity[2] = 0;
-        p->gravity[1]                 = -9.81f;
-        *wind                         = hair_wind_default();
+        p->gravity[1] = -9.81f;
+        *wind = hair_wind_default();
     }
 }
 
@@ -101,7 +101,7 @@ static void any_strand(uint64_t* state, struct bench_scene* scene)
         any_direction(state, other);
         for (int k = 0; k < 3; ++k) {
             scene->positions[3 * i + (uint32_t)k] = (float)at[k];
-            d[k]                                  = along[k] + sin(curl * t) * across[k] + jag * other[k];
+            d[k] = along[k] + sin(curl * t) * across[k] + jag * other[k];
             norm += d[k] * d[k];
         }
         for (int k = 0; k < 3; ++k) at[k] += piece * d[k] / sqrt(norm + 1e-12);
@@ -114,26 +114,26 @@ static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, 
     any_strand(state, &scene);
     any_physics(state, &scene.physics, &scene.wind);
     scene.strands = 1 + one_of(state, 4);
-    scene.solver  = solver;
+    scene.solver = solver;
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
     scene.substep = one_of(state, 3) ? 0 : exp(even(state, log(3e-4), log(0.1)));
-    scene.max_dt  = one_of(state, 8) ? 0.1 : 1;
+    scene.max_dt = one_of(state, 8) ? 0.1 : 1;
     return scene;
 }
 
 static hair_solid any_solid(uint64_t* state)
 {
-    double     axis[3], angle = even(state, 0, BENCH_PI);
+    double axis[3], angle = even(state, 0, BENCH_PI);
     hair_solid solid = hair_solid_default();
-    solid.shape      = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
+    solid.shape = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
     any_direction(state, axis);
     for (int k = 0; k < 3; ++k) {
         solid.position[k] = (float)even(state, -0.3, 0.3);
         solid.rotation[k] = (float)(sin(angle / 2) * axis[k]);
     }
     solid.rotation[3] = (float)cos(angle / 2);
-    solid.size[0]     = any(state, 0.05, 0.001, 1);
-    solid.size[1]     = any(state, 0.05, 0, 1);
+    solid.size[0] = any(state, 0.05, 0.001, 1);
+    solid.size[1] = any(state, 0.05, 0, 1);
     return solid;
 }
 
@@ -141,9 +141,9 @@ static hair_solid any_solid(uint64_t* state)
 static hair_solid any_small_solid(uint64_t* state)
 {
     hair_solid solid = any_solid(state);
-    solid.shape      = (hair_shape)one_of(state, HAIR_SHAPE_PLANE);
-    solid.friction   = any(state, 1, 0, 100);
-    solid.rounding   = one_of(state, 3) ? 0 : (float)even(state, 0, 0.01);
+    solid.shape = (hair_shape)one_of(state, HAIR_SHAPE_PLANE);
+    solid.friction = any(state, 1, 0, 100);
+    solid.rounding = one_of(state, 3) ? 0 : (float)even(state, 0, 0.01);
     for (int k = 0; k < 3; ++k) solid.size[k] = (float)exp(even(state, log(0.002), log(0.03)));
     return solid;
 }
@@ -172,7 +172,7 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
 {
     double axis[3], far = one_of(state, 12) ? 0.02 : 5, turn = one_of(state, 12) ? 0.1 : BENCH_PI;
     any_direction(state, axis);
-    double x    = even(state, -turn, turn),
+    double x = even(state, -turn, turn),
            r[4] = {sin(x / 2) * axis[0], sin(x / 2) * axis[1], sin(x / 2) * axis[2], cos(x / 2)};
     double q[4], norm = 0;
     memcpy(q, head->rotation, sizeof q);
@@ -189,11 +189,11 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
 // One scene of eight has a crowd of solids, by draws of its own: the others are what they are without any.
 static bool any_steps(uint64_t* state, struct bench_watch* watch)
 {
-    hair_instance* hair  = watch->living->hair;
-    uint32_t       count = 24 + one_of(state, 12), few = 0;
-    uint64_t       own   = ~*state;
-    uint32_t       crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_SOLIDS - FEWEST - 4);
-    float          matrix[16];
+    hair_instance* hair = watch->living->hair;
+    uint32_t count = 24 + one_of(state, 12), few = 0;
+    uint64_t own = ~*state;
+    uint32_t crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_SOLIDS - FEWEST - 4);
+    float matrix[16];
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
         if (one_of(state, 16) == 0) {
@@ -217,14 +217,14 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
 static bool live_through(struct bench* bench, hair_solver solver, uint32_t number, struct bench_watch* all,
                          hair_health* health, uint32_t* worst)
 {
-    uint64_t            state = SEED + (uint64_t)number * 0x100000001b3u;
-    struct bench_scene  scene = any_scene(&state, bench, solver);
+    uint64_t state = SEED + (uint64_t)number * 0x100000001b3u;
+    struct bench_scene scene = any_scene(&state, bench, solver);
     struct bench_living living;
-    struct bench_watch  watch;
+    struct bench_watch watch;
     if (!bench_live(bench, &scene, &living)) return false;
     hair_solid none = {
         .shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}, .scale = 1, .friction = 1};
-    bool        ok  = bench_watch(&living, &watch);
+    bool ok = bench_watch(&living, &watch);
     hair_health own = hair_health_default();
     for (int s = 0; s < 4; ++s) watch.solids[s] = none;
     if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
@@ -234,9 +234,9 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
                           number, bench_solver_name(solver), watch.finite ? "finite" : "not finite",
                           watch.stretch, scene.vertices, own.euler, own.follow, own.reset);
         if (all->finite && (!watch.finite || watch.stretch >= all->stretch)) *worst = number;
-        all->finite  = all->finite && watch.finite;
+        all->finite = all->finite && watch.finite;
         all->stretch = fmax(all->stretch, watch.stretch);
-        all->speed   = fmax(all->speed, watch.speed);
+        all->speed = fmax(all->speed, watch.speed);
         health->euler += own.euler;
         health->parts += own.parts;
         health->follow += own.follow;
@@ -251,10 +251,10 @@ static void fuzz(struct bench* bench, hair_solver solver)
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "fuzz", method)) return;
-    struct bench_watch all    = {.finite = true};
-    hair_health        health = hair_health_default();
-    struct bench_scene scene  = bench_scene_default();
-    uint32_t           first = bench->options.scene, worst = first, lived = 0;
+    struct bench_watch all = {.finite = true};
+    hair_health health = hair_health_default();
+    struct bench_scene scene = bench_scene_default();
+    uint32_t first = bench->options.scene, worst = first, lived = 0;
     uint32_t count = bench->options.scenes ? bench->options.scenes : bench->options.quick ? 200 : 10000;
     for (uint32_t i = 0; i < count && !bench_was_interrupted(); ++i)
         lived += live_through(bench, solver, first + i, &all, &health, &worst);
@@ -262,10 +262,10 @@ static void fuzz(struct bench* bench, hair_solver solver)
         bench_refuse(bench, "fuzz", method);
         return;
     }
-    scene.solver               = solver;
-    scene.mapping              = bench->options.mapping;
+    scene.solver = solver;
+    scene.mapping = bench->options.mapping;
     struct bench_living living = {.bench = bench, .scene = &scene, .substep = NAN};
-    json_t*             row    = bench_stability_row(&living, "fuzz", &all);
+    json_t* row = bench_stability_row(&living, "fuzz", &all);
     bench_set_count(row, "euler", health.euler);
     bench_set_count(row, "parts", health.parts);
     bench_set_count(row, "follow", health.follow);

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#define GUIDES 166         // of a haircut by default
+#define GUIDES 166 // of a haircut by default
 #define GUIDES_SOFTWARE 16 // enough to see what thrashes, and what a processor can bear
 
 double bench_rest_limit(hair_solver solver)
@@ -24,14 +24,14 @@ bool bench_rest_must_sleep(hair_solver solver)
 static hair_result make_groom(struct bench* bench, hair_style style, uint32_t guides, uint32_t vertices,
                               hair_groom** out)
 {
-    hair_asset*     asset = NULL;
-    hair_style_desc desc  = hair_style_desc_default();
+    hair_asset* asset = NULL;
+    hair_style_desc desc = hair_style_desc_default();
     hair_groom_desc groom = hair_groom_desc_default();
     desc.host = groom.host = &bench->host;
-    desc.style             = style;
-    desc.guide_count       = guides;
-    desc.strand_vertices   = vertices;
-    hair_result result     = hair_asset_generate(&desc, &asset);
+    desc.style = style;
+    desc.guide_count = guides;
+    desc.strand_vertices = vertices;
+    hair_result result = hair_asset_generate(&desc, &asset);
     if (!result) result = hair_asset_fill(asset, &groom);
     groom.guide_vertices = vertices;
     groom.follower_count = 0;
@@ -44,10 +44,10 @@ static hair_result make_groom(struct bench* bench, hair_style style, uint32_t gu
 static hair_result add_head(hair_instance* hair)
 {
     struct hair_scene scene;
-    hair_solid        solids[HAIR_RIG_SOLIDS];
-    const float       still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    hair_solid solids[HAIR_RIG_SOLIDS];
+    const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_scene_default(&scene);
-    scene.head     = true;
+    scene.head = true;
     uint32_t count = hair_rig_solids(&scene, 0, still, solids);
     return hair_set_solids(hair, solids, count, sizeof *solids);
 }
@@ -57,7 +57,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
                     const hair_health* health)
 {
     struct bench_living living = {.bench = bench, .scene = scene, .substep = substep};
-    json_t*             row    = bench_rows_add(&bench->rows);
+    json_t* row = bench_rows_add(&bench->rows);
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", info->guide_vertex_count / info->guide_count);
@@ -71,7 +71,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
 void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest)
 {
     double limit = bench_rest_limit(solver);
-    bool   pass  = rest->finite && rest->max_speed <= limit;
+    bool pass = rest->finite && rest->max_speed <= limit;
     bench_set_flag(row, "finite", rest->finite);
     bench_set_number(row, "max_speed", rest->max_speed);
     bench_set_number(row, "moving_fraction", rest->moving_fraction);
@@ -83,10 +83,10 @@ void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* re
 static bool run(struct bench* bench, const char* name, hair_groom* groom, hair_instance* hair,
                 const struct bench_scene* scene, bool collides)
 {
-    struct bench_rest_desc desc   = bench_rest_desc_default();
-    hair_groom_info        info   = hair_groom_info_default();
-    hair_health            health = hair_health_default();
-    struct bench_rest      rest;
+    struct bench_rest_desc desc = bench_rest_desc_default();
+    hair_groom_info info = hair_groom_info_default();
+    hair_health health = hair_health_default();
+    struct bench_rest rest;
     desc.stop = bench_was_interrupted;
     if (hair_groom_describe(groom, &info) || (collides && add_head(hair))) return false;
     uint32_t vertices = info.guide_vertex_count / info.guide_count;
@@ -99,21 +99,21 @@ static bool run(struct bench* bench, const char* name, hair_groom* groom, hair_i
 static void measure(struct bench* bench, hair_style style, uint32_t vertices, hair_solver solver,
                     bool collides)
 {
-    char        name[32];
+    char name[32];
     const char* method = bench_solver_name(solver);
     snprintf(name, sizeof name, "rest %s %u", hair_style_name(style), vertices);
     if (!bench_begin(bench, name, method)) return;
-    uint32_t           guides = bench->options.quick || bench->software ? GUIDES_SOFTWARE : GUIDES;
-    hair_groom*        groom  = NULL;
-    hair_instance*     hair   = NULL;
-    struct bench_scene scene  = bench_scene_default();
-    hair_desc          desc   = hair_desc_default();
+    uint32_t guides = bench->options.quick || bench->software ? GUIDES_SOFTWARE : GUIDES;
+    hair_groom* groom = NULL;
+    hair_instance* hair = NULL;
+    struct bench_scene scene = bench_scene_default();
+    hair_desc desc = hair_desc_default();
     if (bench->options.strands) guides = bench->options.strands;
     scene.physics = hair_physics_default();
-    scene.solver  = solver;
+    scene.solver = solver;
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
-    desc.solver   = solver;
-    desc.mapping  = scene.mapping;
+    desc.solver = solver;
+    desc.mapping = scene.mapping;
     desc.diagnose = 1;
     if (make_groom(bench, style, guides, vertices, &groom) ||
         hair_create(bench->context, groom, &desc, &hair) || !run(bench, name, groom, hair, &scene, collides))
@@ -124,10 +124,10 @@ static void measure(struct bench* bench, hair_style style, uint32_t vertices, ha
 
 void bench_rest_haircuts(struct bench* bench)
 {
-    static const uint32_t    counts[]  = {32, 48, 64};
+    static const uint32_t counts[] = {32, 48, 64};
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
-    bool                     quick     = bench->options.quick;
+    bool quick = bench->options.quick;
     for (int style = 0; style < HAIR_STYLE_COUNT; style += quick ? HAIR_STYLE_CURLY : 1)
         for (int k = 0; k < (quick ? 1 : 3); ++k)
             for (int s = 0; s < 4; ++s)

@@ -104,7 +104,7 @@ static bool jump(struct bench_watch* watch)
 static bool spin(struct bench_watch* watch)
 {
     const double fastest = 2 * BENCH_PI * 10; // rad/s, after two seconds, for one, and ever less for two
-    double       angle   = 0;
+    double angle = 0;
     for (int k = 0; k < 300; ++k) {
         double t = (k + 0.5) * FRAME, share = fmin(fmin(t / 2, 1), (5 - t) / 2);
         angle += share * fastest * FRAME;
@@ -178,12 +178,12 @@ static bool shake_under(struct bench_watch* watch, const hair_physics* physics)
 static bool shake_in_honey(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
-    physics.damping      = 1000;
+    physics.damping = 1000;
     return shake_under(watch, &physics);
 }
 static bool blow(struct bench_watch* watch)
 {
-    hair_wind wind   = hair_wind_default();
+    hair_wind wind = hair_wind_default();
     wind.velocity[0] = 600;
     wind.velocity[2] = 800;
     return !hair_set_wind(watch->living->hair, &wind) && shake(watch, 2, FRAME);
@@ -196,14 +196,14 @@ static void crowd(struct bench_scene* scene)
 static bool shake_in_crowd(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
-    physics.cohesion     = 1000;
-    physics.volume       = 100;
+    physics.cohesion = 1000;
+    physics.volume = 100;
     return shake_under(watch, &physics);
 }
 static bool weigh(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
-    physics.gravity[1]   = -1000;
+    physics.gravity[1] = -1000;
     return shake_under(watch, &physics);
 }
 
@@ -235,8 +235,8 @@ static void have_256(struct bench_scene* scene)
 static void put(struct bench_scene* scene, uint32_t i, double at)
 {
     for (uint32_t k = 0; k < 3; ++k) {
-        double root                 = (double)scene->positions[k],
-               tip                  = (double)scene->positions[3 * (scene->vertices - 1) + k];
+        double root = (double)scene->positions[k],
+               tip = (double)scene->positions[3 * (scene->vertices - 1) + k];
         scene->positions[3 * i + k] = (float)(root + at * (tip - root));
     }
 }
@@ -255,11 +255,11 @@ static void gather_at_root(struct bench_scene* scene)
 
 static hair_solid ball_at(double x, double y, double z)
 {
-    return (hair_solid){.shape    = HAIR_SHAPE_SPHERE,
+    return (hair_solid){.shape = HAIR_SHAPE_SPHERE,
                         .position = {(float)x, (float)y, (float)z},
                         .rotation = {0, 0, 0, 1},
-                        .size     = {0.05f, 0},
-                        .scale    = 1,
+                        .size = {0.05f, 0},
+                        .scale = 1,
                         .friction = 1};
 }
 
@@ -268,7 +268,7 @@ static bool sweep(struct bench_watch* watch)
 {
     if (!stay(watch, 2, FRAME)) return false;
     for (int k = 0; k < 24; ++k) {
-        watch->solids[0]   = ball_at(0.15, -0.2, -1 + 5 * k * FRAME);
+        watch->solids[0] = ball_at(0.15, -0.2, -1 + 5 * k * FRAME);
         watch->solid_count = 1;
         if (!bench_watch_step(watch, FRAME)) return false;
     }
@@ -278,9 +278,9 @@ static bool sweep(struct bench_watch* watch)
 // The middle of the strand is in a ball, which leaves it a second to come out.
 static bool start_inside(struct bench_watch* watch)
 {
-    watch->solids[0]   = ball_at(0.1 + 0.15 * cos(BENCH_PI / 6), -0.15 * sin(BENCH_PI / 6) - 0.01, 0.005);
+    watch->solids[0] = ball_at(0.1 + 0.15 * cos(BENCH_PI / 6), -0.15 * sin(BENCH_PI / 6) - 0.01, 0.005);
     watch->solid_count = 1;
-    watch->spared      = 1;
+    watch->spared = 1;
     return stay(watch, 3, FRAME);
 }
 

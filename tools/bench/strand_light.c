@@ -22,7 +22,7 @@ bool bench_strands_make(const float* positions, uint32_t count, uint32_t each, f
                         const float to_light[3], struct bench_strands* out)
 {
     float z[3], x[3], y[3], l = 0;
-    *out      = (struct bench_strands){.count = count, .each = each, .radius = radius};
+    *out = (struct bench_strands){.count = count, .each = each, .radius = radius};
     out->seen = malloc((size_t)count * each * 3 * sizeof(float));
     if (!out->seen) return false;
     for (int i = 0; i < 3; ++i) l += to_light[i] * to_light[i];
@@ -32,13 +32,13 @@ bool bench_strands_make(const float* positions, uint32_t count, uint32_t each, f
     y[0] = z[1] * x[2], y[1] = z[2] * x[0] - z[0] * x[2], y[2] = -z[1] * x[0];
     for (int k = 0; k < 3; ++k) out->lower[k] = 1e9f, out->upper[k] = -1e9f;
     for (size_t i = 0; i < (size_t)count * each; ++i) {
-        const float* p      = positions + 3 * i;
+        const float* p = positions + 3 * i;
         const float* axes[] = {x, y, z};
         for (int k = 0; k < 3; ++k) {
-            float at                     = axes[k][0] * p[0] + axes[k][1] * p[1] + axes[k][2] * p[2];
+            float at = axes[k][0] * p[0] + axes[k][1] * p[1] + axes[k][2] * p[2];
             out->seen[3 * i + (size_t)k] = at;
-            out->lower[k]                = fminf(out->lower[k], at - 2 * radius);
-            out->upper[k]                = fmaxf(out->upper[k], at + 2 * radius);
+            out->lower[k] = fminf(out->lower[k], at - 2 * radius);
+            out->upper[k] = fmaxf(out->upper[k], at + 2 * radius);
         }
     }
     return true;
@@ -54,8 +54,8 @@ void bench_strands_free(struct bench_strands* strands)
 
 // Segments by the cells across the light that they cross, cell after cell.
 struct cells {
-    uint32_t  size[2];
-    float     side;
+    uint32_t size[2];
+    float side;
     uint32_t* first; // one more than there are
     uint32_t* segment;
 };
@@ -77,7 +77,7 @@ static void sort_segments(const struct bench_strands* s, struct cells* cells, bo
     for (size_t n = 0; n < s->count; ++n)
         for (size_t k = 0; k + 1 < s->each; ++k) {
             uint32_t range[2][2];
-            size_t   v = n * s->each + k;
+            size_t v = n * s->each + k;
             range_of(s, cells, v, range);
             for (uint32_t y = range[1][0]; y <= range[1][1]; ++y)
                 for (uint32_t x = range[0][0]; x <= range[0][1]; ++x) {
@@ -116,7 +116,7 @@ static bool is_met(const struct bench_strands* s, const struct cells* cells, con
     }
     size_t cell = (size_t)at[1] * cells->size[0] + at[0];
     for (uint32_t i = cells->first[cell + 1]; i < cells->first[cell + 2]; ++i) {
-        size_t       v = cells->segment[i];
+        size_t v = cells->segment[i];
         const float *a = s->seen + 3 * v, *b = a + 3;
         if (v / s->each == own) continue;
         float dx = b[0] - a[0], dy = b[1] - a[1], px = from[0] - a[0], py = from[1] - a[1];
@@ -131,14 +131,14 @@ static bool is_met(const struct bench_strands* s, const struct cells* cells, con
 bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t seed, float* out)
 {
     struct cells cells = {.side = 0};
-    bool         ok    = make_cells(s, &cells);
+    bool ok = make_cells(s, &cells);
     for (size_t v = 0; ok && v < (size_t)s->count * s->each; ++v) {
         uint32_t random = hash((uint32_t)v ^ seed * 0x9e3779b9u), free_ = 0;
-        size_t   own = v / s->each, k = v % s->each;
+        size_t own = v / s->each, k = v % s->each;
         for (uint32_t i = 0; i < rays; ++i) {
-            float        along  = ((float)i + share_of(&random)) / (float)rays - 0.5f, from[3];
-            float        across = s->radius * (2 * share_of(&random) - 1);
-            size_t       next   = along < 0 ? (k ? v - 1 : v) : (k + 1 < s->each ? v + 1 : v);
+            float along = ((float)i + share_of(&random)) / (float)rays - 0.5f, from[3];
+            float across = s->radius * (2 * share_of(&random) - 1);
+            size_t next = along < 0 ? (k ? v - 1 : v) : (k + 1 < s->each ? v + 1 : v);
             const float *a = s->seen + 3 * v, *b = s->seen + 3 * next;
             float share = fabsf(along), dx = b[0] - a[0], dy = b[1] - a[1], l = fmaxf(hypotf(dx, dy), 1e-9f);
             for (int j = 0; j < 3; ++j) from[j] = a[j] + share * (b[j] - a[j]);
@@ -159,12 +159,12 @@ bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t 
 #define TAPS 8
 
 struct layers {
-    float    texel;
-    int      size[2];
+    float texel;
+    int size[2];
     uint32_t count;
-    float    depth[MOST_LAYERS + 1]; // where each ends, from the first strand on
-    float*   nearest;                // of each texel
-    float*   opacity;                // of each texel and layer, with what is before it
+    float depth[MOST_LAYERS + 1]; // where each ends, from the first strand on
+    float* nearest; // of each texel
+    float* opacity; // of each texel and layer, with what is before it
 };
 
 static long texel_of(const struct layers* layers, float x, float y)
@@ -179,9 +179,9 @@ static void draw_layers(const struct bench_strands* s, struct layers* layers, bo
     for (size_t n = 0; n < s->count; ++n)
         for (size_t k = 0; k + 1 < s->each; ++k) {
             const float *a = s->seen + 3 * (n * s->each + k), *b = a + 3;
-            float        across = hypotf(b[0] - a[0], b[1] - a[1]);
-            int          steps  = 1 + (int)(2 * across / layers->texel);
-            float        covers = across * 2 * s->radius / (layers->texel * layers->texel) / (float)steps;
+            float across = hypotf(b[0] - a[0], b[1] - a[1]);
+            int steps = 1 + (int)(2 * across / layers->texel);
+            float covers = across * 2 * s->radius / (layers->texel * layers->texel) / (float)steps;
             for (int i = 0; i < steps; ++i) {
                 float t = ((float)i + 0.5f) / (float)steps, p[3];
                 for (int j = 0; j < 3; ++j) p[j] = a[j] + t * (b[j] - a[j]);
@@ -199,7 +199,7 @@ static void draw_layers(const struct bench_strands* s, struct layers* layers, bo
 static float opacity_at(const struct layers* layers, long at, float z)
 {
     if (at < 0) return 0;
-    float        deep = layers->nearest[at] - z, before = 0;
+    float deep = layers->nearest[at] - z, before = 0;
     const float* opacity = layers->opacity + (size_t)at * layers->count;
     if (deep <= 0) return 0;
     for (uint32_t l = 0; l < layers->count; before = opacity[l++])
@@ -216,20 +216,20 @@ bool bench_light_by_layers(const struct bench_strands* s, float texel, uint32_t 
     for (int k = 0; k < 2; ++k) layers.size[k] = 1 + (int)((s->upper[k] - s->lower[k]) / texel);
     for (uint32_t l = 0; l < count; ++l, first *= deeper) layers.depth[l + 1] = layers.depth[l] + first;
     layers.depth[count] = 1e3f; // The last holds all that is left.
-    size_t texels       = (size_t)layers.size[0] * (size_t)layers.size[1];
-    layers.nearest      = malloc(texels * sizeof(float));
-    layers.opacity      = calloc(texels * count, sizeof(float));
-    bool ok             = layers.nearest && layers.opacity;
+    size_t texels = (size_t)layers.size[0] * (size_t)layers.size[1];
+    layers.nearest = malloc(texels * sizeof(float));
+    layers.opacity = calloc(texels * count, sizeof(float));
+    bool ok = layers.nearest && layers.opacity;
     for (size_t i = 0; ok && i < texels; ++i) layers.nearest[i] = -1e9f;
     if (ok) draw_layers(s, &layers, false);
     if (ok) draw_layers(s, &layers, true);
     for (size_t v = 0; ok && v < (size_t)s->count * s->each; ++v) {
-        const float* p    = s->seen + 3 * v;
-        float        turn = 6.2831853f * (float)(hash((uint32_t)(v / s->each)) & 1023u) / 1024, sum = 0;
+        const float* p = s->seen + 3 * v;
+        float turn = 6.2831853f * (float)(hash((uint32_t)(v / s->each)) & 1023u) / 1024, sum = 0;
         for (int i = 0; i < TAPS; ++i, turn += 2.399963f) {
-            float r  = 2 * sqrtf(((float)i + 0.5f) / TAPS);
-            long  at = texel_of(&layers, (p[0] - s->lower[0]) / texel + r * cosf(turn),
-                                (p[1] - s->lower[1]) / texel + r * sinf(turn));
+            float r = 2 * sqrtf(((float)i + 0.5f) / TAPS);
+            long at = texel_of(&layers, (p[0] - s->lower[0]) / texel + r * cosf(turn),
+                               (p[1] - s->lower[1]) / texel + r * sinf(turn));
             sum += expf(-opacity_at(&layers, at, p[2]));
         }
         out[v] = sum / TAPS;

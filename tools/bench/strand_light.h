@@ -9,10 +9,10 @@
 
 // Strands of `each` vertices and of one radius, m. Vertices are seen from the light: x and y across its light, z towards it.
 struct bench_strands {
-    float*   seen; // xyz
+    float* seen; // xyz
     uint32_t count, each;
-    float    radius;
-    float    lower[3], upper[3];
+    float radius;
+    float lower[3], upper[3];
 };
 
 // False: out of memory. To be freed in either case.

@@ -40,15 +40,15 @@ static const char average_frag[] =
 
 static bool make_programs(struct bench_studio* studio)
 {
-    studio->programs[MESH]    = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, flat_frag);
-    studio->programs[DEPTH]   = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, hair_nothing_frag);
+    studio->programs[MESH] = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, flat_frag);
+    studio->programs[DEPTH] = hair_shaders_link(BENCH_TOOL, hair_mesh_vert, hair_nothing_frag);
     studio->programs[AVERAGE] = hair_shaders_link(BENCH_TOOL, hair_whole_vert, average_frag);
     return studio->programs[MESH] && studio->programs[DEPTH] && studio->programs[AVERAGE];
 }
 
 static bool make_head(struct bench_studio* studio)
 {
-    struct head_mesh         mesh;
+    struct head_mesh mesh;
     const struct hair_scene* scene = &studio->scene;
     glCreateVertexArrays(2, studio->arrays);
     glCreateBuffers(2, studio->buffers);
@@ -71,7 +71,7 @@ static bool make_head(struct bench_studio* studio)
 static bool place(struct bench_studio* studio)
 {
     hair_solid solids[HAIR_RIG_SOLIDS];
-    float      time = (float)studio->frame / STUDIO_FPS;
+    float time = (float)studio->frame / STUDIO_FPS;
     hair_motion_at(&studio->scene.motion, time, studio->transform);
     if (!studio->hair) return true;
     uint32_t count = hair_rig_solids(&studio->scene, time, studio->transform, solids);
@@ -82,12 +82,12 @@ static bool place(struct bench_studio* studio)
 static bool bring_to_life(struct bench_studio* studio, const struct bench_studio_desc* asked)
 {
     struct hair_scene* scene = &studio->scene;
-    hair_desc          desc  = scene->settings.desc;
-    desc.solver              = asked->solver;
-    desc.substep             = (float)asked->substep;
+    hair_desc desc = scene->settings.desc;
+    desc.solver = asked->solver;
+    desc.substep = (float)asked->substep;
     if (asked->mapping) desc.mapping = asked->mapping;
     desc.physics = &scene->settings.physics;
-    desc.look    = &scene->settings.look;
+    desc.look = &scene->settings.look;
     place(studio);
     memcpy(desc.transform, studio->transform, sizeof desc.transform);
     if (hair_create(studio->bench->context, studio->groom, &desc, &studio->hair) ||
@@ -111,7 +111,7 @@ static bool make_subject(struct bench_studio* studio, const struct bench_studio_
     hair_scene_default(scene);
     if (!hair_scene_named(BENCH_TOOL, desc->scene, scene)) return false;
     uint32_t followers = scene->settings.groom.follower_count;
-    studio->fewer      = 1;
+    studio->fewer = 1;
     if (!set(studio, "guides", desc->guides) || !set(studio, "followers", desc->followers) ||
         !set(studio, "segments", desc->segments))
         return false;
@@ -132,7 +132,7 @@ bool bench_studio_make(struct bench* bench, const struct bench_studio_desc* desc
 {
     memset(out, 0, sizeof *out);
     out->bench = bench;
-    out->size  = desc->size;
+    out->size = desc->size;
     snprintf(bench->sentence, sizeof bench->sentence, "the scene could not be made");
     bench_timer_make(&out->timer, bench->software);
     glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &out->query);
@@ -173,12 +173,12 @@ bool bench_studio_step(struct bench_studio* studio, double* ms)
 struct bench_shot bench_studio_shot(const struct bench_studio* studio)
 {
     const struct hair_settings* settings = &studio->scene.settings;
-    return (struct bench_shot){.look        = settings->look,
-                               .view        = settings->view,
-                               .lod         = hair_lod_default(),
-                               .samples     = 1,
+    return (struct bench_shot){.look = settings->look,
+                               .view = settings->view,
+                               .lod = hair_lod_default(),
+                               .samples = 1,
                                .supersample = 1,
-                               .away        = 1};
+                               .away = 1};
 }
 
 bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot)
@@ -197,7 +197,7 @@ bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot
             return false;
         }
     }
-    *last           = *shot;
+    *last = *shot;
     studio->goes_on = false;
     return true;
 }
@@ -230,7 +230,7 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     hair_light_clip(light, lit.shadow_matrix);
     if (view->pass == HAIR_PASS_COLOR && !studio->shot.unmapped) {
         lit.shadow_texture = studio->map.texture[HAIR_SHADOW_HAIR];
-        lit.body_texture   = shows_head(studio) ? studio->map.texture[HAIR_SHADOW_BODY] : 0;
+        lit.body_texture = shows_head(studio) ? studio->map.texture[HAIR_SHADOW_BODY] : 0;
     }
     view->lights = &lit;
     memcpy(view->view, matrices->view, sizeof view->view);
@@ -246,8 +246,8 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
                         const struct hair_matrices* light, uint32_t size)
 {
     hair_view view = studio->shot.view;
-    hair_lod  lod  = studio->shot.lod;
-    view.pass      = HAIR_PASS_DEPTH;
+    hair_lod lod = studio->shot.lod;
+    view.pass = HAIR_PASS_DEPTH;
     if (studio->shot.map_apart) view.path = studio->shot.map_path;
     if (bench_extent_fits(studio, light, size)) view.primitive = HAIR_LINES;
     lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
@@ -264,9 +264,9 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
 static bool draw_strands(struct bench_studio* studio, const struct hair_matrices* camera,
                          const struct hair_matrices* light)
 {
-    GLuint64  primitives = 0;
-    hair_view view       = studio->shot.view;
-    view.pass            = HAIR_PASS_COLOR;
+    GLuint64 primitives = 0;
+    hair_view view = studio->shot.view;
+    view.pass = HAIR_PASS_COLOR;
     if (studio->shot.has_lod) view.lod = &studio->shot.lod;
     if (studio->counts) glBeginQuery(GL_PRIMITIVES_GENERATED, studio->query);
     bool ok = draw_hair(studio, &view, camera, light);
@@ -302,7 +302,7 @@ static void average(struct bench_studio* studio, const struct bench_rectangle* p
 // What is to be drawn anew: of hair alone, before a background that is there, where it is and where it was.
 static struct bench_rectangle part_of(struct bench_studio* studio, const struct hair_matrices* camera)
 {
-    uint32_t               pixels = studio->size * studio->shot.supersample;
+    uint32_t pixels = studio->size * studio->shot.supersample;
     struct bench_rectangle part = {{0, 0}, {(int)pixels, (int)pixels}}, *last = &studio->drawn, now = part;
     if (!shows_head(studio)) now = bench_extent_hair(studio, camera, pixels);
     if (studio->goes_on)
@@ -310,7 +310,7 @@ static struct bench_rectangle part_of(struct bench_studio* studio, const struct 
             part.lower[i] = now.lower[i] < last->lower[i] ? now.lower[i] : last->lower[i];
             part.upper[i] = now.upper[i] > last->upper[i] ? now.upper[i] : last->upper[i];
         }
-    *last           = now;
+    *last = now;
     studio->goes_on = true;
     return part;
 }
@@ -329,9 +329,9 @@ static void clear(unsigned framebuffer, const struct bench_rectangle* part)
 bool bench_studio_draw(struct bench_studio* studio, double* ms)
 {
     struct hair_matrices light, camera;
-    unsigned             framebuffer = studio->targets.framebuffer[HAIR_TARGET_DRAWN];
-    GLsizei              size        = (GLsizei)(studio->size * studio->shot.supersample);
-    studio->timed                    = ms != NULL;
+    unsigned framebuffer = studio->targets.framebuffer[HAIR_TARGET_DRAWN];
+    GLsizei size = (GLsizei)(studio->size * studio->shot.supersample);
+    studio->timed = ms != NULL;
     hair_light_matrices(&studio->scene, studio->transform, studio->reach, &light);
     bench_extent_aim(studio, &camera);
     uint32_t map = bench_extent_map(studio, &camera, &light);
@@ -360,11 +360,11 @@ bool bench_studio_warm_up(struct bench_studio* studio, double enough)
 bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out)
 {
     enum { MOST_RUNS = 31, WARM = 100 }; // draws, ms
-    double   ms[MOST_RUNS], passed = 0;
+    double ms[MOST_RUNS], passed = 0;
     uint32_t runs = 0;
     if (!bench_studio_warm_up(studio, WARM)) return false;
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
-         passed       = hair_now() - start)
+         passed = hair_now() - start)
         if (!bench_studio_draw(studio, &ms[runs++])) return false;
     *out = bench_times_of(ms, runs);
     return true;
@@ -372,11 +372,11 @@ bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_
 
 bool bench_studio_add(struct bench_studio* studio, double* rgba)
 {
-    size_t   values      = 4 * (size_t)studio->size * studio->size;
-    bool     averaged    = studio->shot.supersample > 1;
+    size_t values = 4 * (size_t)studio->size * studio->size;
+    bool averaged = studio->shot.supersample > 1;
     unsigned framebuffer = studio->targets.framebuffer[averaged ? HAIR_TARGET_ENCODED : HAIR_TARGET_RESOLVED];
-    GLsizei  size        = (GLsizei)studio->size;
-    float*   read        = malloc(values * sizeof *read);
+    GLsizei size = (GLsizei)studio->size;
+    float* read = malloc(values * sizeof *read);
     if (!read) return false;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glNamedFramebufferReadBuffer(framebuffer, averaged ? GL_COLOR_ATTACHMENT1 : GL_COLOR_ATTACHMENT0);

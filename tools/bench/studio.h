@@ -18,51 +18,51 @@ struct bench_rectangle {
 // How a picture is taken.
 struct bench_shot {
     hair_look look;
-    hair_view view;      // its path and primitive; matrices, lights and level of detail are set elsewhere
-    bool      unmapped;  // its light has no shadow map
-    bool      map_apart; // else it is drawn by the path of the view,
-    hair_path map_path;  // not by this one
-    bool      map_fits;  // it is as coarse as strands are wide, and of lines, which are a texel wide
-    bool      has_lod;   // else all is drawn
-    hair_lod  lod;
-    uint32_t  samples;          // of a pixel, as OpenGL has them
-    uint32_t  supersample;      // pixels for one of the picture, in each direction
-    float     jitter[2];        // pixels by which the picture moves
-    float     shadow_jitter[2]; // texels by which its shadow map does
-    float     away;             // from what the scene's camera looks at, in its distance
+    hair_view view; // its path and primitive; matrices, lights and level of detail are set elsewhere
+    bool unmapped; // its light has no shadow map
+    bool map_apart; // else it is drawn by the path of the view,
+    hair_path map_path; // not by this one
+    bool map_fits; // it is as coarse as strands are wide, and of lines, which are a texel wide
+    bool has_lod; // else all is drawn
+    hair_lod lod;
+    uint32_t samples; // of a pixel, as OpenGL has them
+    uint32_t supersample; // pixels for one of the picture, in each direction
+    float jitter[2]; // pixels by which the picture moves
+    float shadow_jitter[2]; // texels by which its shadow map does
+    float away; // from what the scene's camera looks at, in its distance
 };
 
 struct bench_studio {
-    struct bench*          bench;
-    struct hair_scene      scene;
-    hair_groom*            groom;
-    hair_groom_info        info;
-    float                  fewer; // times: than the scene's followers
-    hair_instance*         hair;
-    uint32_t               size; // of a picture, pixels to each side
-    float                  transform[16], reach;
-    uint32_t               frame;
-    bool                   bare;       // the head is not drawn: what no hair is or was before stays as it is,
-    bool                   goes_on;    // while pictures are taken as the last one,
-    struct bench_rectangle drawn;      // which may have hair here
-    bool                   timed;      // what is under way is
-    bool                   counts;     // and
-    uint64_t               primitives; // that the last picture has of hair, two to a ribbon's segment
-    struct bench_shot      shot;       // the last that was set
-    struct bench_timer     timer;
-    struct hair_targets    targets;
+    struct bench* bench;
+    struct hair_scene scene;
+    hair_groom* groom;
+    hair_groom_info info;
+    float fewer; // times: than the scene's followers
+    hair_instance* hair;
+    uint32_t size; // of a picture, pixels to each side
+    float transform[16], reach;
+    uint32_t frame;
+    bool bare; // the head is not drawn: what no hair is or was before stays as it is,
+    bool goes_on; // while pictures are taken as the last one,
+    struct bench_rectangle drawn; // which may have hair here
+    bool timed; // what is under way is
+    bool counts; // and
+    uint64_t primitives; // that the last picture has of hair, two to a ribbon's segment
+    struct bench_shot shot; // the last that was set
+    struct bench_timer timer;
+    struct hair_targets targets;
     struct hair_shadow_map map;
-    unsigned               programs[3], arrays[2], buffers[2], query;
-    uint32_t               indices;
+    unsigned programs[3], arrays[2], buffers[2], query;
+    uint32_t indices;
 };
 
 // What differs from the scene; 0: nothing.
 struct bench_studio_desc {
-    const char*  scene; // one that is built in
-    uint32_t     size, guides, followers, segments;
-    hair_solver  solver;
+    const char* scene; // one that is built in
+    uint32_t size, guides, followers, segments;
+    hair_solver solver;
     hair_mapping mapping;
-    double       substep;
+    double substep;
 };
 
 // Hung for as long as the scene says. False: bench->sentence says why not.

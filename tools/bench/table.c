@@ -18,11 +18,11 @@
 
 #define SIZE 720
 #define SIZE_OF_SOFTWARE 256
-#define AWAY 8            // times the near distance, of a picture of SIZE_OF_SOFTWARE
+#define AWAY 8 // times the near distance, of a picture of SIZE_OF_SOFTWARE
 #define RATE_AWAY 0.0625f // hair_physics.rate
-#define SHOTS 4           // pictures that the far one is compared by
-#define WIND 2            // m/s
-#define RATE 60           // frames per second of the hair's own time
+#define SHOTS 4 // pictures that the far one is compared by
+#define WIND 2 // m/s
+#define RATE 60 // frames per second of the hair's own time
 
 static const char* const columns[] = {"case",      "method",  "solver",        "path",   "strands",
                                       "guides",    "size",    "samples",       "away",   "frames",
@@ -33,10 +33,10 @@ static const char* const columns[] = {"case",      "method",  "solver",        "
 // that is the fastest here. The second
 // had no tessellator, was simulated by stream output, and had no levels of detail.
 static const struct way {
-    const char*  name;
-    hair_solver  solver;
-    hair_path    path;
-    double       paper[4]; // fps, by cell; 0: it has none
+    const char* name;
+    hair_solver solver;
+    hair_path path;
+    double paper[4]; // fps, by cell; 0: it has none
     hair_mapping mapping;
 } ways[] = {
     {"tessellation, compute",
@@ -57,7 +57,7 @@ static const struct way {
 // A row of the table.
 static const struct cell {
     const char* name;
-    bool        simulates, draws, is_far;
+    bool simulates, draws, is_far;
 } cells[] = {
     {"simulated with wind, drawn", true, true, false},
     {"drawn", false, true, false},
@@ -68,29 +68,29 @@ static const struct cell {
 enum { CELLS = sizeof cells / sizeof *cells };
 
 struct column {
-    const struct way*   way;
+    const struct way* way;
     struct bench_studio studio;
-    bool                alive, refused;
-    double              near_fps; // 0: not measured
+    bool alive, refused;
+    double near_fps; // 0: not measured
 };
 
 static bool need(struct bench* bench, struct column* column)
 {
     if (column->alive || column->refused) return column->alive;
-    uint32_t                 size = bench->software ? SIZE_OF_SOFTWARE : SIZE;
-    struct bench_studio_desc desc = {.scene     = "demo",
-                                     .size      = bench->options.size ? bench->options.size : size,
+    uint32_t size = bench->software ? SIZE_OF_SOFTWARE : SIZE;
+    struct bench_studio_desc desc = {.scene = "demo",
+                                     .size = bench->options.size ? bench->options.size : size,
                                      .followers = bench->options.strands,
-                                     .solver    = column->way->solver,
-                                     .mapping   = column->way->mapping,
+                                     .solver = column->way->solver,
+                                     .mapping = column->way->mapping,
                                      .substep = column->way->solver == HAIR_SOLVER_REDBLACK ? 1.0 / RATE : 0};
-    column->alive                 = bench_studio_make(bench, &desc, &column->studio);
-    column->refused               = !column->alive;
+    column->alive = bench_studio_make(bench, &desc, &column->studio);
+    column->refused = !column->alive;
     if (!column->alive) return false;
-    column->studio.bare            = true;
+    column->studio.bare = true;
     struct hair_settings* settings = &column->studio.scene.settings;
-    settings->wind.velocity[0]     = WIND;
-    settings->physics.iterations   = 20;
+    settings->wind.velocity[0] = WIND;
+    settings->physics.iterations = 20;
     return !hair_set_physics(column->studio.hair, &settings->physics) &&
            !hair_set_wind(column->studio.hair, &settings->wind);
 }
@@ -137,18 +137,18 @@ static bool take(struct bench_studio* studio, struct bench_shot* shot, struct be
 // samples of one what differs most is which strands they hit.
 static bool compare_far(struct bench_studio* studio, const struct bench_shot* shot, double* flip)
 {
-    struct bench_picture    picture[2] = {{0}};
-    struct hair_image_error error      = {0};
-    bool                    ok         = true;
-    studio->bare                       = false;
+    struct bench_picture picture[2] = {{0}};
+    struct hair_image_error error = {0};
+    bool ok = true;
+    studio->bare = false;
     for (int i = 0; i < 2 && ok; ++i) {
         struct bench_shot own = *shot;
-        own.has_lod           = i == 1;
-        ok                    = take(studio, &own, &picture[i]);
+        own.has_lod = i == 1;
+        ok = take(studio, &own, &picture[i]);
     }
     ok = ok && bench_picture_cover(&picture[0]) &&
          bench_picture_compare(&picture[0], &picture[0], &picture[1], &error);
-    *flip        = error.flip;
+    *flip = error.flip;
     studio->bare = true;
     bench_picture_free(&picture[0]);
     bench_picture_free(&picture[1]);
@@ -158,12 +158,12 @@ static bool compare_far(struct bench_studio* studio, const struct bench_shot* sh
 static json_t* add_row(struct column* column, const struct cell* cell, uint32_t frames,
                        const struct bench_times* times)
 {
-    static const char* const   paths[] = {"tessellation", "instanced", "expanded", "computed", "auto"};
-    const struct bench_studio* studio  = &column->studio;
-    const double*              paper   = column->way->paper;
-    size_t                     number  = (size_t)(cell - cells);
-    double                     fps     = 1000 / times->ms;
-    json_t*                    row     = bench_rows_add(&studio->bench->rows);
+    static const char* const paths[] = {"tessellation", "instanced", "expanded", "computed", "auto"};
+    const struct bench_studio* studio = &column->studio;
+    const double* paper = column->way->paper;
+    size_t number = (size_t)(cell - cells);
+    double fps = 1000 / times->ms;
+    json_t* row = bench_rows_add(&studio->bench->rows);
     if (number == 0) column->near_fps = fps;
     bench_set_text(row, "case", cell->name);
     bench_set_text(row, "method", column->way->name);
@@ -190,23 +190,23 @@ static json_t* add_row(struct column* column, const struct cell* cell, uint32_t 
 static bool run_cell(struct bench* bench, struct column* column, const struct cell* cell)
 {
     enum { MOST_RUNS = 9 };
-    double             ms[MOST_RUNS], passed = 0, enough = bench->options.quick ? 100 : 1500;
-    uint32_t           runs = 0, frames = bench->software ? (cell->draws ? 2 : 20) : 60;
+    double ms[MOST_RUNS], passed = 0, enough = bench->options.quick ? 100 : 1500;
+    uint32_t runs = 0, frames = bench->software ? (cell->draws ? 2 : 20) : 60;
     struct bench_times times;
     if (!need(bench, column)) return false;
     struct bench_shot shot = bench_studio_shot(&column->studio);
-    shot.samples           = 4;
-    shot.view.path         = column->way->path;
-    shot.away              = cell->is_far ? AWAY * (float)column->studio.size / SIZE_OF_SOFTWARE : 1;
-    shot.has_lod           = cell->is_far;
+    shot.samples = 4;
+    shot.view.path = column->way->path;
+    shot.away = cell->is_far ? AWAY * (float)column->studio.size / SIZE_OF_SOFTWARE : 1;
+    shot.has_lod = cell->is_far;
     if (!set_rate(&column->studio, cell->is_far ? RATE_AWAY : 1)) return false;
     if (!bench_studio_set(&column->studio, &shot)) return false;
     if (!run_frames(&column->studio, cell, 2, &ms[0])) return false; // They compile what they need.
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
-         passed       = hair_now() - start)
+         passed = hair_now() - start)
         if (!run_frames(&column->studio, cell, frames, &ms[runs++])) return false;
     times = bench_times_of(ms, runs);
-    double  flip;
+    double flip;
     json_t* row = add_row(column, cell, frames, &times);
     if (!cell->is_far) return true;
     if (!compare_far(&column->studio, &shot, &flip)) return false;

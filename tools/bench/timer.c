@@ -48,7 +48,7 @@ double bench_timer_take(struct bench_timer* timer)
         glGetQueryObjectui64v(timer->queries[2 * i + 1], GL_QUERY_RESULT, &end);
         ms += (double)(end - start) * 1e-6;
     }
-    timer->ms    = 0;
+    timer->ms = 0;
     timer->spans = 0;
     return ms;
 }

@@ -9,10 +9,10 @@
 
 // By the driver's timers; where those do not see compute shaders, by a clock and glFinish.
 struct bench_timer {
-    bool     software;
+    bool software;
     unsigned queries[2 * BENCH_TIMER_SPANS]; // OpenGL names
     uint32_t spans;
-    double   start, ms;
+    double start, ms;
 };
 
 // Needs OpenGL current, as does what follows.
@@ -27,7 +27,7 @@ void bench_timer_stop(struct bench_timer* timer);
 double bench_timer_take(struct bench_timer* timer);
 
 struct bench_times {
-    double   ms, ms_min, ms_max; // ms: the median
+    double ms, ms_min, ms_max; // ms: the median
     uint32_t runs;
 };
 

@@ -35,7 +35,7 @@ static void jitter(uint32_t i, float size, float out[2])
     const double step[2] = {0.7548776662466927, 0.5698402909980532};
     for (int k = 0; k < 2; ++k) {
         double at = fmod(0.5 + step[k] * (i / 2 + 1), 1) - 0.5;
-        out[k]    = (float)(i % 2 ? -at : at) * size;
+        out[k] = (float)(i % 2 ? -at : at) * size;
     }
 }
 
@@ -60,9 +60,9 @@ bool bench_truth_take(struct bench_studio* studio, const struct bench_shot* shot
                       float shadow_texels, struct bench_truth* out)
 {
     struct bench_shot fine = *shot;
-    uint32_t          size = studio->size, side = 1, most = bench_most_samples();
+    uint32_t size = studio->size, side = 1, most = bench_most_samples();
     while (2 * side * size <= MOST_PIXELS && side < 8) side *= 2;
-    fine.samples     = most < 8 ? most : 8;
+    fine.samples = most < 8 ? most : 8;
     fine.supersample = side;
     uint32_t each = fine.samples * side * side, pictures = (samples + each - 1) / each;
     pictures = (pictures + 3) / 4 * 4;

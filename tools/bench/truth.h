@@ -10,7 +10,7 @@ struct bench_truth {
     struct bench_picture half[2], whole;
 };
 
-bool bench_truth_make(uint32_t            size,
+bool bench_truth_make(uint32_t size,
                       struct bench_truth* out); // False: out of memory, then it is to be freed as well.
 void bench_truth_free(struct bench_truth* truth);
 

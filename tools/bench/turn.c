@@ -9,8 +9,8 @@
 
 #define SIZE 256
 #define STRANDS_OF_720                                                                                       \
-    18000         // of the scene, in a picture so high; fewer in a smaller one, as wide on its pixels
-#define SPEED 30  // degrees a second: half of one a frame
+    18000 // of the scene, in a picture so high; fewer in a smaller one, as wide on its pixels
+#define SPEED 30 // degrees a second: half of one a frame
 #define RUN_UP 60 // frames until hair follows
 #define FRAMES 9
 #define FRAMES_OF_QUICK 3
@@ -19,11 +19,11 @@
 
 // As pictures are drawn. Those of one shadow have one truth.
 static const struct way {
-    const char*   method;
-    hair_shadow   shadow;
+    const char* method;
+    hair_shadow shadow;
     hair_coverage coverage;
-    uint32_t      msaa, supersample;
-    bool          has_lod, quick;
+    uint32_t msaa, supersample;
+    bool has_lod, quick;
 } ways[] = {{"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 1, 1, false, false},
             {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 4, 1, false, false},
             {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 8, 1, false, false},
@@ -42,17 +42,17 @@ static const struct way {
 // A frame and the one before, and sums over all pairs of them.
 struct record {
     struct bench_picture picture[2];
-    double               flip, most, off, ms; // most: of the ratio to the truth's; off: from the truth itself
+    double flip, most, off, ms; // most: of the ratio to the truth's; off: from the truth itself
 };
 
 struct turn {
-    struct bench*       bench;
+    struct bench* bench;
     struct bench_studio studio;
-    bool                wanted[WAYS];
-    struct record       record[WAYS];
-    struct bench_truth  truth[2][2];        // of a shadow: a frame and the one before
-    double              flip[2], halves[2]; // of a shadow, sums: the truth's, and the mean of its halves'
-    uint32_t            pairs;
+    bool wanted[WAYS];
+    struct record record[WAYS];
+    struct bench_truth truth[2][2]; // of a shadow: a frame and the one before
+    double flip[2], halves[2]; // of a shadow, sums: the truth's, and the mean of its halves'
+    uint32_t pairs;
 };
 
 static bool is_wanted(struct turn* turn, hair_shadow shadow)
@@ -65,14 +65,14 @@ static bool is_wanted(struct turn* turn, hair_shadow shadow)
 // At an even speed from the second key to the third, facing the camera's way in the middle of that.
 static bool make(struct turn* turn)
 {
-    uint32_t                 whole = turn->bench->options.quick ? SIZE / 2 : SIZE;
-    uint32_t                 size  = turn->bench->options.size ? turn->bench->options.size : whole;
-    uint32_t                 asked = turn->bench->options.strands;
-    struct bench_studio_desc desc  = {
-         .scene = "demo", .size = size, .followers = asked ? asked : (uint32_t)(STRANDS_OF_720 * size / 720)};
+    uint32_t whole = turn->bench->options.quick ? SIZE / 2 : SIZE;
+    uint32_t size = turn->bench->options.size ? turn->bench->options.size : whole;
+    uint32_t asked = turn->bench->options.strands;
+    struct bench_studio_desc desc = {
+        .scene = "demo", .size = size, .followers = asked ? asked : (uint32_t)(STRANDS_OF_720 * size / 720)};
     if (!bench_studio_make(turn->bench, &desc, &turn->studio)) return false;
     struct hair_motion* motion = &turn->studio.scene.motion;
-    motion->count              = 4;
+    motion->count = 4;
     for (uint32_t i = 0; i < 4; ++i)
         motion->key[i] = (struct hair_key){.time = (float)i, .rotation = {SPEED * ((float)i - 1), 0, 0}};
     for (uint32_t i = 0; i < RUN_UP; ++i)
@@ -88,20 +88,20 @@ static struct bench_shot shot_of(const struct turn* turn, const struct way* way)
 {
     struct bench_shot shot = bench_studio_shot(&turn->studio);
     shot.look.radius *= turn->studio.fewer;
-    shot.look.shadow   = way->shadow;
+    shot.look.shadow = way->shadow;
     shot.view.coverage = way->coverage;
-    shot.view.path     = HAIR_PATH_EXPANDED;
-    shot.samples       = way->msaa;
-    shot.supersample   = way->supersample;
-    shot.has_lod       = way->has_lod;
+    shot.view.path = HAIR_PATH_EXPANDED;
+    shot.samples = way->msaa;
+    shot.supersample = way->supersample;
+    shot.has_lod = way->has_lod;
     return shot;
 }
 
 static bool take(struct turn* turn, const struct way* way, struct record* record)
 {
-    struct bench_shot     shot = shot_of(turn, way);
-    struct bench_picture* out  = &record->picture[0];
-    double                ms   = 0;
+    struct bench_shot shot = shot_of(turn, way);
+    struct bench_picture* out = &record->picture[0];
+    double ms = 0;
     memset(out->rgba, 0, 4 * sizeof *out->rgba * out->size * out->size);
     if (!bench_studio_set(&turn->studio, &shot) || !bench_studio_draw(&turn->studio, &ms) ||
         !bench_studio_add(&turn->studio, out->rgba))
@@ -131,9 +131,9 @@ static bool cover_both(struct bench_picture* now, const struct bench_picture* be
 
 static bool compare(struct turn* turn, hair_shadow shadow)
 {
-    const struct bench_truth *  now = &turn->truth[shadow][0], *before = &turn->truth[shadow][1];
+    const struct bench_truth *now = &turn->truth[shadow][0], *before = &turn->truth[shadow][1];
     const struct bench_picture* where = &now->whole;
-    double                      truth, half[2], flip, off;
+    double truth, half[2], flip, off;
     if (!differ(where, &before->whole, &now->whole, &truth)) return false;
     for (int i = 0; i < 2; ++i)
         if (!differ(where, &before->half[i], &now->half[i], &half[i])) return false;
@@ -156,11 +156,11 @@ static void pass_on(struct turn* turn)
 {
     for (int s = 0; s < 2; ++s) {
         struct bench_truth last = turn->truth[s][1];
-        turn->truth[s][1]       = turn->truth[s][0];
-        turn->truth[s][0]       = last;
+        turn->truth[s][1] = turn->truth[s][0];
+        turn->truth[s][0] = last;
     }
     for (size_t i = 0; i < WAYS; ++i) {
-        struct bench_picture last  = turn->record[i].picture[1];
+        struct bench_picture last = turn->record[i].picture[1];
         turn->record[i].picture[1] = turn->record[i].picture[0];
         turn->record[i].picture[0] = last;
     }
@@ -172,7 +172,7 @@ static bool take_frame(struct turn* turn, bool is_first)
     for (size_t i = 0; i < WAYS; ++i)
         if (turn->wanted[i] && !take(turn, &ways[i], &turn->record[i])) return false;
     for (hair_shadow s = HAIR_SHADOW_DEPTH; s <= HAIR_SHADOW_STRANDS; ++s) {
-        struct way          way   = {.shadow = s, .msaa = 1, .supersample = 1};
+        struct way way = {.shadow = s, .msaa = 1, .supersample = 1};
         struct bench_truth* truth = turn->truth[s];
         if (!is_wanted(turn, s)) continue;
         struct bench_shot shot = shot_of(turn, &way);
@@ -186,8 +186,8 @@ static bool take_frame(struct turn* turn, bool is_first)
 
 static void add_row(struct turn* turn, const struct way* way, const struct record* record)
 {
-    json_t* row   = bench_rows_add(&turn->bench->rows);
-    double  pairs = turn->pairs, truth = turn->flip[way->shadow];
+    json_t* row = bench_rows_add(&turn->bench->rows);
+    double pairs = turn->pairs, truth = turn->flip[way->shadow];
     bench_set_text(row, "case", "turn");
     bench_set_text(row, "method", way->method);
     bench_set_text(row, "scene", "demo");
@@ -219,11 +219,11 @@ static bool run(struct turn* turn)
 void bench_measure_turn(struct bench* bench)
 {
     struct turn turn = {.bench = bench};
-    bool        any  = false, alive;
+    bool any = false, alive;
     for (size_t i = 0; i < WAYS; ++i) {
         if (bench->options.quick && !ways[i].quick) continue;
         turn.wanted[i] = bench_begin(bench, "turn", ways[i].method) && ways[i].msaa <= bench_most_samples();
-        any            = any || turn.wanted[i];
+        any = any || turn.wanted[i];
     }
     if (!any) return;
     alive = run(&turn);

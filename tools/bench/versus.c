@@ -5,21 +5,21 @@
 #include <stdlib.h>
 
 // What a machine does beside moves times of rows, taken minutes apart, by a quarter; of two taken in turn it moves both.
-#define CLOSE 0.3      // of the time of lines
+#define CLOSE 0.3 // of the time of lines
 #define MOST_ROUNDS 15 // odd: one of two has won more of them
-#define DECISIVE 5     // rounds by which one leads
-#define CLEAR 0.1      // A round in which they are farther apart
-#define CLEARLY 3      // counts as so many.
-#define WARM 50        // ms
-#define SURE 1.05      // times the time of what was the slower one in turn
+#define DECISIVE 5 // rounds by which one leads
+#define CLEAR 0.1 // A round in which they are farther apart
+#define CLEARLY 3 // counts as so many.
+#define WARM 50 // ms
+#define SURE 1.05 // times the time of what was the slower one in turn
 
 bool bench_versus_add(struct bench_versus* versus, const struct bench_contender* contender)
 {
     if (versus->count == versus->room) {
-        size_t                  room = versus->room ? 2 * versus->room : 64;
-        struct bench_contender* of   = realloc(versus->of, room * sizeof *of);
+        size_t room = versus->room ? 2 * versus->room : 64;
+        struct bench_contender* of = realloc(versus->of, room * sizeof *of);
         if (!of) return false;
-        versus->of   = of;
+        versus->of = of;
         versus->room = room;
     }
     versus->of[versus->count++] = *contender;
@@ -72,7 +72,7 @@ static bool settle(struct bench_versus* versus, struct bench_studio* studio,
     double too_long = INFINITY;
     for (size_t i = 0; i < versus->count; ++i) {
         const struct bench_contender* ribbons = &versus->of[i];
-        bool                          longer  = ribbons->ms > lines->ms;
+        bool longer = ribbons->ms > lines->ms;
         if (is_of_lines(ribbons) || ribbons->ms > too_long) continue;
         if (fabs(ribbons->ms / lines->ms - 1) < CLOSE && !takes_longer(studio, ribbons, lines, &longer))
             return false;

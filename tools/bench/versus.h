@@ -7,14 +7,14 @@
 
 struct bench_contender {
     struct bench_shot shot;
-    double            ms; // the least: of all it depends least on what else the machine does
-    double            flip;
-    json_t*           row; // held by the suite's rows
+    double ms; // the least: of all it depends least on what else the machine does
+    double flip;
+    json_t* row; // held by the suite's rows
 };
 
 struct bench_versus {
     struct bench_contender* of;
-    size_t                  count, room;
+    size_t count, room;
 };
 
 // False: no memory.

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #define MOST_RUNS 21
-#define ENOUGH 400.0        // ms of runs of one row
+#define ENOUGH 400.0 // ms of runs of one row
 #define MOST_FRUITLESS 30e3 // ms: a method that takes longer goes through no more iterations
-#define WANTED 1e-3         // of what was to be driven out, to be left
+#define WANTED 1e-3 // of what was to be driven out, to be left
 
 static const char* const columns[] = {
     "case",   "method",     "resolution", "relax",     "iterations", "ms",        "ms_min", "ms_max",
@@ -40,8 +40,8 @@ static void set_times(json_t* row, const struct bench_times* times)
 static struct bench_times time_part(struct bench_flow* flow, void (*part)(struct bench_flow* flow))
 {
     struct bench_timer timer;
-    double             ms[MOST_RUNS], passed = 0;
-    uint32_t           runs = 0;
+    double ms[MOST_RUNS], passed = 0;
+    uint32_t runs = 0;
     bench_timer_make(&timer, flow->bench->software);
     part(flow);
     do {
@@ -87,7 +87,7 @@ static void run_parts(struct bench* bench)
         {"solids", open_faces}, {"carry", carry}, {"solve", solve}, {"project", project}, {"step", step}};
     for (uint32_t cells = 32; cells <= (bench->options.quick ? 32u : 128u); cells *= 2)
         for (int i = 0; i < 5; ++i) {
-            struct bench_flow      flow;
+            struct bench_flow flow;
             struct hair_fluid_desc desc = {.cells = cells, .side = FLOW_SIDE, .cycles = 4};
             if (!bench_begin(bench, "parts of a step", parts[i].name)) continue;
             if (!bench_flow_live(bench, &desc, true, &flow)) {
@@ -105,7 +105,7 @@ static void run_parts(struct bench* bench)
 
 // A method's rows, the best of those that are good enough, and how long it took.
 struct best {
-    double   ms, relax;
+    double ms, relax;
     uint32_t iterations;
 };
 
@@ -120,8 +120,8 @@ static double run_projection(struct bench* bench, struct hair_fluid_desc desc, s
     hair_fluid_place(&flow.fluid, &flow.now); // A wind that begins at once, all about the ball.
     hair_fluid_carry(&flow.fluid);
     struct bench_times times = time_part(&flow, solve);
-    double             left  = bench_flow_residual(&flow);
-    json_t*            row   = new_row(bench, "projection", methods[desc.method], desc.cells);
+    double left = bench_flow_residual(&flow);
+    json_t* row = new_row(bench, "projection", methods[desc.method], desc.cells);
     bench_set_number(row, "relax", (double)desc.relax);
     bench_set_count(row, "iterations", desc.cycles);
     bench_set_number(row, "divergence", left);
@@ -136,7 +136,7 @@ static double run_projection(struct bench* bench, struct hair_fluid_desc desc, s
 static void sweep(struct bench* bench, hair_fluid_method method, uint32_t cells, struct best* best)
 {
     static const float relax[][5] = {{1, 1.1f, 1.15f, 1.2f, 0}, {1.75f, 1.8f, 1.85f, 1.9f, 0}, {0.9f, 1, 0}};
-    double             passed     = 0;
+    double passed = 0;
     for (const float* r = relax[method]; *r > 0; ++r) {
         // By steps that are a share of themselves, until it is enough.
         uint32_t count = method == HAIR_FLUID_MULTIGRID    ? 1
@@ -146,7 +146,7 @@ static void sweep(struct bench* bench, hair_fluid_method method, uint32_t cells,
             struct hair_fluid_desc desc = {
                 .cells = cells, .side = FLOW_SIDE, .method = method, .cycles = count, .relax = *r};
             double was = left;
-            left       = run_projection(bench, desc, best, &passed);
+            left = run_projection(bench, desc, best, &passed);
             if (!(left <= was) || (left <= WANTED && method == HAIR_FLUID_JACOBI)) break;
             count += count > 4 ? count / 4 : 1;
         }
@@ -155,7 +155,7 @@ static void sweep(struct bench* bench, hair_fluid_method method, uint32_t cells,
 
 static void run_projections(struct bench* bench)
 {
-    uint32_t    cells   = bench->options.quick ? 32 : 64;
+    uint32_t cells = bench->options.quick ? 32 : 64;
     struct best best[3] = {{0}};
     for (int m = 2; m >= 0; --m)
         if (bench_begin(bench, "projection", methods[m])) sweep(bench, (hair_fluid_method)m, cells, &best[m]);
@@ -207,7 +207,7 @@ static bool measure_box(struct bench_flow* flow, json_t* row)
     bench_flow_step(flow);
     for (size_t i = 0; i < slots; ++i) { // A roll about z.
         double x = (double)(i % side) / n, y = (double)(i / side % side) / n;
-        int    last = i % side == side - 1 || i / side % side == side - 1 || i / side / side == side - 1;
+        int last = i % side == side - 1 || i / side % side == side - 1 || i / side / side == side - 1;
         if (i / side / side < side - 1 && i / side % side < side - 1)
             roll[i] = (float)(sin(pi * x) * cos(pi * (y + 0.5 / n)));
         if (!last || (i / side % side == side - 1 && i % side < side - 1 && i / side / side < side - 1))
@@ -218,10 +218,10 @@ static bool measure_box(struct bench_flow* flow, json_t* row)
     free(roll);
     hair_fluid_show(&flow->fluid);
     double* velocity = bench_flow_velocity(flow);
-    double  first    = bench_flow_energy(velocity, flow->faces);
+    double first = bench_flow_energy(velocity, flow->faces);
     free(velocity);
     for (int i = 0; i < 60; ++i) bench_flow_step(flow);
-    velocity    = bench_flow_velocity(flow);
+    velocity = bench_flow_velocity(flow);
     double most = 0;
     for (size_t i = 0; i < slots; ++i) // Through the walls.
         for (size_t axis = 0; axis < 3; ++axis) {
@@ -238,8 +238,8 @@ static void run_flows(struct bench* bench)
 {
     for (uint32_t cells = 32; cells <= (bench->options.quick ? 32u : 64u); cells *= 2)
         for (int closed = 0; closed < 2; ++closed) {
-            struct bench_flow      flow;
-            const char*            name = closed ? "closed box, a second" : "past a ball";
+            struct bench_flow flow;
+            const char* name = closed ? "closed box, a second" : "past a ball";
             struct hair_fluid_desc desc = {
                 .cells = cells, .side = FLOW_SIDE, .cycles = closed ? 6 : 4, .closed = closed};
             if (!bench_begin(bench, name, methods[0])) continue;

@@ -16,10 +16,10 @@ static const char* const name = "bullet world";
 
 // A head of hair among objects of which as many touch it in either.
 struct side {
-    struct bench_bust  bust;
-    struct hair_scene  scene; // its objects
+    struct bench_bust bust;
+    struct hair_scene scene; // its objects
     struct hair_world* world;
-    uint32_t           frame;
+    uint32_t frame;
 };
 
 static float random_in(uint32_t* seed, float lower, float upper)
@@ -31,24 +31,24 @@ static float random_in(uint32_t* seed, float lower, float upper)
 // Around the ends of the hair, to and fro; the others anywhere in a hall, but not near.
 static bool fill(struct hair_scene* scene, uint32_t count)
 {
-    uint32_t seed        = 7;
+    uint32_t seed = 7;
     scene->bullet.object = calloc(count, sizeof *scene->bullet.object);
     if (!scene->bullet.object) return false;
     scene->bullet.count = count;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_bullet_object* object = &scene->bullet.object[i];
-        bool                       near   = i < TOUCHING;
-        object->shape                     = (struct hair_bullet_shape){
-                                .kind = HAIR_BULLET_SPHERE, .radius = near ? 0.02f : 0.2f, .scale = {1, 1, 1}, .margin = -1};
+        bool near = i < TOUCHING;
+        object->shape = (struct hair_bullet_shape){
+            .kind = HAIR_BULLET_SPHERE, .radius = near ? 0.02f : 0.2f, .scale = {1, 1, 1}, .margin = -1};
         object->body = (struct hair_scene_solid){.solid = hair_solid_default(), .stays = true};
-        float* at    = object->body.solid.position;
+        float* at = object->body.solid.position;
         for (int k = 0; k < 3; ++k) at[k] = random_in(&seed, -20, 20);
         if (!near && at[1] > -2 && at[1] < 4) at[0] += at[0] < 0 ? -4.0f : 4.0f;
         if (!near) continue;
         at[0] = random_in(&seed, -0.15f, 0.15f), at[1] = random_in(&seed, 1.35f, 1.5f);
         at[2] = random_in(&seed, -0.15f, 0.1f);
         for (uint32_t k = 0; k < HAIR_SCENE_SOLID_KEYS; ++k) {
-            object->body.key[k].time        = 0.25f * (float)k;
+            object->body.key[k].time = 0.25f * (float)k;
             object->body.key[k].position[1] = k % 2 ? 0.03f : 0;
         }
         object->body.key_count = HAIR_SCENE_SOLID_KEYS;
@@ -78,13 +78,13 @@ static bool live(struct bench* bench, uint32_t count, struct side* side)
 static double time_frame(struct side* side, uint32_t* touching)
 {
     static const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    hair_instance*     hair     = side->bust.hair;
-    hair_field_info    field    = hair_field_info_default();
-    const hair_solid*  solids;
-    float              lower[3], upper[3];
+    hair_instance* hair = side->bust.hair;
+    hair_field_info field = hair_field_info_default();
+    const hair_solid* solids;
+    float lower[3], upper[3];
     glFinish();
     double start = hair_now();
-    bool   ok =
+    bool ok =
         !hair_get_reach(hair, lower, upper) &&
         !hair_world_solids(side->world, (float)++side->frame / 60, here, lower, upper, &solids, touching) &&
         !hair_set_solids(hair, solids, *touching, sizeof *solids) && !hair_step(hair, 1.0f / 60) &&
@@ -103,8 +103,8 @@ static int compare(const void* a, const void* b)
 static bool measure(struct side sides[2])
 {
     struct bench* bench = sides[0].bust.bench;
-    uint32_t      runs  = bench->options.quick ? 15 : MOST_RUNS, touching[2];
-    double        ms[2][MOST_RUNS], medians[2];
+    uint32_t runs = bench->options.quick ? 15 : MOST_RUNS, touching[2];
+    double ms[2][MOST_RUNS], medians[2];
     for (int i = -3; i < (int)runs; ++i) // The first make what is missing.
         for (int k = 0; k < 2; ++k) {
             double time = time_frame(&sides[k], &touching[k]);
@@ -118,7 +118,7 @@ static bool measure(struct side sides[2])
         }
     for (int k = 0; k < 2; ++k) {
         qsort(ms[k], runs, sizeof **ms, compare);
-        medians[k]  = ms[k][runs / 2];
+        medians[k] = ms[k][runs / 2];
         json_t* row = bench_rows_add(&bench->rows);
         bench_set_text(row, "case", name);
         bench_set_text(row, "method", k ? "among others" : "alone");

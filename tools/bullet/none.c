@@ -24,6 +24,6 @@ hair_result hair_world_solids(struct hair_world* world, float time, const float 
 {
     (void)world, (void)time, (void)transform, (void)lower, (void)upper;
     *solids = NULL;
-    *count  = 0;
+    *count = 0;
     return HAIR_OK;
 }

@@ -13,19 +13,19 @@ extern "C" {
 }
 
 struct hair_world {
-    const char*       tool;
+    const char* tool;
     const hair_scene* scene;
-    hair_bullet*      bullet = nullptr;
+    hair_bullet* bullet = nullptr;
 
     std::vector<std::unique_ptr<btStridingMeshInterface>> meshes;
-    std::vector<std::unique_ptr<btCollisionShape>>        shapes;
-    std::vector<std::unique_ptr<btCollisionObject>>       objects;
-    std::vector<uint32_t>                                 moving; // of them
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;
+    std::vector<std::unique_ptr<btCollisionObject>> objects;
+    std::vector<uint32_t> moving; // of them
 
     btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher           dispatcher{&configuration};
-    btDbvtBroadphase                broadphase;
-    btCollisionWorld                world{&dispatcher, &broadphase, &configuration};
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btCollisionWorld world{&dispatcher, &broadphase, &configuration};
 
     ~hair_world()
     {
@@ -64,9 +64,9 @@ static btVector3 cylinder_size(const hair_bullet_shape& from)
 
 static btCollisionShape* make_hull(const hair_bullet_shape& from)
 {
-    btConvexHullShape* hull   = new btConvexHullShape;
-    const float*       points = from.points.values ? from.points.values : from.mesh.positions;
-    const uint32_t     count  = from.points.values ? from.points.rows : from.mesh.vertex_count;
+    btConvexHullShape* hull = new btConvexHullShape;
+    const float* points = from.points.values ? from.points.values : from.mesh.positions;
+    const uint32_t count = from.points.values ? from.points.rows : from.mesh.vertex_count;
     for (uint32_t i = 0; i < count; ++i) hull->addPoint(vector(points + 3 * size_t(i)), false);
     hull->recalcLocalAabb();
     return hull;
@@ -75,7 +75,7 @@ static btCollisionShape* make_hull(const hair_bullet_shape& from)
 static btCollisionShape* make_spheres(const hair_bullet_shape& from)
 {
     std::vector<btVector3> centres;
-    std::vector<btScalar>  radii;
+    std::vector<btScalar> radii;
     for (uint32_t i = 0; i < from.spheres.rows; ++i) {
         centres.push_back(vector(from.spheres.values + 4 * i));
         radii.push_back(from.spheres.values[4 * i + 3]);
@@ -87,14 +87,14 @@ static btCollisionShape* make_spheres(const hair_bullet_shape& from)
 static btCollisionShape* make_mesh(hair_world* world, const hair_bullet_shape& from)
 {
     btIndexedMesh mesh;
-    mesh.m_numTriangles        = static_cast<int>(from.mesh.triangle_count);
-    mesh.m_triangleIndexBase   = reinterpret_cast<const unsigned char*>(from.mesh.triangles);
+    mesh.m_numTriangles = static_cast<int>(from.mesh.triangle_count);
+    mesh.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(from.mesh.triangles);
     mesh.m_triangleIndexStride = 3 * sizeof(uint32_t);
-    mesh.m_numVertices         = static_cast<int>(from.mesh.vertex_count);
-    mesh.m_vertexBase          = reinterpret_cast<const unsigned char*>(from.mesh.positions);
-    mesh.m_vertexStride        = 3 * sizeof(float);
-    mesh.m_vertexType          = PHY_FLOAT;
-    auto array                 = std::make_unique<btTriangleIndexVertexArray>();
+    mesh.m_numVertices = static_cast<int>(from.mesh.vertex_count);
+    mesh.m_vertexBase = reinterpret_cast<const unsigned char*>(from.mesh.positions);
+    mesh.m_vertexStride = 3 * sizeof(float);
+    mesh.m_vertexType = PHY_FLOAT;
+    auto array = std::make_unique<btTriangleIndexVertexArray>();
     array->addIndexedMesh(mesh, PHY_INTEGER);
     btCollisionShape* shape = new btBvhTriangleMeshShape(array.get(), true);
     world->meshes.push_back(std::move(array));
@@ -147,7 +147,7 @@ static btCollisionShape* make_kind(hair_world* world, const hair_bullet_shape& f
 static btCollisionShape* make_shape(hair_world* world, const hair_bullet_shape& from)
 {
     btCollisionShape* shape = make_kind(world, from);
-    btVector3         scale = vector(from.scale);
+    btVector3 scale = vector(from.scale);
     if (from.kind == HAIR_BULLET_HEIGHT_FIELD)
         for (int k = 0; k < 3; ++k) scale[k] *= k == static_cast<int>(from.axis) ? 1 : from.spacing;
     if (from.margin >= 0) shape->setMargin(from.margin);
@@ -198,8 +198,8 @@ static int fill(hair_world* world, const char* name, const hair_host* host)
     if (hair_bullet_create(host, sizeof(btScalar), &world->bullet)) return HAIR_EXIT_RUNTIME;
     const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (uint32_t i = 0; i < world->scene->bullet.count; ++i) {
-        const hair_bullet_object& from   = world->scene->bullet.object[i];
-        auto                      object = std::make_unique<btCollisionObject>();
+        const hair_bullet_object& from = world->scene->bullet.object[i];
+        auto object = std::make_unique<btCollisionObject>();
         object->setCollisionShape(make_shape(world, from.shape));
         object->setFriction(from.body.solid.friction);
         object->setWorldTransform(place_of(from.body, 0, here));
@@ -216,9 +216,9 @@ int hair_world_create(const char* tool, const char* name, const hair_scene* scen
     *out = nullptr;
     if (!scene->bullet.count) return HAIR_EXIT_OK;
     hair_world* world = new hair_world;
-    world->tool       = tool;
-    world->scene      = scene;
-    int code          = fill(world, name, host);
+    world->tool = tool;
+    world->scene = scene;
+    int code = fill(world, name, host);
     if (code)
         delete world;
     else

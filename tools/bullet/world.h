@@ -8,8 +8,8 @@ struct hair_world;
 
 // Returns what to exit with, having complained. *out is NULL where the scene has no objects. `scene`, whose name is
 // `name`, and `host` must outlive the world.
-int  hair_world_create(const char* tool, const char* name, const struct hair_scene* scene,
-                       const hair_host* host, struct hair_world** out);
+int hair_world_create(const char* tool, const char* name, const struct hair_scene* scene,
+                      const hair_host* host, struct hair_world** out);
 void hair_world_destroy(struct hair_world* world); // Takes NULL.
 
 // Objects are moved to where they are at `time`, in s, with the head at `transform`; those that touch the bounds are

@@ -11,7 +11,7 @@
     "'light': {'to': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "          \
     "'lights': [{'to': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                                   \
     "'settings': {'shadow': 'strands', 'voxel': 0.006, 'roughness.along': 0.2, 'roughness.round': 0.35, "    \
-    "'thinning': 0.45, 'taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color_spread': 0.5, "   \
+    "'thinning': 0.45, 'taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color_spread': 0.5, "                      \
     "'hue_spread': 0.12, 'roughness_spread': 0.2, 'root_shade': 0.35, 'strays': 0.14}"
 
 const struct hair_builtin hair_builtin_scenes[] = {

@@ -27,15 +27,15 @@ static float apparent_radius(const struct hair_bounds* bounds)
 
 void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds)
 {
-    float aspect   = (float)scene->width / (float)scene->height;
-    float half     = 0.5f * glm_rad(scene->field_of_view);
-    float least    = aspect < 1 ? atanf(tanf(half) * aspect) : half;
+    float aspect = (float)scene->width / (float)scene->height;
+    float half = 0.5f * glm_rad(scene->field_of_view);
+    float least = aspect < 1 ? atanf(tanf(half) * aspect) : half;
     float distance = fmaxf(apparent_radius(bounds) / sinf(least), 1e-4f);
-    vec3  towards  = {0.45f, 0.12f, 1};
+    vec3 towards = {0.45f, 0.12f, 1};
     glm_vec3_normalize(towards);
     for (int i = 0; i < 3; ++i) {
         scene->target[i] = 0.5f * (bounds->lower[i] + bounds->upper[i]);
-        scene->eye[i]    = scene->target[i] + distance * towards[i];
+        scene->eye[i] = scene->target[i] + distance * towards[i];
     }
     scene->framed = true;
 }
@@ -82,7 +82,7 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
     copy_in(scene->target, target);
     hair_camera_pivot(scene, transform, centre);
     float distance = glm_vec3_distance(eye, centre);
-    float nearest  = fmaxf(distance - 2 * reach, 0.02f * distance + 1e-4f);
+    float nearest = fmaxf(distance - 2 * reach, 0.02f * distance + 1e-4f);
     look(eye, target, view);
     glm_perspective(glm_rad(scene->field_of_view), (float)scene->width / (float)scene->height, nearest,
                     nearest + distance + 4 * reach, projection);

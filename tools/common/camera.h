@@ -19,7 +19,7 @@ void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bound
 
 // What the head can reach: a sphere about its pivot; and where that is under the head's transform.
 float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds* bounds);
-void  hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3]);
+void hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3]);
 
 // `transform` is the head's, `reach` the radius of its sphere.
 void hair_camera_matrices(const struct hair_scene* scene, const float transform[16], float reach,

@@ -33,7 +33,7 @@ enum name {
 
 struct row {
     const char* name;
-    int         option;
+    int option;
     const char* argument; // NULL: it takes none
     const char* about;
 };
@@ -78,23 +78,23 @@ static const struct row rows[] = {
 
 struct change {
     const struct row* row;
-    const char*       value;
+    const char* value;
 };
 
 // What the command line says, before the scene that it changes is read.
 struct said {
-    const char*   scene_name;
-    const char*   scene_file;
-    const char*   groom;
-    const char*   style;
-    const char*   motion;
-    const char*   show;
-    const char*   frames;
-    const char*   fps;
-    const char*   size;
-    bool          head;
+    const char* scene_name;
+    const char* scene_file;
+    const char* groom;
+    const char* style;
+    const char* motion;
+    const char* show;
+    const char* frames;
+    const char* fps;
+    const char* size;
+    bool head;
     struct change change[MAX_CHANGES];
-    int           changes;
+    int changes;
 };
 
 static int print_help(const char* tool)
@@ -126,8 +126,8 @@ static bool parse_count(const char* text, uint32_t min, uint32_t max, const char
     errno = 0;
     if (*text < '0' || *text > '9') return false;
     unsigned long long value = strtoull(text, &after, 10);
-    *end                     = after;
-    *out                     = (uint32_t)value;
+    *end = after;
+    *out = (uint32_t)value;
     return !errno && value >= min && value <= max;
 }
 
@@ -143,7 +143,7 @@ static bool parse_whole(const char* tool, const char* option, const char* text, 
 static bool parse_frames(const char* tool, const char* text, struct hair_capture_options* out)
 {
     const char* end;
-    bool        ok = parse_count(text, 0, 1000000, &end, &out->first) && *end == ':' &&
+    bool ok = parse_count(text, 0, 1000000, &end, &out->first) && *end == ':' &&
               parse_count(end + 1, 0, 1000000, &end, &out->end) && !*end && out->first < out->end;
     if (!ok) hair_complain(tool, "--frames is %s, not A:B with A less than B, both up to 1000000", text);
     return ok;
@@ -152,7 +152,7 @@ static bool parse_frames(const char* tool, const char* text, struct hair_capture
 static bool parse_size(const char* tool, const char* text, struct hair_scene* scene)
 {
     const char* end;
-    bool        ok = parse_count(text, 1, 16384, &end, &scene->width) && *end == 'x' &&
+    bool ok = parse_count(text, 1, 16384, &end, &scene->width) && *end == 'x' &&
               parse_count(end + 1, 1, 16384, &end, &scene->height) && !*end;
     if (!ok) hair_complain(tool, "--size is %s, not WxH with both in [1, 16384]", text);
     return ok;
@@ -160,9 +160,9 @@ static bool parse_size(const char* tool, const char* text, struct hair_scene* sc
 
 static bool parse_fps(const char* tool, const char* text, struct hair_scene* scene)
 {
-    char*  end;
+    char* end;
     double fps = strtod(text, &end);
-    bool   ok  = end != text && !*end && fps >= 1 && fps <= 1000;
+    bool ok = end != text && !*end && fps >= 1 && fps <= 1000;
     if (!ok) hair_complain(tool, "--fps is %s, not a number in [1, 1000]", text);
     scene->fps = ok ? (float)fps : scene->fps;
     return ok;
@@ -171,11 +171,11 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
 static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
 {
     static const char* const names[] = {"hair", "head", "guides", "solids", "wind"}; // As enum hair_show.
-    const int                count   = (int)(sizeof names / sizeof *names);
-    scene->show                      = 0;
+    const int count = (int)(sizeof names / sizeof *names);
+    scene->show = 0;
     for (const char* at = text;;) {
         size_t length = strcspn(at, ",");
-        int    i      = 0;
+        int i = 0;
         while (i < count && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
         if (i == count) {
             hair_complain(tool, "--show is %s, not some of hair, head, guides, solids and wind", text);
@@ -190,10 +190,10 @@ static bool parse_show(const char* tool, const char* text, struct hair_scene* sc
 // "--set key=value", or "--tip-first", which is the setting tip_first.
 static bool apply_change(const char* tool, const struct change* change, struct hair_scene* scene)
 {
-    bool        set    = change->row->option == SET;
-    const char* name   = set ? change->value : change->row->name;
+    bool set = change->row->option == SET;
+    const char* name = set ? change->value : change->row->name;
     const char* equals = set ? strchr(name, '=') : name + strlen(name);
-    char        key[64];
+    char key[64];
     if (!equals || (size_t)(equals - name) >= sizeof key) {
         hair_complain(tool, "--set is %s, not KEY=VALUE", name);
         return false;
@@ -264,8 +264,8 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
             hair_complain(tool, "--help lists the options");
             return HAIR_EXIT_USAGE;
         }
-        struct row        letter = {.option = found};
-        const struct row* row    = found >= 1000 ? &rows[found - 1000] : &letter;
+        struct row letter = {.option = found};
+        const struct row* row = found >= 1000 ? &rows[found - 1000] : &letter;
         if (row->option == 'h') return print_help(tool);
         if (row->option == VERSION) {
             uint32_t version = hair_version();
@@ -285,15 +285,15 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
 static int open_scene(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
     static const char alone[] = "{\"motion\": \"turn\"}"; // Of a haircut from a file and no scene.
-    const char*       path    = said->scene_file;
+    const char* path = said->scene_file;
     if (path) {
         out->name = path;
         return hair_scene_read(tool, path, &out->scene) ? -1 : HAIR_EXIT_INPUT;
     }
     bool none = !said->scene_name && said->groom;
     out->name = none ? said->groom : said->scene_name ? said->scene_name : "demo";
-    bool ok   = none ? hair_scene_parse(tool, out->name, alone, sizeof alone - 1, &out->scene)
-                     : hair_scene_named(tool, out->name, &out->scene);
+    bool ok = none ? hair_scene_parse(tool, out->name, alone, sizeof alone - 1, &out->scene)
+                   : hair_scene_named(tool, out->name, &out->scene);
     return ok ? -1 : HAIR_EXIT_USAGE;
 }
 
@@ -315,16 +315,16 @@ static bool change_scene(const char* tool, const struct said* said, struct hair_
 static bool choose_frames(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
     if (said->frames) return parse_frames(tool, said->frames, out);
-    bool one   = out->out && hair_sink_is_picture(out->out);
+    bool one = out->out && hair_sink_is_picture(out->out);
     out->first = one ? out->scene.picture : 0;
-    out->end   = one ? out->scene.picture + 1 : out->scene.frames;
+    out->end = one ? out->scene.picture + 1 : out->scene.frames;
     return true;
 }
 
 static const char* find_clash(const struct said* said, const struct hair_capture_options* options)
 {
     bool piped = options->out && !strcmp(options->out, "-"),
-         told  = options->stats && !strcmp(options->stats, "-");
+         told = options->stats && !strcmp(options->stats, "-");
     if (said->scene_file && said->scene_name) return "a scene file and --scene are one too many";
     if (said->groom && said->style) return "--groom and --style are one too many";
     if (piped + told + options->hash > 1)
@@ -337,8 +337,8 @@ static const char* find_clash(const struct said* said, const struct hair_capture
 int hair_capture_parse(const char* tool, int count, char** arguments, struct hair_capture_options* out)
 {
     struct said said = {0};
-    *out             = (struct hair_capture_options){.samples = 4, .supersample = 2, .device = -1};
-    int code         = read_line(tool, count, arguments, &said, out);
+    *out = (struct hair_capture_options){.samples = 4, .supersample = 2, .device = -1};
+    int code = read_line(tool, count, arguments, &said, out);
     if (code >= 0) return code;
     const char* clash = find_clash(&said, out);
     if (clash) {

@@ -20,7 +20,7 @@ int hair_flush(const char* tool)
 
 void hair_complain(const char* tool, const char* format, ...)
 {
-    char    sentence[1024];
+    char sentence[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
@@ -49,17 +49,17 @@ static bool is_standard(const char* path)
 static bool read_all(const char* tool, const char* path, FILE* file, size_t limit, struct hair_bytes* out)
 {
     struct hair_bytes bytes = {0};
-    size_t            room  = 0;
+    size_t room = 0;
     for (;;) {
         if (bytes.size == room) {
             size_t wider = room ? 2 * room : (size_t)1 << 16;
-            void*  more  = wider > room ? realloc(bytes.data, wider) : NULL;
+            void* more = wider > room ? realloc(bytes.data, wider) : NULL;
             if (!more) {
                 hair_complain(tool, "out of memory after %zu bytes of %s", bytes.size, path);
                 break;
             }
             bytes.data = more;
-            room       = wider;
+            room = wider;
         }
         size_t got = fread(bytes.data + bytes.size, 1, room - bytes.size, file);
         bytes.size += got;
@@ -108,7 +108,7 @@ static bool is_in_place(const char* path, const struct stat* status)
 static bool open_in_place(struct hair_output* output)
 {
     bool standard = is_standard(output->path) || strcmp(output->path, "/dev/stdout") == 0;
-    output->file  = standard ? stdout : fopen(output->path, "wb");
+    output->file = standard ? stdout : fopen(output->path, "wb");
     return output->file || cannot_write(output->tool, output->path);
 }
 
@@ -116,8 +116,8 @@ static bool open_in_place(struct hair_output* output)
 static bool open_temporary(struct hair_output* output, mode_t mode)
 {
     static const char suffix[] = ".XXXXXX";
-    size_t            length   = strlen(output->path);
-    output->temporary          = malloc(length + sizeof suffix);
+    size_t length = strlen(output->path);
+    output->temporary = malloc(length + sizeof suffix);
     if (!output->temporary) return cannot_write(output->tool, output->path);
     memcpy(output->temporary, output->path, length);
     memcpy(output->temporary + length, suffix, sizeof suffix);
@@ -135,14 +135,14 @@ static bool open_temporary(struct hair_output* output, mode_t mode)
 bool hair_output_open(const char* tool, const char* path, struct hair_output* out)
 {
     struct hair_output output = {.tool = tool};
-    struct stat        status;
-    bool               exists = !is_standard(path) && stat(path, &status) == 0;
+    struct stat status;
+    bool exists = !is_standard(path) && stat(path, &status) == 0;
     // A link stays a link: what it points to is replaced.
     output.path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
     if (!output.path) return cannot_write(tool, path);
 
-    bool   in_place = is_standard(path) || (exists && is_in_place(path, &status));
-    mode_t mask     = umask(0);
+    bool in_place = is_standard(path) || (exists && is_in_place(path, &status));
+    mode_t mask = umask(0);
     umask(mask);
     if (exists && !in_place && access(output.path, W_OK)) // A rename would ignore that it is read-only.
         in_place = true;

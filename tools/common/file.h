@@ -25,7 +25,7 @@ void hair_complain(const char* tool, const char* format, ...) __attribute__((for
 
 struct hair_bytes {
     unsigned char* data; // free() it
-    size_t         size;
+    size_t size;
 };
 
 // All of a file, pipe or device; "-" is the standard input. More than `limit` bytes is a failure.
@@ -34,10 +34,10 @@ bool hair_file_read(const char* tool, const char* path, size_t limit, struct hai
 // A file being written. It appears under its name only when committed; what is not a regular file (a pipe, a
 // device, "-" for the standard output) is written in place.
 struct hair_output {
-    FILE*       file; // write here
+    FILE* file; // write here
     const char* tool;
-    char*       path;
-    char*       temporary; // NULL: in place
+    char* path;
+    char* temporary; // NULL: in place
 };
 
 // `tool` must outlive the output. Each opened output is ended by exactly one of commit and discard.

@@ -19,23 +19,23 @@ struct xyz {
 
 // Of Rec. 709's primaries, to XYZ of white (1, 1, 1) and back: columns scaled so that white's sum is D65.
 struct colors {
-    double     to[3][3], from[3][3];
+    double to[3][3], from[3][3];
     struct xyz white;
 };
 
 // A separable filter's halves; taps are at -radius to radius.
 struct kernel {
-    int   radius;
+    int radius;
     float taps[2 * MOST_RADIUS + 1];
 };
 
 // One picture on its way. Planes have a float per pixel.
 struct planes {
     uint32_t width, height;
-    float*   memory;
-    float *  luma, *red_green, *blue_yellow; // Y, Cx and Cz, then, filtered, Hunt-adjusted L*, a*, b*
-    float *  edges, *points;                 // how strong
-    float *  half, *row, *spare[2];
+    float* memory;
+    float *luma, *red_green, *blue_yellow; // Y, Cx and Cz, then, filtered, Hunt-adjusted L*, a*, b*
+    float *edges, *points; // how strong
+    float *half, *row, *spare[2];
 };
 
 // Colours ---------------------------------------------------------------------------------------------------
@@ -60,8 +60,8 @@ static struct xyz multiply(double m[3][3], double a, double b, double c)
 static void make_colors(struct colors* out)
 {
     static const double primaries[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
-    static const double d65[2]          = {0.31271, 0.32902};
-    double              inverse[3][3];
+    static const double d65[2] = {0.31271, 0.32902};
+    double inverse[3][3];
     out->white = (struct xyz){d65[0] / d65[1], 1, (1 - d65[0] - d65[1]) / d65[1]};
     for (int i = 0; i < 3; ++i) {
         double x = primaries[i][0], y = primaries[i][1];
@@ -100,8 +100,8 @@ static double compress(double t)
 // CIELAB with chroma scaled down by how dark it is, as Hunt found it: x = L*, y = a*, z = b*.
 static struct xyz to_hunt(const struct colors* colors, struct rgb c)
 {
-    struct xyz v     = to_xyz(colors, c);
-    double     light = 116 * compress(v.y) - 16;
+    struct xyz v = to_xyz(colors, c);
+    double light = 116 * compress(v.y) - 16;
     return (struct xyz){light, 0.01 * light * 500 * (compress(v.x) - compress(v.y)),
                         0.01 * light * 200 * (compress(v.y) - compress(v.z))};
 }
@@ -117,7 +117,7 @@ static double hyab(struct xyz a, struct xyz b)
 // exp(-squared * d^2), of sum 1; returns the sum before that.
 static double make_gaussian(struct kernel* kernel, int radius, double squared)
 {
-    double sum     = 0;
+    double sum = 0;
     kernel->radius = radius;
     for (int d = -radius; d <= radius; ++d) sum += exp(-squared * d * d);
     for (int d = -radius; d <= radius; ++d) kernel->taps[radius + d] = (float)(exp(-squared * d * d) / sum);
@@ -128,7 +128,7 @@ static double make_gaussian(struct kernel* kernel, int radius, double squared)
 static void balance(struct kernel* kernel)
 {
     double positive = 0, negative = 0;
-    int    count = 2 * kernel->radius + 1;
+    int count = 2 * kernel->radius + 1;
     for (int i = 0; i < count; ++i) *(kernel->taps[i] > 0 ? &positive : &negative) += kernel->taps[i];
     for (int i = 0; i < count; ++i)
         kernel->taps[i] = (float)(kernel->taps[i] / (kernel->taps[i] > 0 ? positive : -negative));
@@ -138,8 +138,8 @@ static void balance(struct kernel* kernel)
 static void make_features(double pixels_per_degree, struct kernel* smooth, struct kernel* first,
                           struct kernel* second)
 {
-    double sigma  = 0.5 * 0.082 * pixels_per_degree;
-    int    radius = (int)ceil(3 * sigma);
+    double sigma = 0.5 * 0.082 * pixels_per_degree;
+    int radius = (int)ceil(3 * sigma);
     make_gaussian(smooth, radius, 1 / (2 * sigma * sigma));
     *first = *second = *smooth;
     for (int d = -radius; d <= radius; ++d) {
@@ -160,7 +160,7 @@ static void filter(const struct planes* p, const float* in, const struct kernel*
                    const struct kernel* down, float* out)
 {
     size_t width = p->width;
-    int    r     = across->radius;
+    int r = across->radius;
     for (uint32_t y = 0; y < p->height; ++y) {
         float* to = p->half + y * width;
         for (int x = -r; x < (int)width + r; ++x) p->row[x + r] = in[y * width + clamp_index(x, p->width)];
@@ -200,10 +200,10 @@ static bool make_planes(struct planes* p, uint32_t width, uint32_t height)
 static void split(const struct colors* colors, const float* picture, struct planes* p)
 {
     for (size_t i = 0; i < (size_t)p->width * p->height; ++i) {
-        const float* s    = picture + 3 * i;
-        struct xyz   v    = to_xyz(colors, (struct rgb){decode(s[0]), decode(s[1]), decode(s[2])});
-        p->luma[i]        = (float)(116 * v.y - 16);
-        p->red_green[i]   = (float)(500 * (v.x - v.y));
+        const float* s = picture + 3 * i;
+        struct xyz v = to_xyz(colors, (struct rgb){decode(s[0]), decode(s[1]), decode(s[2])});
+        p->luma[i] = (float)(116 * v.y - 16);
+        p->red_green[i] = (float)(500 * (v.x - v.y));
         p->blue_yellow[i] = (float)(200 * (v.y - v.z));
     }
 }
@@ -211,11 +211,11 @@ static void split(const struct colors* colors, const float* picture, struct plan
 static void find_features(struct planes* p, double pixels_per_degree)
 {
     struct kernel smooth, first, second;
-    size_t        count = (size_t)p->width * p->height;
+    size_t count = (size_t)p->width * p->height;
     make_features(pixels_per_degree, &smooth, &first, &second);
     for (int is_point = 0; is_point < 2; ++is_point) {
         const struct kernel* kernel = is_point ? &second : &first;
-        float*               out    = is_point ? p->points : p->edges;
+        float* out = is_point ? p->points : p->edges;
         filter(p, p->luma, kernel, &smooth, p->spare[0]);
         filter(p, p->luma, &smooth, kernel, p->spare[1]);
         // Of (Y + 16) / 116, which is in [0, 1]: the constant falls to the kernel's sum, 0.
@@ -228,8 +228,8 @@ static void blur(struct planes* p, float* channel, double pixels_per_degree, con
                  const double b[2])
 {
     struct kernel kernels[2];
-    double        weights[2] = {0, 0};
-    size_t        count      = (size_t)p->width * p->height;
+    double weights[2] = {0, 0};
+    size_t count = (size_t)p->width * p->height;
     // The same for all channels: three deviations of the widest of all their Gaussians.
     int radius = (int)ceil(3 * sqrt(0.04 / (2 * PI * PI)) * pixels_per_degree);
     for (int i = 0; i < 2 && a[i] > 0; ++i) {
@@ -250,11 +250,11 @@ static void find_colors(const struct colors* colors, struct planes* p, double pi
     blur(p, p->blue_yellow, pixels_per_degree, (double[]){34.1, 13.5}, (double[]){0.04, 0.025});
     for (size_t i = 0; i < (size_t)p->width * p->height; ++i) {
         double y = (p->luma[i] + 16) / 116, x = y + p->red_green[i] / 500, z = y - p->blue_yellow[i] / 200;
-        struct xyz c    = multiply((double(*)[3])colors->from, x * colors->white.x, y, z * colors->white.z);
+        struct xyz c = multiply((double(*)[3])colors->from, x * colors->white.x, y, z * colors->white.z);
         struct xyz hunt = to_hunt(
             colors, (struct rgb){fmin(fmax(c.x, 0), 1), fmin(fmax(c.y, 0), 1), fmin(fmax(c.z, 0), 1)});
-        p->luma[i]        = (float)hunt.x;
-        p->red_green[i]   = (float)hunt.y;
+        p->luma[i] = (float)hunt.x;
+        p->red_green[i] = (float)hunt.y;
         p->blue_yellow[i] = (float)hunt.z;
     }
 }
@@ -281,14 +281,14 @@ static double redistribute(double error, double most)
 static void compare(const struct colors* colors, const struct planes* a, const struct planes* b, float* out)
 {
     struct xyz green = to_hunt(colors, (struct rgb){0, 1, 0}), blue = to_hunt(colors, (struct rgb){0, 0, 1});
-    double     most = pow(hyab(green, blue), 0.7);
+    double most = pow(hyab(green, blue), 0.7);
     for (size_t i = 0; i < (size_t)a->width * a->height; ++i) {
-        struct xyz ca    = {a->luma[i], a->red_green[i], a->blue_yellow[i]};
-        struct xyz cb    = {b->luma[i], b->red_green[i], b->blue_yellow[i]};
-        double     color = redistribute(pow(hyab(ca, cb), 0.7), most);
-        double     edge = fabs(a->edges[i] - b->edges[i]), point = fabs(a->points[i] - b->points[i]);
-        double     feature = sqrt(fmax(edge, point) / sqrt(2));
-        out[i]             = (float)fmin(pow(color, 1 - feature), 1);
+        struct xyz ca = {a->luma[i], a->red_green[i], a->blue_yellow[i]};
+        struct xyz cb = {b->luma[i], b->red_green[i], b->blue_yellow[i]};
+        double color = redistribute(pow(hyab(ca, cb), 0.7), most);
+        double edge = fabs(a->edges[i] - b->edges[i]), point = fabs(a->points[i] - b->points[i]);
+        double feature = sqrt(fmax(edge, point) / sqrt(2));
+        out[i] = (float)fmin(pow(color, 1 - feature), 1);
     }
 }
 

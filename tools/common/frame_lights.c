@@ -12,11 +12,11 @@ void hair_frame_lights_find(const struct hair_scene* scene, const float transfor
     memset(out, 0, sizeof *out);
     out->count = 1 + scene->lights.count;
     for (uint32_t i = 0; i < out->count; ++i) {
-        bool casts    = i ? scene->lights.at[i - 1].shadow : scene->shadow;
+        bool casts = i ? scene->lights.at[i - 1].shadow : scene->shadow;
         out->light[i] = i ? scene->lights.at[i - 1].light : scene->settings.light;
         if (!casts || out->shadows == HAIR_SCENE_SHADOWS) continue;
         struct hair_frame_shadow* shadow = &out->shadow[out->shadows++];
-        shadow->light                    = i;
+        shadow->light = i;
         shadow->texel =
             hair_lamp_matrices(scene, &out->light[i], transform, reach, &shadow->matrices) / HAIR_SHADOW_SIZE;
     }

@@ -6,14 +6,14 @@
 #include "tools/common/shadow_map.h"
 
 struct hair_frame_shadow {
-    uint32_t             light; // which has it
+    uint32_t light; // which has it
     struct hair_matrices matrices;
-    float                texel; // of its maps where the head is, m
+    float texel; // of its maps where the head is, m
 };
 
 struct hair_frame_lights {
-    hair_light               light[HAIR_SCENE_LIGHTS];
-    uint32_t                 count, shadows;
+    hair_light light[HAIR_SCENE_LIGHTS];
+    uint32_t count, shadows;
     struct hair_frame_shadow shadow[HAIR_SCENE_SHADOWS];
 };
 

@@ -9,21 +9,21 @@
 #include <string.h>
 
 #define COLLAR_REACH 0.0026f // Half the spacing of the grid there. m.
-#define BLOCK 4              // Grid points a side that are skipped together when far from the surface.
+#define BLOCK 4 // Grid points a side that are skipped together when far from the surface.
 
 typedef struct head_point point;
 
 struct axis {
-    float    at[256];
+    float at[256];
     uint32_t count;
 };
 
 struct net {
-    struct axis       axis[3];
-    float*            distance; // at grid points
-    uint32_t*         vertex;   // of cells: index + 1; 0: none
+    struct axis axis[3];
+    float* distance; // at grid points
+    uint32_t* vertex; // of cells: index + 1; 0: none
     struct head_mesh* mesh;
-    uint32_t          vertex_capacity, triangle_capacity;
+    uint32_t vertex_capacity, triangle_capacity;
 };
 
 // A stretch of an axis whose planes are `spacing` apart; away from it they spread by an eighth.
@@ -38,7 +38,7 @@ static float spacing_at(const struct stretch* stretch, uint32_t count, float at)
     float spacing = COARSEST;
     for (uint32_t i = 0; i < count; ++i) {
         float out = fmaxf(fmaxf(stretch[i].from - at, at - stretch[i].to), 0);
-        spacing   = fminf(spacing, stretch[i].spacing + 0.125f * out);
+        spacing = fminf(spacing, stretch[i].spacing + 0.125f * out);
     }
     return spacing;
 }
@@ -70,10 +70,10 @@ static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0
 {
     uint32_t i1 = least(i0 + BLOCK, net->axis[0].count), j1 = least(j0 + BLOCK, net->axis[1].count);
     uint32_t k1 = least(k0 + BLOCK, net->axis[2].count);
-    point    a = grid_point(net, i0, j0, k0), b = grid_point(net, i1 - 1, j1 - 1, k1 - 1);
-    point    middle = {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-    float    reach = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
-    float    far   = head_distance(middle);
+    point a = grid_point(net, i0, j0, k0), b = grid_point(net, i1 - 1, j1 - 1, k1 - 1);
+    point middle = {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+    float reach = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
+    float far = head_distance(middle);
     // Twice the radius, since the distance is only a bound, plus the step from block to block.
     int skip = fabsf(far) > reach + 0.012f;
     for (uint32_t k = k0; k < k1; ++k)
@@ -86,10 +86,10 @@ static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0
 static point gradient(point p)
 {
     const float h = 3e-4f;
-    float       a = head_distance((point){p.x + h, p.y - h, p.z - h});
-    float       b = head_distance((point){p.x - h, p.y - h, p.z + h});
-    float       c = head_distance((point){p.x - h, p.y + h, p.z - h});
-    float       d = head_distance((point){p.x + h, p.y + h, p.z + h});
+    float a = head_distance((point){p.x + h, p.y - h, p.z - h});
+    float b = head_distance((point){p.x - h, p.y - h, p.z + h});
+    float c = head_distance((point){p.x - h, p.y + h, p.z - h});
+    float d = head_distance((point){p.x + h, p.y + h, p.z + h});
     return (point){(a - b - c + d) / (4 * h), (c + d - a - b) / (4 * h), (b + d - a - c) / (4 * h)};
 }
 
@@ -105,14 +105,14 @@ static int grow(void** memory, uint32_t* capacity, uint32_t count, size_t size)
 // The middle of where the surface crosses the cell's edges. Returns 0 when it crosses none.
 static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k, point* out)
 {
-    float    d[8];
+    float d[8];
     uint32_t inside = 0;
     for (uint32_t c = 0; c < 8; ++c) {
         d[c] = net->distance[index_of(net, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
         inside += d[c] < 0;
     }
     if (inside == 0 || inside == 8) return 0;
-    point sum   = {0, 0, 0};
+    point sum = {0, 0, 0};
     float count = 0;
     for (uint32_t c = 0; c < 8; ++c)
         for (uint32_t bit = 1; bit < 8; bit <<= 1) {
@@ -121,8 +121,8 @@ static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k,
             float t = d[c] / (d[c] - d[e]);
             point p = grid_point(net, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
             point q = grid_point(net, i + (e & 1), j + (e >> 1 & 1), k + (e >> 2));
-            sum     = (point){sum.x + p.x + (q.x - p.x) * t, sum.y + p.y + (q.y - p.y) * t,
-                              sum.z + p.z + (q.z - p.z) * t};
+            sum = (point){sum.x + p.x + (q.x - p.x) * t, sum.y + p.y + (q.y - p.y) * t,
+                          sum.z + p.z + (q.z - p.z) * t};
             ++count;
         }
     *out = (point){sum.x / count, sum.y / count, sum.z / count};
@@ -132,9 +132,9 @@ static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k,
 // One step of Newton's method, held to the cell's neighbourhood.
 static point onto_surface(point p)
 {
-    point g      = gradient(p);
+    point g = gradient(p);
     float square = fmaxf(g.x * g.x + g.y * g.y + g.z * g.z, 0.25f);
-    float step   = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
+    float step = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
     return (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
 }
 
@@ -143,21 +143,21 @@ static point onto_collar(point p)
 {
     float below = head_below_collar(p);
     if (fabsf(below) > COLLAR_REACH) return p;
-    const float h     = 1e-3f;
-    point       n     = gradient(p);
-    point       c     = {(head_below_collar((point){p.x + h, p.y, p.z}) - below) / h,
-                         (head_below_collar((point){p.x, p.y + h, p.z}) - below) / h,
-                         (head_below_collar((point){p.x, p.y, p.z + h}) - below) / h};
-    float       along = (c.x * n.x + c.y * n.y + c.z * n.z) / fmaxf(n.x * n.x + n.y * n.y + n.z * n.z, 0.25f);
-    c                 = (point){c.x - n.x * along, c.y - n.y * along, c.z - n.z * along};
-    float step        = below / fmaxf(c.x * c.x + c.y * c.y + c.z * c.z, 0.3f);
+    const float h = 1e-3f;
+    point n = gradient(p);
+    point c = {(head_below_collar((point){p.x + h, p.y, p.z}) - below) / h,
+               (head_below_collar((point){p.x, p.y + h, p.z}) - below) / h,
+               (head_below_collar((point){p.x, p.y, p.z + h}) - below) / h};
+    float along = (c.x * n.x + c.y * n.y + c.z * n.z) / fmaxf(n.x * n.x + n.y * n.y + n.z * n.z, 0.25f);
+    c = (point){c.x - n.x * along, c.y - n.y * along, c.z - n.z * along};
+    float step = below / fmaxf(c.x * c.x + c.y * c.y + c.z * c.z, 0.3f);
     return onto_surface((point){p.x - c.x * step, p.y - c.y * step, p.z - c.z * step});
 }
 
 static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
 {
-    p          = onto_collar(onto_surface(p));
-    point g    = gradient(p);
+    p = onto_collar(onto_surface(p));
+    point g = gradient(p);
     float size = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
     memcpy(mesh->positions + 3 * vertex, &p, sizeof p);
     g = (point){g.x / size, g.y / size, g.z / size};
@@ -166,9 +166,9 @@ static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
 
 static int grow_vertices(struct net* net)
 {
-    struct head_mesh* mesh  = net->mesh;
-    uint32_t          count = mesh->vertex_count;
-    int               grew  = grow((void**)&mesh->positions, &net->vertex_capacity, count, 3 * sizeof(float));
+    struct head_mesh* mesh = net->mesh;
+    uint32_t count = mesh->vertex_count;
+    int grew = grow((void**)&mesh->positions, &net->vertex_capacity, count, 3 * sizeof(float));
     if (grew <= 0) return grew;
     if (grow((void**)&mesh->normals, &net->vertex_capacity, count, 3 * sizeof(float)) < 0) return -1;
     if (grow((void**)&mesh->colors, &net->vertex_capacity, count, 3 * sizeof(float)) < 0) return -1;
@@ -194,8 +194,8 @@ static int place_vertices(struct net* net)
 static int add_square(struct net* net, const uint32_t corner[4], int flip)
 {
     struct head_mesh* mesh = net->mesh;
-    int               grew = grow((void**)&mesh->triangles, &net->triangle_capacity, mesh->triangle_count + 1,
-                                  3 * sizeof(uint32_t));
+    int grew = grow((void**)&mesh->triangles, &net->triangle_capacity, mesh->triangle_count + 1,
+                    3 * sizeof(uint32_t));
     if (grew < 0) return -1;
     if (grew) net->triangle_capacity *= 2;
     const uint32_t order[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 2, 1, 0, 3, 2}};
@@ -245,7 +245,7 @@ static int build(struct net* net)
 int head_mesh_create(struct head_mesh* out)
 {
     struct head_mesh mesh = {0};
-    struct net       net  = {.mesh = &mesh, .vertex_capacity = 1 << 14, .triangle_capacity = 1 << 15};
+    struct net net = {.mesh = &mesh, .vertex_capacity = 1 << 14, .triangle_capacity = 1 << 15};
     // Fine where the face is: eyes, nose and mouth; ears.
     const struct stretch x[] = {{-0.048f, 0.048f, 0.0023f}, {-0.090f, 0.090f, 0.0036f}};
     const struct stretch y[] = {{1.604f, 1.616f, 0.0014f},
@@ -257,12 +257,12 @@ int head_mesh_create(struct head_mesh* out)
     make_axis(&net.axis[1], HEAD_BOTTOM - 0.004f, 1.740f, y, 4);
     make_axis(&net.axis[2], -0.150f, 0.135f, z, 2);
 
-    size_t points  = (size_t)net.axis[0].count * net.axis[1].count * net.axis[2].count;
-    net.distance   = malloc(points * sizeof(float));
-    net.vertex     = calloc(points, sizeof(uint32_t));
+    size_t points = (size_t)net.axis[0].count * net.axis[1].count * net.axis[2].count;
+    net.distance = malloc(points * sizeof(float));
+    net.vertex = calloc(points, sizeof(uint32_t));
     mesh.positions = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
-    mesh.normals   = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
-    mesh.colors    = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
+    mesh.normals = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
+    mesh.colors = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
     mesh.triangles = malloc((size_t)net.triangle_capacity * 3 * sizeof(uint32_t));
     int failed =
         !net.distance || !net.vertex || !mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles;
@@ -301,16 +301,16 @@ static const struct pill pills[] = {
     {{0, 1.6341f, -0.0179f}, {0, 1.6112f, -0.0063f}, 0.0731f},
     {{0, 1.6552f, 0.0161f}, {0, 1.6540f, -0.0175f}, 0.0670f},
     {{0, 1.6373f, -0.0014f}, {0, 1.6291f, 0.0068f}, 0.0768f},
-    {{-0.035f, 1.634f, 0.048f}, {0.035f, 1.634f, 0.048f}, 0.031f},    // temples
-    {{-0.018f, 1.574f, 0.043f}, {0.018f, 1.574f, 0.043f}, 0.042f},    // cheeks
-    {{-0.010f, 1.535f, 0.060f}, {0.010f, 1.535f, 0.060f}, 0.028f},    // chin
-    {{-0.073f, 1.602f, -0.010f}, {0.073f, 1.602f, -0.010f}, 0.016f},  // ears
-    {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.047f},             // neck
+    {{-0.035f, 1.634f, 0.048f}, {0.035f, 1.634f, 0.048f}, 0.031f}, // temples
+    {{-0.018f, 1.574f, 0.043f}, {0.018f, 1.574f, 0.043f}, 0.042f}, // cheeks
+    {{-0.010f, 1.535f, 0.060f}, {0.010f, 1.535f, 0.060f}, 0.028f}, // chin
+    {{-0.073f, 1.602f, -0.010f}, {0.073f, 1.602f, -0.010f}, 0.016f}, // ears
+    {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.047f}, // neck
     {{-0.045f, 1.424f, -0.036f}, {-0.150f, 1.365f, -0.018f}, 0.054f}, // shoulders
     {{0.045f, 1.424f, -0.036f}, {0.150f, 1.365f, -0.018f}, 0.054f},
-    {{-0.100f, 1.372f, 0.014f}, {0.100f, 1.372f, 0.014f}, 0.055f},   // collar bones
+    {{-0.100f, 1.372f, 0.014f}, {0.100f, 1.372f, 0.014f}, 0.055f}, // collar bones
     {{-0.085f, 1.360f, -0.040f}, {0.085f, 1.360f, -0.040f}, 0.066f}, // back
-    {{-0.075f, 1.316f, 0.014f}, {0.075f, 1.316f, 0.014f}, 0.080f},   // chest
+    {{-0.075f, 1.316f, 0.014f}, {0.075f, 1.316f, 0.014f}, 0.080f}, // chest
 };
 
 _Static_assert(sizeof pills / sizeof *pills <= HEAD_SOLIDS, "head.h promises how many solids suffice");
@@ -320,13 +320,13 @@ static hair_solid solid_of(const struct pill* pill)
     point a = pill->a, b = pill->b, d = {b.x - a.x, b.y - a.y, b.z - a.z};
     float size = sqrtf(d.x * d.x + d.y * d.y + d.z * d.z);
     float w = 1 + d.y / size, x = d.z / size, z = -d.x / size; // the least turn from +y, Euler and Rodrigues
-    if (w < 1e-6f) w = 0, x = 1, z = 0;                        // half a turn
-    float      norm  = sqrtf(w * w + x * x + z * z);
+    if (w < 1e-6f) w = 0, x = 1, z = 0; // half a turn
+    float norm = sqrtf(w * w + x * x + z * z);
     hair_solid solid = {HAIR_SHAPE_CAPSULE,
                         {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2},
                         {x / norm, 0, z / norm, w / norm},
                         {pill->radius, size / 2},
-                        .scale    = 1,
+                        .scale = 1,
                         .friction = 1};
     return solid;
 }

@@ -5,16 +5,16 @@
 #include <hair/hair.h>
 
 struct head_mesh {
-    float*    positions; // xyz per vertex, m, in the space of the built-in haircuts
-    float*    normals;   // xyz per vertex, unit, outwards
-    float*    colors;    // linear rgb per vertex: skin, lips, garment
+    float* positions; // xyz per vertex, m, in the space of the built-in haircuts
+    float* normals; // xyz per vertex, unit, outwards
+    float* colors; // linear rgb per vertex: skin, lips, garment
     uint32_t* triangles; // three indices each, counter-clockwise from outside
-    uint32_t  vertex_count;
-    uint32_t  triangle_count;
+    uint32_t vertex_count;
+    uint32_t triangle_count;
 };
 
 // Returns 0, or -1 when memory ran out.
-int  head_mesh_create(struct head_mesh* out);
+int head_mesh_create(struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_SOLIDS 16

@@ -9,10 +9,10 @@
 
 struct cutter {
     struct head_mesh* mesh;
-    float*            below; // of each vertex: height that the collar is above it; 0 on it
-    uint32_t*         twin;  // of each vertex on the collar: the same of the garment; 0: none yet
-    uint32_t*         triangles;
-    uint32_t          triangle_count;
+    float* below; // of each vertex: height that the collar is above it; 0 on it
+    uint32_t* twin; // of each vertex on the collar: the same of the garment; 0: none yet
+    uint32_t* triangles;
+    uint32_t triangle_count;
 };
 
 static void color_vertex(struct head_mesh* mesh, uint32_t vertex, int is_worn)
@@ -29,7 +29,7 @@ static uint32_t add_vertex(struct head_mesh* mesh, uint32_t a, uint32_t b, float
     for (uint32_t i = 0; i < 3; ++i) {
         const float *p = mesh->positions + i, *n = mesh->normals + i;
         mesh->positions[3 * vertex + i] = p[3 * a] + (p[3 * b] - p[3 * a]) * t;
-        mesh->normals[3 * vertex + i]   = n[3 * a] + (n[3 * b] - n[3 * a]) * t;
+        mesh->normals[3 * vertex + i] = n[3 * a] + (n[3 * b] - n[3 * a]) * t;
     }
     color_vertex(mesh, vertex, is_worn);
     return vertex;
@@ -45,10 +45,10 @@ static uint32_t twin_of(struct cutter* cutter, uint32_t vertex)
 static void add_part(struct cutter* cutter, const uint32_t corner[3], float side)
 {
     uint32_t polygon[4], count = 0;
-    int      is_worn = side > 0;
+    int is_worn = side > 0;
     for (uint32_t i = 0; i < 3; ++i) {
         uint32_t a = corner[i], b = corner[(i + 1) % 3];
-        float    p = cutter->below[a] * side, q = cutter->below[b] * side;
+        float p = cutter->below[a] * side, q = cutter->below[b] * side;
         if (p >= 0) polygon[count++] = p == 0 && is_worn ? twin_of(cutter, a) : a;
         if ((p > 0 && q < 0) || (p < 0 && q > 0))
             polygon[count++] = add_vertex(cutter->mesh, a, b, p / (p - q), is_worn);
@@ -64,9 +64,9 @@ static void cut(struct cutter* cutter)
     const struct head_mesh* mesh = cutter->mesh;
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t* corner = mesh->triangles + 3 * (size_t)i;
-        const float*    below  = cutter->below;
-        float           least  = fminf(below[corner[0]], fminf(below[corner[1]], below[corner[2]]));
-        float           most   = fmaxf(below[corner[0]], fmaxf(below[corner[1]], below[corner[2]]));
+        const float* below = cutter->below;
+        float least = fminf(below[corner[0]], fminf(below[corner[1]], below[corner[2]]));
+        float most = fmaxf(below[corner[0]], fmaxf(below[corner[1]], below[corner[2]]));
         if (least < 0 || most == 0) add_part(cutter, corner, -1);
         if (most > 0) add_part(cutter, corner, 1);
     }
@@ -83,14 +83,14 @@ static int widen(float** memory, size_t count)
 static int make_room(struct cutter* cutter)
 {
     struct head_mesh* mesh = cutter->mesh;
-    size_t            most = 2 * (size_t)mesh->vertex_count, crossed = 0;
+    size_t most = 2 * (size_t)mesh->vertex_count, crossed = 0;
     cutter->below = malloc(mesh->vertex_count * sizeof(float));
-    cutter->twin  = calloc(mesh->vertex_count, sizeof(uint32_t));
+    cutter->twin = calloc(mesh->vertex_count, sizeof(uint32_t));
     if (!cutter->below || !cutter->twin) return 0;
     for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
         struct head_point p;
         memcpy(&p, mesh->positions + 3 * (size_t)i, sizeof p);
-        float below      = head_below_collar(p);
+        float below = head_below_collar(p);
         cutter->below[i] = fabsf(below) < ON_COLLAR ? 0 : below;
         color_vertex(mesh, i, cutter->below[i] > 0);
     }
@@ -108,11 +108,11 @@ static int make_room(struct cutter* cutter)
 int head_cut_collar(struct head_mesh* mesh)
 {
     struct cutter cutter = {.mesh = mesh};
-    int           fits   = make_room(&cutter);
+    int fits = make_room(&cutter);
     if (fits) {
         cut(&cutter);
         free(mesh->triangles);
-        mesh->triangles      = cutter.triangles;
+        mesh->triangles = cutter.triangles;
         mesh->triangle_count = cutter.triangle_count;
     } else {
         free(cutter.triangles);

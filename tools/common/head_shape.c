@@ -52,8 +52,8 @@ static float carve(float a, float b, float k)
 // First order, exact on the surface.
 static float ellipsoid(point p, point center, point axes)
 {
-    point q     = sub(p, center);
-    point once  = {q.x / axes.x, q.y / axes.y, q.z / axes.z};
+    point q = sub(p, center);
+    point once = {q.x / axes.x, q.y / axes.y, q.z / axes.z};
     point twice = {once.x / axes.x, once.y / axes.y, once.z / axes.z};
     float k = length(once), slope = length(twice);
     return slope > 1e-6f ? k * (k - 1) / slope : -fminf(axes.x, fminf(axes.y, axes.z));
@@ -82,8 +82,8 @@ static float above_hairline(point p)
                                         {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
                                         {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
                                         {142, 1.564f}, {160, 1.559f}, {180, 1.558f}};
-    float              azimuth       = atan2f(p.x / 0.077f, p.z / 0.096f) * (180 / PI);
-    int                i             = 0;
+    float azimuth = atan2f(p.x / 0.077f, p.z / 0.096f) * (180 / PI);
+    int i = 0;
     while (i < 13 && hairline[i + 1][0] < azimuth) ++i;
     float t = (azimuth - hairline[i][0]) / (hairline[i + 1][0] - hairline[i][0]);
     return p.y - mix(hairline[i][1], hairline[i + 1][1], clamp(t, 0, 1));
@@ -127,7 +127,7 @@ static float eye(point p, float d)
 {
     d = carve(d, ellipsoid(p, (point){EYE_X, EYE_Y + 0.002f, 0.0960f}, (point){0.0180f, 0.0115f, 0.0130f}),
               0.020f);
-    float ball  = ellipsoid(p, (point){EYE_X, EYE_Y, 0.0720f}, (point){0.0150f, 0.0128f, 0.0138f});
+    float ball = ellipsoid(p, (point){EYE_X, EYE_Y, 0.0720f}, (point){0.0150f, 0.0128f, 0.0138f});
     float upper = smooth(-0.0004f, 0.0006f, p.y - lash_height(p.x));
     return join(d, ball - 0.0009f * upper, 0.004f);
 }
@@ -135,7 +135,7 @@ static float eye(point p, float d)
 static float nose(point p, float d)
 {
     float n = limb(p, (point){0, 1.622f, 0.0830f}, (point){0, 1.590f, 0.1005f}, 0.0062f, 0.0078f);
-    n       = join(n, ellipsoid(p, (point){0, 1.5870f, 0.1015f}, (point){0.0090f, 0.0080f, 0.0090f}), 0.008f);
+    n = join(n, ellipsoid(p, (point){0, 1.5870f, 0.1015f}, (point){0.0090f, 0.0080f, 0.0090f}), 0.008f);
     n = join(n, ellipsoid(p, (point){0.0095f, 1.5835f, 0.0955f}, (point){0.0068f, 0.0062f, 0.0090f}), 0.007f);
     d = join(d, n, 0.012f);
     return carve(d, ellipsoid(p, (point){0.0058f, 1.5772f, 0.0990f}, (point){0.0030f, 0.0026f, 0.0050f}),
@@ -148,9 +148,9 @@ static float mouth(point p, float d)
     d = carve(d, limb(p, (point){0, 1.574f, 0.0980f}, (point){0, 1.565f, 0.0980f}, 0.0016f, 0.0026f), 0.006f);
     // Lips swell in the middle and run out to the corners.
     point q = fold(p, 0.004f);
-    d       = join(
-              d, limb(q, (point){0.0050f, 1.5582f, 0.0868f}, (point){0.0225f, 1.5545f, 0.0775f}, 0.0054f, 0.0024f),
-              0.006f);
+    d = join(
+        d, limb(q, (point){0.0050f, 1.5582f, 0.0868f}, (point){0.0225f, 1.5545f, 0.0775f}, 0.0054f, 0.0024f),
+        0.006f);
     d = join(
         d, limb(q, (point){0.0040f, 1.5502f, 0.0862f}, (point){0.0205f, 1.5532f, 0.0780f}, 0.0058f, 0.0024f),
         0.006f);
@@ -163,15 +163,15 @@ static float mouth(point p, float d)
 // Turned out by 25 degrees and back by 12, in its own axes: out of the head, up, back.
 static float ear(point p)
 {
-    point q   = sub(p, (point){0.0735f, 1.6030f, -0.008f});
+    point q = sub(p, (point){0.0735f, 1.6030f, -0.008f});
     float out = 0.906f * q.x + 0.423f * q.z, rear = 0.423f * q.x - 0.906f * q.z;
     point e = {out, 0.978f * q.y + 0.208f * rear, 0.978f * rear - 0.208f * q.y};
     float d = ellipsoid(e, (point){0, 0.005f, 0.003f}, (point){0.0075f, 0.0245f, 0.0165f});
-    d       = join(d, ellipsoid(e, (point){0, -0.019f, -0.003f}, (point){0.0050f, 0.0085f, 0.0075f}), 0.008f);
+    d = join(d, ellipsoid(e, (point){0, -0.019f, -0.003f}, (point){0.0050f, 0.0085f, 0.0075f}), 0.008f);
     float bowl = ellipsoid(e, (point){0.0085f, -0.001f, 0.000f}, (point){0.0065f, 0.0120f, 0.0085f});
     bowl = join(bowl, ellipsoid(e, (point){0.0085f, 0.014f, 0.003f}, (point){0.0040f, 0.0085f, 0.0085f}),
                 0.004f);
-    d    = carve(d, bowl, 0.004f);
+    d = carve(d, bowl, 0.004f);
     return join(d, ellipsoid(e, (point){0.003f, -0.005f, -0.0105f}, (point){0.0035f, 0.006f, 0.004f}),
                 0.004f);
 }
@@ -208,8 +208,8 @@ float head_below_collar(point p)
 
 float head_distance(point p)
 {
-    p.x        = fabsf(p.x);
-    float d    = trunk(p);
+    p.x = fabsf(p.x);
+    float d = trunk(p);
     float bone = skull(p);
     if (p.y > 1.36f) {
         float head = bone;
@@ -227,14 +227,14 @@ float head_distance(point p)
 void head_color(point p, int is_worn, float rgb[3])
 {
     const float skin[3] = {0.39f, 0.255f, 0.195f}, lips[3] = {0.30f, 0.135f, 0.115f},
-                hair[3]  = {0.11f, 0.07f, 0.055f};
+                hair[3] = {0.11f, 0.07f, 0.055f};
     const float cloth[3] = {0.030f, 0.036f, 0.048f};
-    p.x                  = fabsf(p.x);
-    float low            = mix(1.5440f, 1.5525f, smooth(0.004f, 0.024f, p.x));
-    float high           = mix(1.5630f, 1.5560f, smooth(0.004f, 0.025f, p.x));
-    float lip            = p.z > 0.072f
-                               ? smooth(low - 0.001f, low + 0.001f, p.y) * smooth(high + 0.001f, high - 0.001f, p.y)
-                               : 0;
+    p.x = fabsf(p.x);
+    float low = mix(1.5440f, 1.5525f, smooth(0.004f, 0.024f, p.x));
+    float high = mix(1.5630f, 1.5560f, smooth(0.004f, 0.025f, p.x));
+    float lip = p.z > 0.072f
+                    ? smooth(low - 0.001f, low + 0.001f, p.y) * smooth(high + 0.001f, high - 0.001f, p.y)
+                    : 0;
     float brow = smooth(0.0032f, 0.0012f, fabsf(p.y - (1.6405f + 0.0035f * sinf((p.x - 0.014f) * 65))));
     float lash = smooth(0.0014f, 0.0004f, fabsf(p.y - lash_height(p.x))) *
                  smooth(0.0165f, 0.0145f, fabsf(p.x - EYE_X));

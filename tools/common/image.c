@@ -36,8 +36,8 @@ static void write_png(png_structp png, png_infop info, const struct hair_image* 
 
 bool hair_image_write_png(const struct hair_image* image, FILE* file)
 {
-    png_structp png  = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, fail_silently, ignore);
-    png_infop   info = png ? png_create_info_struct(png) : NULL;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, fail_silently, ignore);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info || setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
         return false;
@@ -50,7 +50,7 @@ bool hair_image_write_png(const struct hair_image* image, FILE* file)
 // OpenEXR writes its table of offsets last but places it first: the file is made in memory, so that it can
 // go to a pipe too.
 struct memory {
-    char*  bytes;
+    char* bytes;
     size_t size, room;
 };
 
@@ -58,17 +58,17 @@ static int64_t write_memory(exr_const_context_t context, void* user, const void*
                             uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     struct memory* memory = user;
-    uint64_t       end    = offset + size;
+    uint64_t end = offset + size;
     if (end > memory->room) {
         size_t room = end > 2 * memory->room ? end : 2 * memory->room;
-        char*  more = realloc(memory->bytes, room);
+        char* more = realloc(memory->bytes, room);
         if (!more) {
             fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
             return -1;
         }
         memset(more + memory->room, 0, room - memory->room);
         memory->bytes = more;
-        memory->room  = room;
+        memory->room = room;
     }
     memcpy(memory->bytes + offset, bytes, size);
     if (end > memory->size) memory->size = end;
@@ -85,7 +85,7 @@ static void say_nothing(exr_const_context_t context, exr_result_t code, const ch
 static bool describe(exr_context_t context, const struct hair_image* image)
 {
     static const char* const channels[] = {"B", "G", "R"}; // Files have them by name.
-    int                      part;
+    int part;
     if (exr_add_part(context, "rgb", EXR_STORAGE_SCANLINE, &part)) return false;
     if (exr_initialize_required_attr_simple(context, part, (int32_t)image->width, (int32_t)image->height,
                                             EXR_COMPRESSION_ZIP))
@@ -98,18 +98,18 @@ static bool describe(exr_context_t context, const struct hair_image* image)
 
 static bool encode(exr_context_t context, const struct hair_image* image, int y, int rows)
 {
-    exr_chunk_info_t      chunk;
+    exr_chunk_info_t chunk;
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     if (exr_write_scanline_chunk_info(context, 0, y, &chunk)) return false;
     if (exr_encoding_initialize(context, 0, &chunk, &pipeline)) return false;
-    static const char     order[] = "RGB";
-    const unsigned short* from    = image->linear + (size_t)3 * image->width * (size_t)y;
+    static const char order[] = "RGB";
+    const unsigned short* from = image->linear + (size_t)3 * image->width * (size_t)y;
     for (int i = 0; i < 3; ++i) {
         exr_coding_channel_info_t* channel = &pipeline.channels[i];
-        channel->encode_from_ptr   = (const uint8_t*)(from + (strchr(order, *channel->channel_name) - order));
+        channel->encode_from_ptr = (const uint8_t*)(from + (strchr(order, *channel->channel_name) - order));
         channel->user_pixel_stride = 6;
-        channel->user_line_stride  = (int32_t)(6 * image->width);
-        channel->height            = rows;
+        channel->user_line_stride = (int32_t)(6 * image->width);
+        channel->height = rows;
     }
     bool ok = !exr_encoding_choose_default_routines(context, 0, &pipeline) &&
               !exr_encoding_run(context, 0, &pipeline);
@@ -129,16 +129,16 @@ static bool write_exr(exr_context_t context, const struct hair_image* image)
 
 bool hair_image_write_exr(const struct hair_image* image, FILE* file)
 {
-    struct memory             memory = {0};
-    exr_context_t             context;
+    struct memory memory = {0};
+    exr_context_t context;
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    initializer.write_fn                  = write_memory;
-    initializer.user_data                 = &memory;
-    initializer.error_handler_fn          = say_nothing;
+    initializer.write_fn = write_memory;
+    initializer.user_data = &memory;
+    initializer.error_handler_fn = say_nothing;
     if (exr_start_write(&context, "a picture", EXR_WRITE_FILE_DIRECTLY, &initializer)) return false;
     bool ok = write_exr(context, image);
-    ok      = !exr_finish(&context) && ok;
-    ok      = ok && fwrite(memory.bytes, 1, memory.size, file) == memory.size;
+    ok = !exr_finish(&context) && ok;
+    ok = ok && fwrite(memory.bytes, 1, memory.size, file) == memory.size;
     free(memory.bytes);
     return ok;
 }

@@ -8,9 +8,9 @@
 
 // RGB, the upper row first.
 struct hair_image {
-    uint32_t        width, height;
-    unsigned char*  encoded; // sRGB
-    unsigned short* linear;  // half floats, Rec. 709 primaries; NULL: not wanted
+    uint32_t width, height;
+    unsigned char* encoded; // sRGB
+    unsigned short* linear; // half floats, Rec. 709 primaries; NULL: not wanted
 };
 
 // False: `file` could not be written, or memory ran out. No one has complained.

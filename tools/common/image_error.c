@@ -55,11 +55,11 @@ static void sum_up(const struct part* part, const float* a, const float* b, cons
 bool hair_image_error(const float* reference, const float* test, const unsigned char* mask, uint32_t width,
                       uint32_t height, struct hair_image_error* out)
 {
-    struct part part   = part_of(mask, width, height);
-    size_t      pixels = (size_t)part.width * part.height;
-    float*      a      = calloc(7 * pixels + 1, sizeof *a);
-    float *     b = a + 3 * pixels, *map = b + 3 * pixels;
-    *out    = (struct hair_image_error){0};
+    struct part part = part_of(mask, width, height);
+    size_t pixels = (size_t)part.width * part.height;
+    float* a = calloc(7 * pixels + 1, sizeof *a);
+    float *b = a + 3 * pixels, *map = b + 3 * pixels;
+    *out = (struct hair_image_error){0};
     bool ok = false;
     if (a && pixels) {
         copy_part(&part, reference, width, a);
@@ -86,7 +86,7 @@ static void dilate(const unsigned char* in, unsigned char* out, uint32_t length,
 
 bool hair_mask_dilate(unsigned char* mask, uint32_t width, uint32_t height, uint32_t by)
 {
-    size_t         count  = (size_t)width * height;
+    size_t count = (size_t)width * height;
     unsigned char* across = calloc(count, 1);
     if (!across) return false;
     dilate(mask, across, width, 1, height, width, by);

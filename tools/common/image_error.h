@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 struct hair_image_error {
-    double   flip;   // mean
-    double   psnr;   // dB, of all three channels as encoded; infinite where they are the same
+    double flip; // mean
+    double psnr; // dB, of all three channels as encoded; infinite where they are the same
     uint32_t pixels; // that were looked at
 };
 

@@ -12,7 +12,7 @@ bool hair_json_wrong(const struct hair_json* json, const char* key, const char* 
 
 static bool is_within(const json_t* value, const struct hair_json_entry* entry)
 {
-    bool   kind   = entry->kind == HAIR_JSON_COUNTS ? json_is_integer(value) : json_is_number(value);
+    bool kind = entry->kind == HAIR_JSON_COUNTS ? json_is_integer(value) : json_is_number(value);
     double number = json_number_value(value);
     return kind && number >= entry->min && number <= entry->max;
 }
@@ -21,13 +21,13 @@ static bool read_number(const struct hair_json* json, const char* key, const jso
                         const struct hair_json_entry* entry, void* out)
 {
     if (!is_within(value, entry)) {
-        char        must[96];
+        char must[96];
         const char* kind = entry->kind == HAIR_JSON_COUNTS ? "a whole number" : "a number";
         snprintf(must, sizeof must, "%s in [%.10g, %.10g]", kind, entry->min, entry->max);
         return hair_json_wrong(json, key, must);
     }
-    float    number = (float)json_number_value(value);
-    uint32_t count  = (uint32_t)json_integer_value(value);
+    float number = (float)json_number_value(value);
+    uint32_t count = (uint32_t)json_integer_value(value);
     memcpy(out, entry->kind == HAIR_JSON_COUNTS ? (const void*)&count : (const void*)&number, 4);
     return true;
 }
@@ -78,8 +78,8 @@ bool hair_json_object(const struct hair_json* json, const char* name, const json
     char place[128];
     snprintf(place, sizeof place, "%s%s%s", json->place, name, *name ? "." : "");
     struct hair_json inside = {json->tool, json->path, place};
-    const char*      key;
-    json_t*          value;
+    const char* key;
+    json_t* value;
     json_object_foreach((json_t*)(uintptr_t)object, key, value)
     {
         const struct hair_json_entry* entry = find(entries, key);
@@ -117,8 +117,8 @@ bool hair_json_path(const struct hair_json* json, const char* key, const json_t*
 {
     const char* name = json_string_value(value);
     if (!name || !*name) return hair_json_wrong(json, key, "the name of a file");
-    const char* slash  = strrchr(json->path, '/');
-    int         folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
-    int         length = snprintf(path, size, "%.*s%s", folder, json->path, name);
+    const char* slash = strrchr(json->path, '/');
+    int folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
+    int length = snprintf(path, size, "%.*s%s", folder, json->path, name);
     return (size_t)length < size || hair_json_wrong(json, key, "a shorter name");
 }

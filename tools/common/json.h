@@ -9,7 +9,7 @@
 // Where the value at hand stands, for the sentences.
 struct hair_json {
     const char* tool;
-    const char* path;  // of the file, or the name of the scene
+    const char* path; // of the file, or the name of the scene
     const char* place; // "camera." or ""
 };
 
@@ -23,11 +23,11 @@ enum hair_json_kind {
 
 // A key and where its value goes: `at` bytes into the struct. Arrays of `count` numbers; 1 is a lone number.
 struct hair_json_entry {
-    const char*                   key; // NULL ends a table
-    enum hair_json_kind           kind;
-    size_t                        at;
-    uint32_t                      count;
-    double                        min, max;
+    const char* key; // NULL ends a table
+    enum hair_json_kind kind;
+    size_t at;
+    uint32_t count;
+    double min, max;
     const struct hair_json_entry* object; // of HAIR_JSON_OBJECT; its offsets are from the same struct
     bool (*read)(const struct hair_json* json, const char* key, const json_t* value,
                  void* out); // of HAIR_JSON_OTHER

@@ -18,7 +18,7 @@ static float slope(const struct hair_motion* motion, uint32_t k, int i)
 {
     if (k == 0 || k + 1 >= motion->count) return 0;
     const struct hair_key* before = &motion->key[k - 1];
-    const struct hair_key* after  = &motion->key[k + 1];
+    const struct hair_key* after = &motion->key[k + 1];
     return (channel(after, i) - channel(before, i)) / (after->time - before->time);
 }
 
@@ -27,7 +27,7 @@ static float between(const struct hair_motion* motion, uint32_t k, float time, i
 {
     const struct hair_key* a = &motion->key[k];
     const struct hair_key* b = &motion->key[k + 1];
-    float                  h = b->time - a->time, t = (time - a->time) / h, t2 = t * t, t3 = t2 * t;
+    float h = b->time - a->time, t = (time - a->time) / h, t2 = t * t, t3 = t2 * t;
     return (2 * t3 - 3 * t2 + 1) * channel(a, i) + (t3 - 2 * t2 + t) * h * slope(motion, k, i) +
            (3 * t2 - 2 * t3) * channel(b, i) + (t3 - t2) * h * slope(motion, k + 1, i);
 }
@@ -46,8 +46,8 @@ void hair_motion_at(const struct hair_motion* motion, float time, float transfor
     float pose[CHANNELS] = {0};
     if (motion->count) pose_at(motion, time, pose);
 
-    vec3   pivot = {motion->pivot[0], motion->pivot[1], motion->pivot[2]}, back;
-    mat4   m     = GLM_MAT4_IDENTITY_INIT;
+    vec3 pivot = {motion->pivot[0], motion->pivot[1], motion->pivot[2]}, back;
+    mat4 m = GLM_MAT4_IDENTITY_INIT;
     versor yaw, pitch, roll, turn;
     glm_quat(yaw, glm_rad(pose[0]), 0, 1, 0);
     glm_quat(pitch, glm_rad(pose[1]), 1, 0, 0);

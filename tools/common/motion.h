@@ -8,15 +8,15 @@
 
 // A pose of the head: turned about the scene's pivot, then moved.
 struct hair_key {
-    float time;        // s; keys are in order of it
+    float time; // s; keys are in order of it
     float rotation[3]; // degrees: to its left (yaw), nodding (pitch), to its right shoulder (roll)
     float position[3]; // m
 };
 
 struct hair_motion {
     struct hair_key key[HAIR_MOTION_MAX_KEYS];
-    uint32_t        count; // 0: still
-    float           pivot[3];
+    uint32_t count; // 0: still
+    float pivot[3];
 };
 
 // Column-major, rigid. Before the first key and after the last the head keeps their pose.

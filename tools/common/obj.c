@@ -11,11 +11,11 @@
 
 // The text at hand.
 struct place {
-    const char*      tool;
-    const char*      path;
-    uint32_t         line;
+    const char* tool;
+    const char* path;
+    uint32_t line;
     struct hair_obj* out;
-    size_t           vertex_room, triangle_room;
+    size_t vertex_room, triangle_room;
 };
 
 static bool wrong(const struct place* place, const char* what)
@@ -28,27 +28,27 @@ static bool reserve(const struct place* place, void** array, size_t* room, size_
 {
     if (count < *room) return true;
     if (count >= MOST) return wrong(place, "is one more than 16777216 vertices or triangles");
-    size_t more  = count < 512 ? 1024 : 2 * count;
-    void*  grown = realloc(*array, more * size);
+    size_t more = count < 512 ? 1024 : 2 * count;
+    void* grown = realloc(*array, more * size);
     if (!grown) return wrong(place, "is one too many for the memory there is");
     *array = grown;
-    *room  = more;
+    *room = more;
     return true;
 }
 
 static bool read_vertex(struct place* place, char* at)
 {
-    struct hair_obj* out    = place->out;
-    void*            memory = out->positions;
+    struct hair_obj* out = place->out;
+    void* memory = out->positions;
     if (!reserve(place, &memory, &place->vertex_room, out->vertex_count, 3 * sizeof(float))) return false;
     out->positions = memory;
     for (uint32_t k = 0; k < 3; ++k) {
-        char*  end;
+        char* end;
         double value = strtod(at, &end);
         if (end == at || !(fabs(value) <= 1e6))
             return wrong(place, "has a vertex that is not 3 numbers in [-1e6, 1e6]");
         out->positions[3 * (size_t)out->vertex_count + k] = (float)value;
-        at                                                = end;
+        at = end;
     }
     ++out->vertex_count;
     return true;
@@ -57,21 +57,21 @@ static bool read_vertex(struct place* place, char* at)
 // The number before any '/': from 1 on, or from the last vertex back.
 static bool read_corner(const struct place* place, char** at, uint32_t* corner)
 {
-    char*     end;
+    char* end;
     long long value = strtoll(*at, &end, 10), count = place->out->vertex_count;
     if (end == *at) return wrong(place, "has a face with a corner that is no number");
     if (value < 0) value += count + 1;
     if (value < 1 || value > count)
         return wrong(place, "has a face with a vertex that is not among those before it");
     *corner = (uint32_t)(value - 1);
-    *at     = end + strcspn(end, " \t\r");
+    *at = end + strcspn(end, " \t\r");
     return true;
 }
 
 static bool read_face(struct place* place, char* at)
 {
-    struct hair_obj* out   = place->out;
-    uint32_t         first = 0, last = 0, next, corners = 0;
+    struct hair_obj* out = place->out;
+    uint32_t first = 0, last = 0, next, corners = 0;
     for (at += strspn(at, " \t\r"); *at; at += strspn(at, " \t\r"), ++corners) {
         if (!read_corner(place, &at, &next)) return false;
         if (corners == 0) first = next;
@@ -79,7 +79,7 @@ static bool read_face(struct place* place, char* at)
             void* memory = out->triangles;
             if (!reserve(place, &memory, &place->triangle_room, out->triangle_count, 3 * sizeof(uint32_t)))
                 return false;
-            out->triangles  = memory;
+            out->triangles = memory;
             uint32_t* three = out->triangles + 3 * (size_t)out->triangle_count++;
             three[0] = first, three[1] = last, three[2] = next;
         }
@@ -106,15 +106,15 @@ static bool read_lines(struct place* place, char* text)
 bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out)
 {
     struct hair_bytes bytes;
-    struct place      place = {.tool = tool, .path = path, .out = out};
+    struct place place = {.tool = tool, .path = path, .out = out};
     memset(out, 0, sizeof *out);
     if (!hair_file_read(tool, path, MOST_BYTES, &bytes)) return false;
     char* text = realloc(bytes.data, bytes.size + 1);
-    bool  ok   = text;
+    bool ok = text;
     if (!ok) hair_complain(tool, "%s: out of memory", path);
     if (ok) {
         text[bytes.size] = 0;
-        ok               = read_lines(&place, text);
+        ok = read_lines(&place, text);
     }
     if (ok && !out->vertex_count) {
         hair_complain(tool, "%s: there is no vertex in it", path);

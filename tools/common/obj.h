@@ -6,9 +6,9 @@
 #include <stdint.h>
 
 struct hair_obj {
-    float*    positions; // xyz
+    float* positions; // xyz
     uint32_t* triangles; // three vertices each
-    uint32_t  vertex_count, triangle_count;
+    uint32_t vertex_count, triangle_count;
 };
 
 // Faces of more than three corners become fans. False: `tool` has complained, naming the line. hair_obj_free undoes it.

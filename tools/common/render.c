@@ -11,26 +11,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TAPS 16       // of a shadow map, of which a pixel that is made of many needs fewer
+#define TAPS 16 // of a shadow map, of which a pixel that is made of many needs fewer
 #define MAX_TILE 4096 // Pixels drawn at once, in each direction: what any OpenGL 4.5 can hold.
 
 enum program { BACKGROUND, SKIN, DEPTH, TONE, PROGRAM_COUNT };
 enum buffer { POSITIONS, NORMALS, COLORS, TRIANGLES, BUFFER_COUNT }; // the first three are attributes too
 
 struct hair_render {
-    const char*             tool;
+    const char* tool;
     struct hair_render_desc desc;
-    struct hair_image       image;
-    uint32_t                tile; // side, in the picture's pixels
-    GLuint                  program[PROGRAM_COUNT];
-    struct hair_targets     targets;
-    struct hair_shadow_map  map[HAIR_SCENE_SHADOWS]; // as many as lights have needed
-    GLuint                  shadow_sampler;
-    GLuint                  vertex_array, nothing; // nothing: a vertex array without vertices
-    GLuint                  buffer[BUFFER_COUNT];
-    uint32_t                indices;
-    float                   bend[2];
-    uint32_t                frames; // drawn so far
+    struct hair_image image;
+    uint32_t tile; // side, in the picture's pixels
+    GLuint program[PROGRAM_COUNT];
+    struct hair_targets targets;
+    struct hair_shadow_map map[HAIR_SCENE_SHADOWS]; // as many as lights have needed
+    GLuint shadow_sampler;
+    GLuint vertex_array, nothing; // nothing: a vertex array without vertices
+    GLuint buffer[BUFFER_COUNT];
+    uint32_t indices;
+    float bend[2];
+    uint32_t frames; // drawn so far
 };
 
 // Making ----------------------------------------------------------------------------------------------------
@@ -38,9 +38,9 @@ struct hair_render {
 static bool make_programs(struct hair_render* render)
 {
     static const char* const text[PROGRAM_COUNT][2] = {[BACKGROUND] = {hair_whole_vert, hair_background_frag},
-                                                       [SKIN]       = {hair_mesh_vert, hair_skin_frag},
-                                                       [DEPTH]      = {hair_mesh_vert, hair_nothing_frag},
-                                                       [TONE]       = {hair_whole_vert, hair_tone_frag}};
+                                                       [SKIN] = {hair_mesh_vert, hair_skin_frag},
+                                                       [DEPTH] = {hair_mesh_vert, hair_nothing_frag},
+                                                       [TONE] = {hair_whole_vert, hair_tone_frag}};
     for (int i = 0; i < PROGRAM_COUNT; ++i) {
         render->program[i] = hair_shaders_link(render->tool, text[i][0], text[i][1]);
         if (!render->program[i]) return false;
@@ -50,10 +50,10 @@ static bool make_programs(struct hair_render* render)
 
 static bool make_image(struct hair_render* render)
 {
-    const struct hair_render_desc* desc   = &render->desc;
-    size_t                         values = (size_t)3 * desc->width * desc->height;
-    render->image                         = (struct hair_image){.width = desc->width, .height = desc->height};
-    render->image.encoded                 = malloc(values);
+    const struct hair_render_desc* desc = &render->desc;
+    size_t values = (size_t)3 * desc->width * desc->height;
+    render->image = (struct hair_image){.width = desc->width, .height = desc->height};
+    render->image.encoded = malloc(values);
     if (desc->linear) render->image.linear = malloc(values * sizeof *render->image.linear);
     return render->image.encoded && (!desc->linear || render->image.linear);
 }
@@ -65,8 +65,8 @@ static int make(struct hair_render* render)
     glCreateVertexArrays(1, &render->vertex_array);
     glCreateVertexArrays(1, &render->nothing);
     render->shadow_sampler = hair_shadow_sampler();
-    uint32_t width         = desc->width < render->tile ? desc->width : render->tile;
-    uint32_t height        = desc->height < render->tile ? desc->height : render->tile;
+    uint32_t width = desc->width < render->tile ? desc->width : render->tile;
+    uint32_t height = desc->height < render->tile ? desc->height : render->tile;
     if (!hair_targets_make(&render->targets, width, height, desc->supersample, desc->samples)) {
         hair_complain(render->tool, "OpenGL has no memory for %u x %u pixels of %u samples", desc->width,
                       desc->height, desc->samples);
@@ -87,7 +87,7 @@ int hair_render_create(const char* tool, const struct hair_render_desc* desc, st
     render->tool = tool;
     render->desc = *desc;
     render->tile = MAX_TILE / desc->supersample;
-    int code     = make(render);
+    int code = make(render);
     if (code)
         hair_render_destroy(render);
     else
@@ -139,14 +139,14 @@ static void attach(struct hair_render* render, GLuint attribute)
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole)
 {
     delete_mesh(render);
-    size_t bytes              = (size_t)mesh->vertex_count * 3 * sizeof(float);
-    render->indices           = 3 * mesh->triangle_count;
+    size_t bytes = (size_t)mesh->vertex_count * 3 * sizeof(float);
+    render->indices = 3 * mesh->triangle_count;
     render->buffer[POSITIONS] = make_buffer(mesh->positions, bytes);
-    render->buffer[NORMALS]   = make_buffer(mesh->normals, bytes);
-    render->buffer[COLORS]    = make_buffer(mesh->colors, bytes);
+    render->buffer[NORMALS] = make_buffer(mesh->normals, bytes);
+    render->buffer[COLORS] = make_buffer(mesh->colors, bytes);
     render->buffer[TRIANGLES] = make_buffer(mesh->triangles, render->indices * sizeof(uint32_t));
-    render->bend[0]           = whole ? -1e9f : HAIR_RIG_MOVES;
-    render->bend[1]           = HAIR_RIG_RESTS;
+    render->bend[0] = whole ? -1e9f : HAIR_RIG_MOVES;
+    render->bend[1] = HAIR_RIG_RESTS;
     for (GLuint i = POSITIONS; i <= COLORS; ++i) attach(render, i);
     glVertexArrayElementBuffer(render->vertex_array, render->buffer[TRIANGLES]);
 }
@@ -155,18 +155,18 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
 
 // One picture, or one tile of it.
 struct tile {
-    uint32_t             x, y, width, height; // in the picture's pixels, from its upper left
-    float                at[2], size[2];      // the same as shares
+    uint32_t x, y, width, height; // in the picture's pixels, from its upper left
+    float at[2], size[2]; // the same as shares
     struct hair_matrices camera;
 };
 
 struct frame {
     const struct hair_scene* scene;
-    const float*             transform;
+    const float* transform;
     struct hair_frame_lights lights;
-    uint32_t                 number;
-    hair_instance*           hair;
-    GLuint                   depth; // of what is drawn before the hair; 0: none is lent
+    uint32_t number;
+    hair_instance* hair;
+    GLuint depth; // of what is drawn before the hair; 0: none is lent
 };
 
 static void set_mat4(GLuint program, GLint at, const float value[16])
@@ -198,18 +198,18 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
 static hair_result draw_hair(const struct hair_render* render, const struct frame* frame,
                              const struct hair_matrices* matrices, hair_pass pass)
 {
-    hair_view  view = frame->scene->settings.view;
+    hair_view view = frame->scene->settings.view;
     hair_light light[HAIR_SCENE_LIGHTS];
-    view.pass        = pass;
-    view.frame       = frame->number; // Its tiles share what light there is.
-    view.lod         = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
+    view.pass = pass;
+    view.frame = frame->number; // Its tiles share what light there is.
+    view.lod = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
     view.light_count = frame->lights.count;
-    view.lights      = light;
+    view.lights = light;
     memcpy(light, frame->lights.light, sizeof light);
     for (uint32_t i = 0; i < frame->lights.shadows && pass == HAIR_PASS_COLOR; ++i) {
-        hair_light* of     = &light[frame->lights.shadow[i].light];
+        hair_light* of = &light[frame->lights.shadow[i].light];
         of->shadow_texture = render->map[i].texture[HAIR_SHADOW_HAIR];
-        of->body_texture   = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
+        of->body_texture = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
         hair_light_clip(&frame->lights.shadow[i].matrices, of->shadow_matrix);
     }
     view.depth_texture = pass == HAIR_PASS_COLOR ? frame->depth : 0;
@@ -223,9 +223,9 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
 // What the body and hair leave of each other's light; of what is not shown, or falls on nothing that is, nothing.
 static hair_result draw_shadow(const struct hair_render* render, const struct frame* frame, uint32_t i)
 {
-    const struct hair_shadow_map* map      = &render->map[i];
-    const struct hair_matrices*   matrices = &frame->lights.shadow[i].matrices;
-    bool        mesh = shows_mesh(render, frame), hair = frame->scene->show & HAIR_SHOW_HAIR;
+    const struct hair_shadow_map* map = &render->map[i];
+    const struct hair_matrices* matrices = &frame->lights.shadow[i].matrices;
+    bool mesh = shows_mesh(render, frame), hair = frame->scene->show & HAIR_SHOW_HAIR;
     hair_result result = HAIR_OK;
     if (mesh) {
         hair_shadow_map_begin(map, HAIR_SHADOW_BODY);
@@ -274,8 +274,8 @@ static void draw_background(const struct hair_render* render, const struct frame
 
 static void draw_skin(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
-    GLuint           program = render->program[SKIN];
-    const hair_view* view    = &frame->scene->settings.view;
+    GLuint program = render->program[SKIN];
+    const hair_view* view = &frame->scene->settings.view;
     glProgramUniform3fv(program, HAIR_AT_EYE, 1, frame->scene->eye);
     glProgramUniform1i(program, HAIR_AT_TAPS, render->desc.supersample > 2 ? TAPS / 2 : TAPS);
     glProgramUniform3fv(program, HAIR_AT_AMBIENT, 1, view->ambient);
@@ -288,7 +288,7 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
 static GLuint copy_depth(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
     const struct hair_targets* targets = &render->targets;
-    GLint                      width = 0, height = 0, scale = (GLint)render->desc.supersample;
+    GLint width = 0, height = 0, scale = (GLint)render->desc.supersample;
     glGetTextureLevelParameteriv(targets->depth, 0, GL_TEXTURE_WIDTH, &width);
     glGetTextureLevelParameteriv(targets->depth, 0, GL_TEXTURE_HEIGHT, &height);
     bool whole = width == (GLint)tile->width * scale && height == (GLint)tile->height * scale;
@@ -302,7 +302,7 @@ static GLuint copy_depth(const struct hair_render* render, const struct frame* f
 // Average the samples, then the pixels of a supersampled one, and encode.
 static void develop(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
-    GLuint  program = render->program[TONE];
+    GLuint program = render->program[TONE];
     GLsizei width = (GLsizei)tile->width, height = (GLsizei)tile->height,
             scale = (GLsizei)render->desc.supersample;
     hair_targets_resolve(&render->targets, (const int[]){0, 0}, (const int[]){width * scale, height * scale});
@@ -320,9 +320,9 @@ static void develop(const struct hair_render* render, const struct frame* frame,
 
 static void read_pixels(struct hair_render* render, const struct tile* tile)
 {
-    size_t  first = 3 * ((size_t)tile->y * render->desc.width + tile->x);
+    size_t first = 3 * ((size_t)tile->y * render->desc.width + tile->x);
     GLsizei width = (GLsizei)tile->width, height = (GLsizei)tile->height;
-    GLuint  encoded = render->targets.framebuffer[HAIR_TARGET_ENCODED];
+    GLuint encoded = render->targets.framebuffer[HAIR_TARGET_ENCODED];
     glBindFramebuffer(GL_READ_FRAMEBUFFER, encoded);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_PACK_ROW_LENGTH, (GLint)render->desc.width);
@@ -335,8 +335,8 @@ static void read_pixels(struct hair_render* render, const struct tile* tile)
 
 static hair_result draw_tile(struct hair_render* render, struct frame* frame, const struct tile* tile)
 {
-    static const float far   = 1;
-    GLsizei            scale = (GLsizei)render->desc.supersample;
+    static const float far = 1;
+    GLsizei scale = (GLsizei)render->desc.supersample;
     glBindFramebuffer(GL_FRAMEBUFFER, render->targets.framebuffer[HAIR_TARGET_DRAWN]);
     glViewport(0, 0, (GLsizei)tile->width * scale, (GLsizei)tile->height * scale);
     glClearNamedFramebufferfv(render->targets.framebuffer[HAIR_TARGET_DRAWN], GL_DEPTH, 0, &far);
@@ -344,12 +344,12 @@ static hair_result draw_tile(struct hair_render* render, struct frame* frame, co
     draw_skin(render, frame, tile);
     frame->depth = copy_depth(render, frame, tile);
     static const struct {
-        uint32_t  show;
+        uint32_t show;
         hair_pass pass;
-    } passes[]         = {{HAIR_SHOW_SOLIDS, HAIR_PASS_SOLIDS},
-                          {HAIR_SHOW_WIND, HAIR_PASS_WIND},
-                          {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
-                          {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};
+    } passes[] = {{HAIR_SHOW_SOLIDS, HAIR_PASS_SOLIDS},
+                  {HAIR_SHOW_WIND, HAIR_PASS_WIND},
+                  {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
+                  {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};
     hair_result result = HAIR_OK;
     for (int i = 0; i < 4 && !result; ++i)
         if (frame->scene->show & passes[i].show)
@@ -367,12 +367,12 @@ static hair_result draw_tiles(struct hair_render* render, struct frame* frame,
     for (uint32_t y = 0; y < height; y += side)
         for (uint32_t x = 0; x < width; x += side) {
             struct tile tile = {.x = x, .y = y, .camera = *camera};
-            tile.width       = width - x < side ? width - x : side;
-            tile.height      = height - y < side ? height - y : side;
-            tile.at[0]       = (float)x / (float)width;
-            tile.at[1]       = (float)y / (float)height;
-            tile.size[0]     = (float)tile.width / (float)width;
-            tile.size[1]     = (float)tile.height / (float)height;
+            tile.width = width - x < side ? width - x : side;
+            tile.height = height - y < side ? height - y : side;
+            tile.at[0] = (float)x / (float)width;
+            tile.at[1] = (float)y / (float)height;
+            tile.size[0] = (float)tile.width / (float)width;
+            tile.size[1] = (float)tile.height / (float)height;
             hair_camera_crop(camera->projection, tile.at, tile.size, tile.camera.projection);
             hair_result result = draw_tile(render, frame, &tile);
             if (result) return result;
@@ -383,7 +383,7 @@ static hair_result draw_tiles(struct hair_render* render, struct frame* frame,
 int hair_render_frame(struct hair_render* render, const struct hair_scene* scene, const float transform[16],
                       float reach, hair_instance* hair, const struct hair_image** out)
 {
-    struct frame         frame = {.scene = scene, .transform = transform, .hair = hair};
+    struct frame frame = {.scene = scene, .transform = transform, .hair = hair};
     struct hair_matrices camera;
     frame.number = ++render->frames;
     hair_frame_lights_find(scene, transform, reach, &frame.lights);

@@ -8,15 +8,15 @@
 
 struct hair_render_desc {
     uint32_t width, height;
-    uint32_t samples;     // asked for; the driver may have fewer
+    uint32_t samples; // asked for; the driver may have fewer
     uint32_t supersample; // pixels drawn for one of the picture, in each direction
-    bool     linear;      // hair_image.linear is wanted
+    bool linear; // hair_image.linear is wanted
 };
 
 struct hair_render;
 
 // Return what the tool should exit with, having complained. Needs OpenGL 4.5 current, as does what follows.
-int  hair_render_create(const char* tool, const struct hair_render_desc* desc, struct hair_render** out);
+int hair_render_create(const char* tool, const struct hair_render_desc* desc, struct hair_render** out);
 void hair_render_destroy(struct hair_render* render); // Takes NULL.
 
 // What is drawn beside the hair; `whole`: all of it moves with the head, else it bends at the neck.

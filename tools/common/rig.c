@@ -14,12 +14,12 @@ static void place(float radius, struct head_mesh* mesh)
     static const float dark[3] = {0.05f, 0.035f, 0.03f};
     for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
         float polar = GLM_PIf * (float)(i / (COLUMNS + 1)) / (float)ROWS;
-        float turn  = 2 * GLM_PIf * (float)(i % (COLUMNS + 1)) / (float)COLUMNS;
+        float turn = 2 * GLM_PIf * (float)(i % (COLUMNS + 1)) / (float)COLUMNS;
         float at[3] = {sinf(polar) * sinf(turn), cosf(polar), sinf(polar) * cosf(turn)};
         for (uint32_t k = 0; k < 3; ++k) {
-            mesh->normals[3 * i + k]   = at[k];
+            mesh->normals[3 * i + k] = at[k];
             mesh->positions[3 * i + k] = radius * at[k];
-            mesh->colors[3 * i + k]    = dark[k];
+            mesh->colors[3 * i + k] = dark[k];
         }
     }
 }
@@ -37,13 +37,13 @@ static void join(struct head_mesh* mesh)
 
 int hair_rig_ball(float radius, struct head_mesh* out)
 {
-    struct head_mesh mesh = {.vertex_count   = (COLUMNS + 1) * (ROWS + 1),
+    struct head_mesh mesh = {.vertex_count = (COLUMNS + 1) * (ROWS + 1),
                              .triangle_count = 2 * COLUMNS * ROWS};
-    size_t           size = (size_t)mesh.vertex_count * 3 * sizeof(float);
-    mesh.positions        = malloc(size);
-    mesh.normals          = malloc(size);
-    mesh.colors           = malloc(size);
-    mesh.triangles        = malloc(mesh.triangle_count * 3 * sizeof *mesh.triangles);
+    size_t size = (size_t)mesh.vertex_count * 3 * sizeof(float);
+    mesh.positions = malloc(size);
+    mesh.normals = malloc(size);
+    mesh.colors = malloc(size);
+    mesh.triangles = malloc(mesh.triangle_count * 3 * sizeof *mesh.triangles);
     if (!mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles) {
         head_mesh_free(&mesh);
         return -1;
@@ -71,7 +71,7 @@ uint32_t hair_rig_solids(const struct hair_scene* scene, float time, const float
     for (uint32_t i = 0; i < count; ++i) hair_solid_carry(transform, weight(out[i].position[1]), &out[i]);
 
     if (scene->subject == HAIR_SUBJECT_FUR) {
-        out[count]         = hair_solid_default();
+        out[count] = hair_solid_default();
         out[count].size[0] = scene->ball_radius;
         hair_solid_carry(transform, 1, &out[count++]);
     }

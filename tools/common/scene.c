@@ -9,30 +9,30 @@
 
 #define MAX_BYTES ((size_t)16 << 20)
 
-typedef struct hair_json       place;
+typedef struct hair_json place;
 typedef struct hair_json_entry entry;
 
 #define AT(member) offsetof(struct hair_scene, member)
 
 void hair_scene_default(struct hair_scene* scene)
 {
-    static const struct hair_scene fresh = {.subject       = HAIR_SUBJECT_STYLE,
-                                            .head          = true,
-                                            .fur_strands   = 50000,
-                                            .fur_length    = 0.03f,
-                                            .ball_radius   = 0.1f,
+    static const struct hair_scene fresh = {.subject = HAIR_SUBJECT_STYLE,
+                                            .head = true,
+                                            .fur_strands = 50000,
+                                            .fur_length = 0.03f,
+                                            .ball_radius = 0.1f,
                                             .field_of_view = 27,
                                             .background = {{0.085f, 0.09f, 0.1f}, {0.018f, 0.019f, 0.022f}},
-                                            .exposure   = 1,
-                                            .shadow     = true,
-                                            .motion     = {.pivot = {0, 1.50f, -0.01f}},
-                                            .fps        = 30,
-                                            .frames     = 120,
-                                            .width      = 1280,
-                                            .height     = 720,
-                                            .show       = HAIR_SHOW_HAIR | HAIR_SHOW_HEAD};
-    *scene                               = fresh;
-    scene->settings                      = hair_settings_default();
+                                            .exposure = 1,
+                                            .shadow = true,
+                                            .motion = {.pivot = {0, 1.50f, -0.01f}},
+                                            .fps = 30,
+                                            .frames = 120,
+                                            .width = 1280,
+                                            .height = 720,
+                                            .show = HAIR_SHOW_HAIR | HAIR_SHOW_HEAD};
+    *scene = fresh;
+    scene->settings = hair_settings_default();
 }
 
 void hair_scene_free(struct hair_scene* scene)
@@ -63,7 +63,7 @@ bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene*
         hair_complain(tool, "there is no style %s; --help lists them", name);
         return false;
     }
-    scene->subject              = HAIR_SUBJECT_STYLE;
+    scene->subject = HAIR_SUBJECT_STYLE;
     scene->settings.style.style = style;
     if (!scene->head_is_said) scene->head = true;
     return read_style_settings(tool, name, scene);
@@ -91,8 +91,8 @@ static bool read_fur(const place* json, const char* key, const json_t* value, vo
     static const entry entries[] = {HAIR_COUNTS("strands", AT(fur_strands), 1, 1, 4194304),
                                     HAIR_NUMBERS("length", AT(fur_length), 1, 1e-4, 10),
                                     HAIR_NUMBERS("ball", AT(ball_radius), 1, 1e-3, 100), HAIR_END};
-    struct hair_scene* scene     = out;
-    scene->subject               = HAIR_SUBJECT_FUR;
+    struct hair_scene* scene = out;
+    scene->subject = HAIR_SUBJECT_FUR;
     return hair_json_object(json, key, value, entries, out);
 }
 
@@ -128,7 +128,7 @@ static bool read_bullet(const place* json, const char* key, const json_t* value,
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
 {
-    struct hair_scene*  scene  = out;
+    struct hair_scene* scene = out;
     struct hair_motion* motion = &scene->motion;
     if (json_is_string(value)) return hair_scene_set_motion(json->tool, json_string_value(value), scene);
     memset(motion->key, 0, sizeof motion->key);
@@ -140,7 +140,7 @@ static bool read_camera(const place* json, const char* key, const json_t* value,
     static const entry entries[] = {HAIR_NUMBERS("eye", AT(eye), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                                     HAIR_NUMBERS("target", AT(target), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                                     HAIR_NUMBERS("fov", AT(field_of_view), 1, 1, 150), HAIR_END};
-    struct hair_scene* scene     = out;
+    struct hair_scene* scene = out;
     if (!hair_json_object(json, key, value, entries, out)) return false;
     bool eye = json_object_get(value, "eye"), target = json_object_get(value, "target");
     if (eye != target) return hair_json_wrong(json, key, "given with both eye and target, or neither");
@@ -153,8 +153,8 @@ static bool read_camera(const place* json, const char* key, const json_t* value,
 static bool read_settings(const place* json, const char* key, const json_t* value, void* out)
 {
     struct hair_scene* scene = out;
-    const char*        name;
-    json_t*            member;
+    const char* name;
+    json_t* member;
     if (!json_is_object(value)) return hair_json_wrong(json, key, "an object");
     json_object_foreach((json_t*)(uintptr_t)value, name, member)
     {
@@ -171,33 +171,33 @@ static const entry light[] = {HAIR_NUMBERS("to", AT(settings.light.to), 3, -HAIR
                               HAIR_BOOLEAN("shadow", AT(shadow)), HAIR_END};
 static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
                                    HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
-static const entry whole[]      = {HAIR_OTHER("style", read_style),
-                                   HAIR_OTHER("groom", read_groom),
-                                   HAIR_OTHER("fur", read_fur),
-                                   HAIR_BOOLEAN("head", AT(head)),
-                                   HAIR_OTHER("solids", read_solids),
-                                   HAIR_OTHER("bullet", read_bullet),
-                                   HAIR_OTHER("maps", read_maps),
-                                   HAIR_OTHER("motion", read_motion),
-                                   HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
-                                   HAIR_OTHER("camera", read_camera),
-                                   HAIR_OBJECT("light", light),
-                                   HAIR_OTHER("lights", read_lights),
-                                   HAIR_OTHER("wind", read_wind),
-                                   HAIR_OBJECT("background", background),
-                                   HAIR_NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
-                                   HAIR_NUMBERS("settle", AT(settle), 1, 0, 60),
-                                   HAIR_NUMBERS("fps", AT(fps), 1, 1, 1000),
-                                   HAIR_COUNTS("frames", AT(frames), 1, 1, 1000000),
-                                   HAIR_COUNTS("picture", AT(picture), 1, 0, 999999),
-                                   HAIR_COUNTS("size", AT(width), 2, 1, 16384),
-                                   HAIR_OTHER("settings", read_settings),
-                                   HAIR_END};
+static const entry whole[] = {HAIR_OTHER("style", read_style),
+                              HAIR_OTHER("groom", read_groom),
+                              HAIR_OTHER("fur", read_fur),
+                              HAIR_BOOLEAN("head", AT(head)),
+                              HAIR_OTHER("solids", read_solids),
+                              HAIR_OTHER("bullet", read_bullet),
+                              HAIR_OTHER("maps", read_maps),
+                              HAIR_OTHER("motion", read_motion),
+                              HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                              HAIR_OTHER("camera", read_camera),
+                              HAIR_OBJECT("light", light),
+                              HAIR_OTHER("lights", read_lights),
+                              HAIR_OTHER("wind", read_wind),
+                              HAIR_OBJECT("background", background),
+                              HAIR_NUMBERS("exposure", AT(exposure), 1, 1e-3, 1e3),
+                              HAIR_NUMBERS("settle", AT(settle), 1, 0, 60),
+                              HAIR_NUMBERS("fps", AT(fps), 1, 1, 1000),
+                              HAIR_COUNTS("frames", AT(frames), 1, 1, 1000000),
+                              HAIR_COUNTS("picture", AT(picture), 1, 0, 999999),
+                              HAIR_COUNTS("size", AT(width), 2, 1, 16384),
+                              HAIR_OTHER("settings", read_settings),
+                              HAIR_END};
 
 static json_t* load(const char* tool, const char* path, const char* text, size_t size)
 {
     json_error_t error;
-    json_t*      root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    json_t* root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
     if (!root) hair_complain(tool, "%s: line %d, column %d: %s", path, error.line, error.column, error.text);
     return root;
 }
@@ -212,7 +212,7 @@ static bool read_scene(const char* tool, const char* path, const json_t* root, s
     if (shadows > HAIR_SCENE_SHADOWS)
         return hair_json_wrong(&json, "lights",
                                "given with at most 4 lights, the first among them, that have a shadow");
-    scene->head_is_said  = json_object_get(root, "head");
+    scene->head_is_said = json_object_get(root, "head");
     scene->pivot_is_said = json_object_get(root, "pivot");
     if (!scene->head_is_said) scene->head = scene->subject == HAIR_SUBJECT_STYLE;
     return true;
@@ -222,7 +222,7 @@ bool hair_scene_parse(const char* tool, const char* path, const char* text, size
                       struct hair_scene* scene)
 {
     json_t* root = load(tool, path, text, size);
-    bool    ok   = root && read_scene(tool, path, root, scene);
+    bool ok = root && read_scene(tool, path, root, scene);
     json_decref(root);
     return ok;
 }
@@ -247,7 +247,7 @@ static const char* text_of(const struct hair_builtin* builtin, const char* name)
 // The JSON of a text whose quotes are written '.
 static json_t* load_builtin(const char* tool, const char* name, const char* text)
 {
-    char   quoted[2048];
+    char quoted[2048];
     size_t size = 0;
     for (; text[size] && size < sizeof quoted; ++size) quoted[size] = text[size];
     for (size_t i = 0; i < size; ++i)
@@ -263,7 +263,7 @@ static bool read_builtin(const char* tool, const char* name, const char* text, c
     json_t* value = load_builtin(tool, name, text);
     if (!value) return false;
     struct hair_json json = {tool, name, ""};
-    bool             ok   = read(&json, key, value, scene);
+    bool ok = read(&json, key, value, scene);
     json_decref(value);
     return ok;
 }
@@ -283,8 +283,8 @@ bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene
 // A style is shown as the first scene shows its own.
 bool hair_scene_named(const char* tool, const char* name, struct hair_scene* scene)
 {
-    const char* text  = text_of(hair_builtin_scenes, name);
-    bool        style = !text && style_named(name) != HAIR_STYLE_COUNT;
+    const char* text = text_of(hair_builtin_scenes, name);
+    bool style = !text && style_named(name) != HAIR_STYLE_COUNT;
     if (style) text = hair_builtin_scenes[0].text;
     if (!text) {
         hair_complain(tool, "there is no scene %s; --help lists them", name);

@@ -18,44 +18,44 @@ enum hair_subject { HAIR_SUBJECT_STYLE, HAIR_SUBJECT_FILE, HAIR_SUBJECT_FUR };
 
 // What is drawn, together.
 enum hair_show {
-    HAIR_SHOW_HAIR   = 1,
-    HAIR_SHOW_HEAD   = 2,
+    HAIR_SHOW_HAIR = 1,
+    HAIR_SHOW_HEAD = 2,
     HAIR_SHOW_GUIDES = 4,
     HAIR_SHOW_SOLIDS = 8,
-    HAIR_SHOW_WIND   = 16
+    HAIR_SHOW_WIND = 16
 };
 
 #define HAIR_SCENE_PATH 4096
 #define HAIR_SCENE_SOLIDS 32 // The built-in head adds its own.
 
 struct hair_scene {
-    enum hair_subject        subject;
-    char                     groom[HAIR_SCENE_PATH]; // of HAIR_SUBJECT_FILE
-    uint32_t                 fur_strands;            // of HAIR_SUBJECT_FUR, on a ball
-    float                    fur_length;             // m
-    float                    ball_radius;            // m, around the origin
-    bool                     head;                   // whether the built-in head is drawn and collided with
-    bool                     head_is_said, pivot_is_said;
-    bool                     framed;            // the camera below is set, else it is made to fit the haircut
-    float                    eye[3], target[3]; // m
-    float                    field_of_view;     // vertical, degrees
-    float                    background[2][3];  // linear colour at the centre and at the corners
-    float                    exposure;
-    struct hair_motion       motion;
-    uint32_t                 solid_count;
-    struct hair_scene_solid  solids[HAIR_SCENE_SOLIDS];
-    struct hair_bullet_list  bullet;
-    struct hair_scene_maps   maps;
-    bool                     shadow; // settings.light has one
+    enum hair_subject subject;
+    char groom[HAIR_SCENE_PATH]; // of HAIR_SUBJECT_FILE
+    uint32_t fur_strands; // of HAIR_SUBJECT_FUR, on a ball
+    float fur_length; // m
+    float ball_radius; // m, around the origin
+    bool head; // whether the built-in head is drawn and collided with
+    bool head_is_said, pivot_is_said;
+    bool framed; // the camera below is set, else it is made to fit the haircut
+    float eye[3], target[3]; // m
+    float field_of_view; // vertical, degrees
+    float background[2][3]; // linear colour at the centre and at the corners
+    float exposure;
+    struct hair_motion motion;
+    uint32_t solid_count;
+    struct hair_scene_solid solids[HAIR_SCENE_SOLIDS];
+    struct hair_bullet_list bullet;
+    struct hair_scene_maps maps;
+    bool shadow; // settings.light has one
     struct hair_scene_lights lights; // beside settings.light
-    struct hair_scene_wind   wind;   // beside settings.wind
-    float                    settle; // s of hanging still before frame 0
-    float                    fps;
-    uint32_t                 frames;  // of the whole scene
-    uint32_t                 picture; // the frame to take when one is asked for
-    uint32_t                 width, height;
-    uint32_t                 show; // of enum hair_show
-    struct hair_settings     settings;
+    struct hair_scene_wind wind; // beside settings.wind
+    float settle; // s of hanging still before frame 0
+    float fps;
+    uint32_t frames; // of the whole scene
+    uint32_t picture; // the frame to take when one is asked for
+    uint32_t width, height;
+    uint32_t show; // of enum hair_show
+    struct hair_settings settings;
 };
 
 // A scene with nothing said: the first style, seen from a distance that fits.

@@ -10,7 +10,7 @@
 #define MOST_ROWS 1048576u
 #define DEEPEST 8 // compounds in compounds
 
-typedef struct hair_json       place;
+typedef struct hair_json place;
 typedef struct hair_json_entry entry;
 typedef struct hair_bullet_shape
     shape; // the first member of an object: what reads an object's keys has its shape
@@ -21,17 +21,17 @@ static const struct {
     const char* keys;
     const char* needs;
 } kinds[] = {
-    [HAIR_BULLET_SPHERE]       = {"sphere", "radius", NULL},
-    [HAIR_BULLET_BOX]          = {"box", "size", NULL},
-    [HAIR_BULLET_CAPSULE]      = {"capsule", "axis radius half_length", NULL},
-    [HAIR_BULLET_CYLINDER]     = {"cylinder", "axis radius half_length", NULL},
-    [HAIR_BULLET_CONE]         = {"cone", "axis radius half_length", NULL},
-    [HAIR_BULLET_PLANE]        = {"plane", "normal distance", NULL},
-    [HAIR_BULLET_HULL]         = {"hull", "points mesh", "points mesh"},
+    [HAIR_BULLET_SPHERE] = {"sphere", "radius", NULL},
+    [HAIR_BULLET_BOX] = {"box", "size", NULL},
+    [HAIR_BULLET_CAPSULE] = {"capsule", "axis radius half_length", NULL},
+    [HAIR_BULLET_CYLINDER] = {"cylinder", "axis radius half_length", NULL},
+    [HAIR_BULLET_CONE] = {"cone", "axis radius half_length", NULL},
+    [HAIR_BULLET_PLANE] = {"plane", "normal distance", NULL},
+    [HAIR_BULLET_HULL] = {"hull", "points mesh", "points mesh"},
     [HAIR_BULLET_MULTI_SPHERE] = {"multi_sphere", "spheres", "spheres"},
-    [HAIR_BULLET_MESH]         = {"mesh", "mesh", "mesh"},
+    [HAIR_BULLET_MESH] = {"mesh", "mesh", "mesh"},
     [HAIR_BULLET_HEIGHT_FIELD] = {"height_field", "axis heights spacing", "heights"},
-    [HAIR_BULLET_COMPOUND]     = {"compound", "children", "children"},
+    [HAIR_BULLET_COMPOUND] = {"compound", "children", "children"},
 };
 #define KINDS (sizeof kinds / sizeof *kinds)
 
@@ -45,8 +45,8 @@ static bool is_among(const char* key, const char* keys)
 
 static bool read_kind(const place* json, const char* key, const json_t* value, void* out)
 {
-    char        must[256] = "one of";
-    const char* name      = json_is_string(value) ? json_string_value(value) : "";
+    char must[256] = "one of";
+    const char* name = json_is_string(value) ? json_string_value(value) : "";
     for (size_t i = 0; i < KINDS; ++i) {
         if (strcmp(name, kinds[i].name) == 0) {
             ((shape*)out)->kind = (enum hair_bullet_kind)i;
@@ -60,7 +60,7 @@ static bool read_kind(const place* json, const char* key, const json_t* value, v
 static bool read_axis(const place* json, const char* key, const json_t* value, void* out)
 {
     const char* name = json_is_string(value) ? json_string_value(value) : "";
-    bool        ok   = strlen(name) == 1 && *name >= 'x' && *name <= 'z';
+    bool ok = strlen(name) == 1 && *name >= 'x' && *name <= 'z';
     if (ok) ((shape*)out)->axis = (uint32_t)(*name - 'x');
     return ok || hair_json_wrong(json, key, "\"x\", \"y\" or \"z\"");
 }
@@ -73,8 +73,8 @@ static bool read_row(const place* json, const char* key, const json_t* row, uint
     bool ok = json_array_size(row) == columns;
     for (uint32_t i = 0; i < columns && ok; ++i) {
         const json_t* number = json_array_get(row, i);
-        ok                   = json_is_number(number) && fabs(json_number_value(number)) <= HAIR_SCENE_FAR;
-        out[i]               = (float)json_number_value(number);
+        ok = json_is_number(number) && fabs(json_number_value(number)) <= HAIR_SCENE_FAR;
+        out[i] = (float)json_number_value(number);
     }
     snprintf(must, sizeof must, "%u numbers in [%.10g, %.10g]", columns, -HAIR_SCENE_FAR, HAIR_SCENE_FAR);
     return ok || hair_json_wrong(json, key, must);
@@ -175,9 +175,9 @@ static const entry of_object[] = {
 static bool check_keys(const place* json, const json_t* object, const shape* own)
 {
     const char *needs = kinds[own->kind].needs, *key;
-    json_t*     value;
-    char        must[128];
-    uint32_t    needed = 0;
+    json_t* value;
+    char must[128];
+    uint32_t needed = 0;
     json_object_foreach((json_t*)(uintptr_t)object, key, value)
     {
         bool is_of_some = false;
@@ -205,7 +205,7 @@ static bool check_values(const place* json, const shape* own, const float rotati
 
 static void set_usual(shape* own)
 {
-    *own           = (shape){.axis = 1, .radius = 0.1f, .half_length = 0.1f, .margin = -1, .spacing = 0.1f};
+    *own = (shape){.axis = 1, .radius = 0.1f, .half_length = 0.1f, .margin = -1, .spacing = 0.1f};
     own->normal[1] = own->rotation[3] = 1;
     for (int k = 0; k < 3; ++k) own->scale[k] = 1, own->size[k] = 0.1f;
 }
@@ -214,7 +214,7 @@ static void set_usual(shape* own)
 static bool read_one(const place* json, const char* key, const json_t* array, size_t i, const entry* entries,
                      shape* out, const float* rotation)
 {
-    char          element[64], name[128];
+    char element[64], name[128];
     const json_t* value = json_array_get(array, i);
     snprintf(element, sizeof element, "%s[%zu]", key, i);
     snprintf(name, sizeof name, "%s%s.", json->place, element);
@@ -225,7 +225,7 @@ static bool read_one(const place* json, const char* key, const json_t* array, si
 
 static bool read_children(const place* json, const char* key, const json_t* value, void* out)
 {
-    shape* own   = out;
+    shape* own = out;
     size_t count = json_array_size(value), depth = 0;
     for (const char* at = json->place; (at = strstr(at, "children")); ++at) ++depth;
     if (!json_is_array(value) || count < 1 || count > MOST_OBJECTS || depth >= DEEPEST)
@@ -250,7 +250,7 @@ bool hair_scene_read_bullet(const place* json, const char* key, const json_t* va
     if (!out->object) return hair_json_wrong(json, key, "shorter: memory ran out");
     for (size_t i = 0; i < count; ++i) {
         struct hair_bullet_object* object = &out->object[out->count++];
-        object->body.solid                = hair_solid_default();
+        object->body.solid = hair_solid_default();
         set_usual(&object->shape);
         if (!read_one(json, key, value, i, of_object, &object->shape, object->body.solid.rotation))
             return false;

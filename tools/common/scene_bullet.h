@@ -21,35 +21,35 @@ enum hair_bullet_kind {
 
 // Rows of numbers.
 struct hair_bullet_table {
-    float*   values;
+    float* values;
     uint32_t rows, columns;
 };
 
 struct hair_bullet_shape {
-    enum hair_bullet_kind     kind;
-    uint32_t                  axis; // 0 to 2: x to z
-    float                     radius, half_length, size[3];
-    float                     normal[3], distance;
-    float                     scale[3];
-    float                     margin;   // m; below 0: Bullet's
-    float                     spacing;  // of a height field's nodes, m
-    struct hair_bullet_table  points;   // of a hull
-    struct hair_bullet_table  spheres;  // xyz, radius
-    struct hair_bullet_table  heights;  // a row for every line of nodes
-    struct hair_obj           mesh;     // of a hull or a mesh
+    enum hair_bullet_kind kind;
+    uint32_t axis; // 0 to 2: x to z
+    float radius, half_length, size[3];
+    float normal[3], distance;
+    float scale[3];
+    float margin; // m; below 0: Bullet's
+    float spacing; // of a height field's nodes, m
+    struct hair_bullet_table points; // of a hull
+    struct hair_bullet_table spheres; // xyz, radius
+    struct hair_bullet_table heights; // a row for every line of nodes
+    struct hair_obj mesh; // of a hull or a mesh
     struct hair_bullet_shape* children; // of a compound
-    uint32_t                  child_count;
-    float                     position[3], rotation[4]; // of a child in its compound
+    uint32_t child_count;
+    float position[3], rotation[4]; // of a child in its compound
 };
 
 struct hair_bullet_object {
     struct hair_bullet_shape shape;
-    struct hair_scene_solid  body; // where it is, and its friction; its own shape and size say nothing
+    struct hair_scene_solid body; // where it is, and its friction; its own shape and size say nothing
 };
 
 struct hair_bullet_list {
     struct hair_bullet_object* object;
-    uint32_t                   count;
+    uint32_t count;
 };
 
 // False: `json->tool` has complained. Either way hair_scene_free_bullet is due.

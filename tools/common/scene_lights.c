@@ -11,7 +11,7 @@
 static bool read_kind(const struct hair_json* json, const char* key, const json_t* value, void* out)
 {
     static const char* const names[] = {"directional", "point", "spot"};
-    const char*              name    = json_is_string(value) ? json_string_value(value) : "";
+    const char* name = json_is_string(value) ? json_string_value(value) : "";
     for (int i = 0; i <= HAIR_LIGHT_SPOT; ++i)
         if (strcmp(name, names[i]) == 0) {
             ((struct hair_scene_light*)out)->light.kind = (hair_light_kind)i;
@@ -42,16 +42,16 @@ bool hair_scene_read_lights(const struct hair_json* json, const char* key, const
 
 struct hair_lit hair_lit_of(const hair_light* light)
 {
-    const float*    t   = light->to;
-    float           l   = sqrtf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+    const float* t = light->to;
+    float l = sqrtf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
     struct hair_lit lit = {.axis = {0, 0, 0, -1}, .more = {1, 0}};
-    l                   = l > 1e-12f ? 1 / l : 0;
+    l = l > 1e-12f ? 1 / l : 0;
     for (int i = 0; i < 3; ++i) {
-        lit.to[i]    = light->kind ? light->position[i] : t[i] * l;
+        lit.to[i] = light->kind ? light->position[i] : t[i] * l;
         lit.color[i] = light->color[i];
         if (light->kind == HAIR_LIGHT_SPOT) lit.axis[i] = t[i] * l;
     }
-    lit.to[3]    = light->kind ? 1 : 0;
+    lit.to[3] = light->kind ? 1 : 0;
     lit.color[3] = light->kind ? light->size * light->size : 1;
     if (light->kind == HAIR_LIGHT_SPOT) {
         lit.axis[3] = cosf(light->outer);

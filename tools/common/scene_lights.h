@@ -12,12 +12,12 @@
 // With a shadow it has maps of depth and of what hair takes of it, else it shines through everything.
 struct hair_scene_light {
     hair_light light;
-    bool       shadow;
+    bool shadow;
 };
 
 // Lights beside the first, which is a setting.
 struct hair_scene_lights {
-    uint32_t                count;
+    uint32_t count;
     struct hair_scene_light at[HAIR_SCENE_LIGHTS - 1];
 };
 

@@ -7,11 +7,11 @@ static bool read_rows(const struct hair_json* json, const char* key, const json_
                       struct hair_scene_map* map)
 {
     static const char must[] = "rows of digits, all as long, at most 64 by 64";
-    size_t            rows   = json_array_size(value);
+    size_t rows = json_array_size(value);
     if (rows < 1 || rows > HAIR_SCENE_MAP) return hair_json_wrong(json, key, must);
     for (size_t y = 0; y < rows; ++y) {
-        const char* row   = json_string_value(json_array_get(value, y));
-        size_t      width = row ? strlen(row) : 0;
+        const char* row = json_string_value(json_array_get(value, y));
+        size_t width = row ? strlen(row) : 0;
         if (width < 1 || width > HAIR_SCENE_MAP || (y && width != map->width) ||
             strspn(row, "0123456789") != width)
             return hair_json_wrong(json, key, must);
@@ -55,8 +55,8 @@ static void look_from_above(const hair_groom_desc* desc, float* uvs)
         }
     for (uint32_t i = 0; i < desc->scalp_vertex_count; ++i)
         for (uint32_t k = 0; k < 2; ++k) {
-            uint32_t axis  = 2 * k;
-            float    width = upper[axis] - lower[axis];
+            uint32_t axis = 2 * k;
+            float width = upper[axis] - lower[axis];
             uvs[2 * i + k] = width > 0 ? (desc->scalp_positions[3 * i + axis] - lower[axis]) / width : 0;
         }
 }
@@ -73,8 +73,8 @@ void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[H
     look_from_above(desc, uvs);
     desc->scalp_uvs = uvs;
     for (uint32_t i = 0; i < maps->count; ++i) {
-        sets[i]           = hair_map_set_default();
-        sets[i].density   = map_of(&maps->set[i].density);
+        sets[i] = hair_map_set_default();
+        sets[i].density = map_of(&maps->set[i].density);
         sets[i].thickness = map_of(&maps->set[i].thickness);
         desc->map_sets[i] = &sets[i];
     }

@@ -10,7 +10,7 @@
 #define HAIR_SCENE_MAP 64 // rows and columns, at most
 
 struct hair_scene_map {
-    float    value[HAIR_SCENE_MAP * HAIR_SCENE_MAP];
+    float value[HAIR_SCENE_MAP * HAIR_SCENE_MAP];
     uint32_t width, height; // 0: there is none
 };
 

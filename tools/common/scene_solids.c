@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-typedef struct hair_json       place;
+typedef struct hair_json place;
 typedef struct hair_json_entry entry;
 
 #define AT(member) offsetof(struct hair_scene_solid, member)
@@ -13,8 +13,8 @@ typedef struct hair_json_entry entry;
 static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
 {
     static const char* const names[] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
-    struct hair_scene_solid* solid   = out;
-    const char*              name    = json_is_string(value) ? json_string_value(value) : "";
+    struct hair_scene_solid* solid = out;
+    const char* name = json_is_string(value) ? json_string_value(value) : "";
     for (int i = 0; i <= HAIR_SHAPE_PLANE; ++i)
         if (strcmp(name, names[i]) == 0) {
             solid->solid.shape = (hair_shape)i;
@@ -70,9 +70,9 @@ bool hair_scene_read_solids(const place* json, const char* key, const json_t* va
 
 void hair_solid_carry(const float transform[16], float share, hair_solid* solid)
 {
-    mat4   m;
+    mat4 m;
     versor turn, none = GLM_QUAT_IDENTITY_INIT, own;
-    vec3   rest = {solid->position[0], solid->position[1], solid->position[2]}, moved;
+    vec3 rest = {solid->position[0], solid->position[1], solid->position[2]}, moved;
     memcpy(m, transform, sizeof m);
     glm_mat4_mulv3(m, rest, 1, moved);
     glm_vec3_lerp(rest, moved, share, moved);
@@ -90,9 +90,9 @@ void hair_solid_carry(const float transform[16], float share, hair_solid* solid)
 hair_solid hair_scene_solid_at(const struct hair_scene_solid* from, float time)
 {
     struct hair_motion motion = {.count = from->key_count};
-    hair_solid         solid  = from->solid;
-    vec3               spin   = {from->spin[0], from->spin[1], from->spin[2]};
-    float              angle  = glm_vec3_norm(spin) * glm_rad(time), transform[16];
+    hair_solid solid = from->solid;
+    vec3 spin = {from->spin[0], from->spin[1], from->spin[2]};
+    float angle = glm_vec3_norm(spin) * glm_rad(time), transform[16];
     if (angle != 0) {
         versor turn, own;
         memcpy(own, solid.rotation, sizeof own);

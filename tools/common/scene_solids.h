@@ -11,12 +11,12 @@
 #define HAIR_SCENE_FAR 1e6 // of any coordinate, m
 
 struct hair_scene_solid {
-    hair_solid      solid;       // at time 0
-    bool            stays;       // in the world; else in groom space: it goes with the head
-    float           velocity[3]; // m/s
-    float           spin[3];     // degrees/s about each axis
+    hair_solid solid; // at time 0
+    bool stays; // in the world; else in groom space: it goes with the head
+    float velocity[3]; // m/s
+    float spin[3]; // degrees/s about each axis
     struct hair_key key[HAIR_SCENE_SOLID_KEYS];
-    uint32_t        key_count;
+    uint32_t key_count;
 };
 
 // Of a motion, in order of time.

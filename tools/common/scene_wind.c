@@ -39,9 +39,9 @@ bool hair_scene_read_wind(const struct hair_json* json, const char* key, const j
                           struct hair_settings* settings, struct hair_scene_wind* out)
 {
     static const char* const axes[] = {"x", "y", "z"};
-    struct hair_json         inside = {json->tool, json->path, "wind."};
-    const char*              name;
-    json_t*                  member;
+    struct hair_json inside = {json->tool, json->path, "wind."};
+    const char* name;
+    json_t* member;
     if (!json_is_object(value)) return hair_json_wrong(json, key, "an object");
     json_object_foreach((json_t*)(uintptr_t)value, name, member)
     {
@@ -62,8 +62,8 @@ bool hair_scene_read_wind(const struct hair_json* json, const char* key, const j
 
 hair_wind hair_scene_wind_of(const struct hair_settings* settings, const struct hair_scene_wind* wind)
 {
-    hair_wind own    = settings->wind;
-    own.sources      = wind->source;
+    hair_wind own = settings->wind;
+    own.sources = wind->source;
     own.source_count = wind->count;
     return own;
 }

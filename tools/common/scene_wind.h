@@ -8,7 +8,7 @@
 #define HAIR_SCENE_SOURCES 4
 
 struct hair_scene_wind {
-    uint32_t         count;
+    uint32_t count;
     hair_wind_source source[HAIR_SCENE_SOURCES];
 };
 

@@ -20,8 +20,8 @@ enum kind { FLOAT, COUNT, CURVE, PRESET, LOOK, COLOR, LIKE };
 struct row {
     const char* key;
     const char* about;
-    enum kind   kind;
-    uint16_t    target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
+    enum kind kind;
+    uint16_t target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
     const char* choice[MAX_CHOICES]; // names of the values 0, 1, …
 };
 
@@ -113,7 +113,11 @@ static const struct row rows[] = {
     {"drag", "of wind, as a multiple of that of a single hair", FLOAT, {AT(physics.drag)}, {0}},
     {"friction", "Coulomb's coefficient with solids", FLOAT, {AT(physics.friction)}, {0}},
 
-    {"path", "of drawing", COUNT, {AT(view.path)}, {"tessellation", "instanced", "expanded", "computed", "auto"}},
+    {"path",
+     "of drawing",
+     COUNT,
+     {AT(view.path)},
+     {"tessellation", "instanced", "expanded", "computed", "auto"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"samples", "shares"}},
     {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},
@@ -227,17 +231,17 @@ static const struct row rows[] = {
 
 struct hair_settings hair_settings_default(void)
 {
-    struct hair_settings settings = {.import  = hair_import_default(),
-                                     .style   = hair_style_desc_default(),
-                                     .groom   = hair_groom_desc_default(),
+    struct hair_settings settings = {.import = hair_import_default(),
+                                     .style = hair_style_desc_default(),
+                                     .groom = hair_groom_desc_default(),
                                      .physics = hair_physics_default(),
-                                     .wind    = hair_wind_default(),
-                                     .look    = hair_look_default(),
-                                     .desc    = hair_desc_default(),
-                                     .view    = hair_view_default(),
-                                     .light   = hair_light_default(),
-                                     .lod     = hair_lod_default()};
-    settings.import.scale         = HAIR_SCALE_GUESSED;
+                                     .wind = hair_wind_default(),
+                                     .look = hair_look_default(),
+                                     .desc = hair_desc_default(),
+                                     .view = hair_view_default(),
+                                     .light = hair_light_default(),
+                                     .lod = hair_lod_default()};
+    settings.import.scale = HAIR_SCALE_GUESSED;
     return settings;
 }
 
@@ -284,9 +288,9 @@ static bool set_preset(struct hair_settings* settings, enum kind kind, const cha
 static bool set_curl_like(struct hair_settings* settings, const char* path)
 {
     struct hair_bytes bytes;
-    hair_asset*       asset = NULL;
-    hair_asset_desc   desc  = hair_asset_desc_default();
-    hair_asset_info   info  = hair_asset_info_default();
+    hair_asset* asset = NULL;
+    hair_asset_desc desc = hair_asset_desc_default();
+    hair_asset_info info = hair_asset_info_default();
     if (!hair_file_read("curl_like", path, MAX_EXAMPLE, &bytes)) return false;
     hair_result result = hair_asset_read(&desc, bytes.data, bytes.size, &asset);
     if (!result) result = hair_asset_describe(asset, &info);
@@ -299,10 +303,10 @@ static bool set_curl_like(struct hair_settings* settings, const char* path)
 static bool set_number(struct hair_settings* settings, const struct row* row, const char* value)
 {
     char* end;
-    errno          = 0;
-    double wide    = strtod(value, &end);
-    float  number  = (float)wide;
-    bool   is_text = end == value || *end;
+    errno = 0;
+    double wide = strtod(value, &end);
+    float number = (float)wide;
+    bool is_text = end == value || *end;
     if (is_text || !isfinite(number)) return false;
     if (row->kind == FLOAT) {
         store(settings, row, &number);
@@ -318,10 +322,10 @@ static bool set_number(struct hair_settings* settings, const struct row* row, co
 static bool set_curve(struct hair_settings* settings, const struct row* row, const char* value)
 {
     hair_curve curve;
-    float      number[CURVE_PLACES];
-    int        count = 0;
+    float number[CURVE_PLACES];
+    int count = 0;
     for (const char* at = value;; ++at) {
-        char*  end;
+        char* end;
         double wide = strtod(at, &end);
         if (end == at || count == CURVE_PLACES || !isfinite((float)wide)) return false;
         number[count++] = (float)wide;
@@ -331,8 +335,8 @@ static bool set_curve(struct hair_settings* settings, const struct row* row, con
     }
     for (int i = 0; i < CURVE_PLACES; ++i) {
         float along = (float)(i * (count - 1)) / (CURVE_PLACES - 1);
-        int   k     = (int)along < count - 1 ? (int)along : count - 1;
-        int   next  = k + 1 < count ? k + 1 : k;
+        int k = (int)along < count - 1 ? (int)along : count - 1;
+        int next = k + 1 < count ? k + 1 : k;
         curve.at[i] = number[k] + (along - (float)k) * (number[next] - number[k]);
     }
     memcpy((char*)settings + row->target[0], &curve, sizeof curve);
@@ -394,8 +398,8 @@ bool hair_settings_set(const char* tool, struct hair_settings* settings, const c
 static void print_curve(const void* value, char* text, size_t size)
 {
     hair_curve curve;
-    size_t     used = 0;
-    int        same = 1;
+    size_t used = 0;
+    int same = 1;
     memcpy(&curve, value, sizeof curve);
     while (same < CURVE_PLACES && curve.at[same] == curve.at[0]) ++same;
     for (int i = 0; i < (same == CURVE_PLACES ? 1 : CURVE_PLACES) && used < size; ++i)
@@ -406,10 +410,10 @@ void hair_settings_print(FILE* file)
 {
     struct hair_settings settings = hair_settings_default();
     for (size_t i = 0; i < ROW_COUNT; ++i) {
-        const struct row* row   = &rows[i];
-        const char*       value = (const char*)&settings + row->target[0];
-        uint32_t          count;
-        float             number;
+        const struct row* row = &rows[i];
+        const char* value = (const char*)&settings + row->target[0];
+        uint32_t count;
+        float number;
         memcpy(&count, value, sizeof count);
         memcpy(&number, value, sizeof number);
         char text[64], names[128];

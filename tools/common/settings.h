@@ -13,18 +13,18 @@
 #define HAIR_SCALE_GUESSED INFINITY // import.scale when none was said
 
 struct hair_settings {
-    hair_import     import;
+    hair_import import;
     hair_style_desc style;
     hair_groom_desc groom;
-    hair_physics    physics;
-    hair_wind       wind;
-    hair_look       look;
-    hair_desc       desc;
-    hair_view       view;
-    hair_light      light; // the first of the view's
-    hair_lod        lod;
-    uint32_t        has_lod; // 1: views have it
-    uint32_t        hides;   // 1: and the depth of the head, which is drawn before hair
+    hair_physics physics;
+    hair_wind wind;
+    hair_look look;
+    hair_desc desc;
+    hair_view view;
+    hair_light light; // the first of the view's
+    hair_lod lod;
+    uint32_t has_lod; // 1: views have it
+    uint32_t hides; // 1: and the depth of the head, which is drawn before hair
 };
 
 struct hair_settings hair_settings_default(void);

@@ -150,7 +150,7 @@ const char hair_tone_frag[] = HEAD
 static GLuint compile(const char* tool, GLenum stage, const char* text)
 {
     GLuint shader = glCreateShader(stage);
-    GLint  good;
+    GLint good;
     glShaderSource(shader, 1, &text, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -166,7 +166,7 @@ unsigned hair_shaders_link(const char* tool, const char* vert, const char* frag)
 {
     GLuint vertex = compile(tool, GL_VERTEX_SHADER, vert), fragment = compile(tool, GL_FRAGMENT_SHADER, frag);
     GLuint program = glCreateProgram();
-    GLint  good    = 0;
+    GLint good = 0;
     if (vertex && fragment) {
         glAttachShader(program, vertex);
         glAttachShader(program, fragment);

@@ -28,12 +28,12 @@
 #define HAIR_AT_SHADOW 112
 #define HAIR_AT_TEXEL 116
 
-extern const char hair_whole_vert[];      // all of the picture, no vertices needed
+extern const char hair_whole_vert[]; // all of the picture, no vertices needed
 extern const char hair_background_frag[]; // a calm gradient
-extern const char hair_mesh_vert[];       // what moves with the head
-extern const char hair_skin_frag[];       // lit, past itself and through hair
-extern const char hair_nothing_frag[];    // depth alone
-extern const char hair_tone_frag[];       // from light to 8 bits
+extern const char hair_mesh_vert[]; // what moves with the head
+extern const char hair_skin_frag[]; // lit, past itself and through hair
+extern const char hair_nothing_frag[]; // depth alone
+extern const char hair_tone_frag[]; // from light to 8 bits
 
 // The name of a program; 0: it does not compile, and `tool` has complained.
 unsigned hair_shaders_link(const char* tool, const char* vert, const char* frag);

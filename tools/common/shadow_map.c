@@ -8,7 +8,7 @@
 static GLuint make_texture(enum hair_shadow_part part, GLsizei size)
 {
     GLuint texture;
-    GLint  filter = part == HAIR_SHADOW_OPACITY ? GL_LINEAR : GL_NEAREST;
+    GLint filter = part == HAIR_SHADOW_OPACITY ? GL_LINEAR : GL_NEAREST;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, part == HAIR_SHADOW_OPACITY ? GL_R16F : GL_DEPTH_COMPONENT32F, size, size);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, filter);
@@ -23,7 +23,7 @@ static bool make_part(struct hair_shadow_map* map, enum hair_shadow_part part)
     GLuint framebuffer;
     glCreateFramebuffers(1, &framebuffer);
     map->framebuffer[part] = framebuffer;
-    map->texture[part]     = make_texture(part, map->size);
+    map->texture[part] = make_texture(part, map->size);
     if (part == HAIR_SHADOW_OPACITY) {
         glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, map->texture[part], 0);
         glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, map->texture[HAIR_SHADOW_BODY], 0);
@@ -53,7 +53,7 @@ void hair_shadow_map_delete(struct hair_shadow_map* map)
 void hair_shadow_map_begin(const struct hair_shadow_map* map, enum hair_shadow_part part)
 {
     static const float far = 1, none[4] = {0};
-    int                opacity = part == HAIR_SHADOW_OPACITY;
+    int opacity = part == HAIR_SHADOW_OPACITY;
     glBindFramebuffer(GL_FRAMEBUFFER, map->framebuffer[part]);
     glViewport(0, 0, map->size, map->size);
     glClearNamedFramebufferfv(map->framebuffer[part], opacity ? GL_COLOR : GL_DEPTH, 0,

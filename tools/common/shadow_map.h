@@ -11,7 +11,7 @@ enum hair_shadow_part { HAIR_SHADOW_BODY, HAIR_SHADOW_HAIR, HAIR_SHADOW_OPACITY,
 // OpenGL names. What hair takes is drawn with the depth of bodies attached: only hair before them falls on them.
 struct hair_shadow_map {
     unsigned texture[HAIR_SHADOW_PARTS], framebuffer[HAIR_SHADOW_PARTS];
-    int      size;
+    int size;
 };
 
 // The parts before `parts`, of so many texels to each side, in place of those of another size. False: OpenGL has no memory for

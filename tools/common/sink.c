@@ -24,7 +24,7 @@ static enum hair_sink_kind kind_of(const char* path)
     if (ends_with(path, ".mp4")) return HAIR_SINK_MP4;
     if (ends_with(path, ".y4m") || !strcmp(path, "-")) return HAIR_SINK_Y4M;
     struct stat status;
-    bool        in_place = !stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+    bool in_place = !stat(path, &status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
     return in_place ? HAIR_SINK_Y4M : HAIR_SINK_NONE;
 }
 
@@ -78,7 +78,7 @@ int hair_sink_plan(const char* tool, const char* path, uint32_t width, uint32_t 
 static bool start_encoder(struct hair_sink* sink)
 {
     int descriptor = fileno(sink->output.file);
-    sink->encoder  = hair_encoder_start(sink->tool, sink->output.temporary, descriptor, &sink->process);
+    sink->encoder = hair_encoder_start(sink->tool, sink->output.temporary, descriptor, &sink->process);
     return sink->encoder;
 }
 
@@ -122,9 +122,9 @@ static bool put_picture(struct hair_sink* sink, const struct hair_image* image, 
 static bool put_numbered(struct hair_sink* sink, const struct hair_image* image, uint32_t frame)
 {
     struct hair_output output;
-    char               path[MAX_PATH];
-    int                digits, before = (int)(sink->number - sink->path);
-    const char*        after = sink->number + pattern_length(sink->number, &digits);
+    char path[MAX_PATH];
+    int digits, before = (int)(sink->number - sink->path);
+    const char* after = sink->number + pattern_length(sink->number, &digits);
     int length = snprintf(path, sizeof path, "%.*s%0*u%s", before, sink->path, digits, frame, after);
     if (length >= (int)sizeof path) {
         hair_complain(sink->tool, "%s is too long a name", sink->path);
@@ -159,9 +159,9 @@ bool hair_sink_put(struct hair_sink* sink, const struct hair_image* image, uint3
 static bool end_encoder(struct hair_sink* sink)
 {
     if (!sink->encoder) return true;
-    bool written  = !fclose(sink->encoder);
+    bool written = !fclose(sink->encoder);
     sink->encoder = NULL;
-    int status    = hair_encoder_wait(sink->process);
+    int status = hair_encoder_wait(sink->process);
     if (status)
         hair_complain(sink->tool, "ffmpeg ended with status %d before %s was whole", status, sink->path);
     return written && !status;

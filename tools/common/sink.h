@@ -10,15 +10,15 @@
 enum hair_sink_kind { HAIR_SINK_NONE, HAIR_SINK_PNG, HAIR_SINK_EXR, HAIR_SINK_Y4M, HAIR_SINK_MP4 };
 
 struct hair_sink {
-    const char*         tool;
-    const char*         path;
+    const char* tool;
+    const char* path;
     enum hair_sink_kind kind;
-    const char*         number; // where in path the frame's number goes; NULL: one file
-    struct hair_output  output; // of one file
-    uint32_t            width, height;
-    unsigned char*      planes;  // of one video frame
-    FILE*               encoder; // its standard input
-    pid_t               process;
+    const char* number; // where in path the frame's number goes; NULL: one file
+    struct hair_output output; // of one file
+    uint32_t width, height;
+    unsigned char* planes; // of one video frame
+    FILE* encoder; // its standard input
+    pid_t process;
 };
 
 // Whether the name is that of one picture, and so can hold one frame only.

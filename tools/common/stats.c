@@ -19,9 +19,9 @@ void hair_clock_add(struct hair_clock* clock, double ms)
 {
     if (clock->count == clock->room) {
         uint32_t room = clock->room ? 2 * clock->room : 64;
-        float*   more = realloc(clock->ms, room * sizeof *more);
+        float* more = realloc(clock->ms, room * sizeof *more);
         if (!more) return;
-        clock->ms   = more;
+        clock->ms = more;
         clock->room = room;
     }
     clock->ms[clock->count++] = (float)ms;
@@ -45,7 +45,7 @@ static json_t* clock_row(const char* name, const char* method, const struct hair
 // Those that ran.
 static void add_passes(json_t* rows, const char* name, hair_context* context)
 {
-    uint32_t     count  = hair_timings(context, NULL, 0);
+    uint32_t count = hair_timings(context, NULL, 0);
     hair_timing* passes = calloc(count, sizeof *passes);
     if (passes) hair_timings(context, passes, count);
     for (uint32_t i = 0; passes && i < count; ++i)
@@ -58,7 +58,7 @@ static void add_passes(json_t* rows, const char* name, hair_context* context)
 
 static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
 {
-    json_t* rows    = json_array();
+    json_t* rows = json_array();
     json_t* wall[2] = {clock_row(stats->name, "step", &stats->step),
                        clock_row(stats->name, "draw", &stats->draw)};
     for (int i = 0; i < 2; ++i)
@@ -71,9 +71,9 @@ static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
 static json_t* report_of(hair_instance* hair)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row  rows[64];
-    uint32_t         count = 0;
-    json_t*          works = json_array();
+    hair_report_row rows[64];
+    uint32_t count = 0;
+    json_t* works = json_array();
     if (hair_report(hair, 1, &info, rows, sizeof *rows, 64, &count)) count = 0;
     for (uint32_t i = 0; i < count && i < 64; ++i)
         json_array_append_new(works, json_pack("{s:s, s:s, s:s?, s:i, s:f, s:I}", "work", rows[i].work, "why",
@@ -99,7 +99,7 @@ static json_t* health_of(const hair_health* health)
 static json_t* groom_of(const hair_groom_info* groom)
 {
     const hair_repairs* repairs = &groom->repairs;
-    json_t*             mended =
+    json_t* mended =
         json_pack("{s:i, s:i, s:i, s:i, s:i}", "dropped_single", repairs->dropped_single, "dropped_short",
                   repairs->dropped_short, "removed_nonfinite", repairs->removed_nonfinite, "removed_repeated",
                   repairs->removed_repeated, "resampled", repairs->resampled);
@@ -111,7 +111,7 @@ static json_t* groom_of(const hair_groom_info* groom)
 bool hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
                       hair_context* context, hair_instance* hair)
 {
-    char     version[32];
+    char version[32];
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
     json_t* root =
@@ -120,7 +120,7 @@ bool hair_stats_write(const char* tool, const char* path, const struct hair_stat
                   stats->first, stats->end, "groom", groom_of(&stats->groom), "health",
                   health_of(&stats->health), "report", report_of(hair), "rows", rows_of(stats, context));
     struct hair_output output;
-    bool               ok = root && hair_output_open(tool, path, &output);
+    bool ok = root && hair_output_open(tool, path, &output);
     if (ok) {
         json_dumpf(root, output.file, JSON_INDENT(2) | JSON_REAL_PRECISION(6));
         fputc('\n', output.file);

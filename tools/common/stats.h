@@ -8,23 +8,23 @@
 
 // Wall time of one part of the work, frame by frame.
 struct hair_clock {
-    float*   ms;
+    float* ms;
     uint32_t count, room;
 };
 
 struct hair_stats {
-    const char*       name; // of the scene
-    const char*       renderer;
-    uint32_t          width, height, first, end;
-    hair_groom_info   groom;
-    hair_health       health;
+    const char* name; // of the scene
+    const char* renderer;
+    uint32_t width, height, first, end;
+    hair_groom_info groom;
+    hair_health health;
     struct hair_clock step, draw; // draw: with shadow map, head and reading the picture
 };
 
 double hair_now(void); // ms, from some time on
-void   hair_clock_add(struct hair_clock* clock, double ms);
-bool   hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
-                        hair_context* context, hair_instance* hair);
-void   hair_stats_free(struct hair_stats* stats);
+void hair_clock_add(struct hair_clock* clock, double ms);
+bool hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
+                      hair_context* context, hair_instance* hair);
+void hair_stats_free(struct hair_stats* stats);
 
 #endif

@@ -21,11 +21,11 @@ int hair_exit_for(hair_result result)
 
 static int build(const hair_host* host, const struct hair_scene* scene, hair_asset* asset, hair_groom** out)
 {
-    hair_map_set    sets[HAIR_SCENE_SETS];
-    float*          uvs  = NULL;
+    hair_map_set sets[HAIR_SCENE_SETS];
+    float* uvs = NULL;
     hair_groom_desc desc = scene->settings.groom;
-    desc.host            = host;
-    hair_result result   = hair_asset_fill(asset, &desc);
+    desc.host = host;
+    hair_result result = hair_asset_fill(asset, &desc);
     if (!result && scene->maps.count && desc.scalp_positions) {
         uvs = malloc(2 * (size_t)desc.scalp_vertex_count * sizeof *uvs);
         if (uvs)
@@ -58,8 +58,8 @@ static hair_result read_asset(const hair_host* host, hair_import import, const s
                               hair_asset** out)
 {
     hair_asset_desc desc = hair_asset_desc_default();
-    desc.host            = host;
-    desc.import          = &import;
+    desc.host = host;
+    desc.import = &import;
     return hair_asset_read(&desc, bytes->data, bytes->size, out);
 }
 
@@ -68,12 +68,12 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
 {
     struct hair_bytes bytes;
     if (!hair_file_read(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
-    hair_host named     = *host;
-    named.user          = (void*)hair_log_name(tool, scene->groom);
-    hair_import import  = scene->settings.import;
-    bool        guesses = import.scale == HAIR_SCALE_GUESSED;
+    hair_host named = *host;
+    named.user = (void*)hair_log_name(tool, scene->groom);
+    hair_import import = scene->settings.import;
+    bool guesses = import.scale == HAIR_SCALE_GUESSED;
     if (guesses) import.scale = 1;
-    hair_asset* asset  = NULL;
+    hair_asset* asset = NULL;
     hair_result result = read_asset(&named, import, &bytes, &asset);
     if (!result && guesses) {
         import.scale = guess_scale(tool, scene->groom, asset);
@@ -89,7 +89,7 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
 static int make_style(const hair_host* host, const struct hair_scene* scene, hair_groom** out)
 {
     hair_style_desc desc = scene->settings.style;
-    desc.host            = host;
+    desc.host = host;
     hair_asset* asset;
     hair_result result = hair_asset_generate(&desc, &asset);
     return result ? hair_exit_for(result) : build(host, scene, asset, out);
@@ -113,9 +113,9 @@ static float noise(uint32_t x)
 static void grow(const struct hair_scene* scene, uint32_t i, float* out)
 {
     uint32_t seed = scene->settings.groom.seed * 2654435761u + 8 * i;
-    float    y    = 1 - (2 * (float)i + 1) / (float)scene->fur_strands;
+    float y = 1 - (2 * (float)i + 1) / (float)scene->fur_strands;
     float ring = sqrtf(1 - y * y), angle = (float)fmod(2.39996322972865332 * (double)i, 6.28318530717958648);
-    float at[3]  = {ring * cosf(angle), y, ring * sinf(angle)};
+    float at[3] = {ring * cosf(angle), y, ring * sinf(angle)};
     float length = scene->fur_length * (1 + 0.25f * noise(seed));
     float lean[3];
     for (uint32_t k = 0; k < 3; ++k) lean[k] = 0.35f * noise(seed + 1 + k) - (k == 1 ? 0.5f : 0);
@@ -128,21 +128,21 @@ static void grow(const struct hair_scene* scene, uint32_t i, float* out)
 
 static int make_fur(const char* tool, const hair_host* host, const struct hair_scene* scene, hair_groom** out)
 {
-    size_t    count     = scene->fur_strands;
-    float*    positions = malloc(count * FUR_VERTICES * 3 * sizeof *positions);
-    uint32_t* vertices  = malloc(count * sizeof *vertices);
-    int       code      = HAIR_EXIT_RUNTIME;
+    size_t count = scene->fur_strands;
+    float* positions = malloc(count * FUR_VERTICES * 3 * sizeof *positions);
+    uint32_t* vertices = malloc(count * sizeof *vertices);
+    int code = HAIR_EXIT_RUNTIME;
     if (positions && vertices) {
         for (uint32_t i = 0; i < scene->fur_strands; ++i) {
             grow(scene, i, positions + (size_t)3 * FUR_VERTICES * i);
             vertices[i] = FUR_VERTICES;
         }
         hair_groom_desc desc = scene->settings.groom;
-        desc.host            = host;
-        desc.positions       = positions;
+        desc.host = host;
+        desc.positions = positions;
         desc.strand_vertices = vertices;
-        desc.strand_count    = scene->fur_strands;
-        code                 = hair_exit_for(hair_groom_create(&desc, out));
+        desc.strand_count = scene->fur_strands;
+        code = hair_exit_for(hair_groom_create(&desc, out));
     } else
         hair_complain(tool, "out of memory for %u strands of fur", scene->fur_strands);
     free(positions);

@@ -28,7 +28,7 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
 {
     GLsizei w = (GLsizei)width, h = (GLsizei)height, wide = w * (GLsizei)supersample,
             high = h * (GLsizei)supersample;
-    GLint most   = 1;
+    GLint most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     GLsizei count = (GLint)samples < most ? (GLsizei)samples : most;
     if (count == 1) count = 0;
@@ -36,14 +36,14 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
     glCreateFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
     targets->color_samples = count ? make_samples(GL_RGBA16F, count, wide, high) : 0;
     targets->depth_samples = make_samples(GL_DEPTH_COMPONENT32F, count, wide, high);
-    targets->resolved      = make_texture(GL_RGBA16F, wide, high);
-    targets->encoded       = make_texture(GL_RGBA8, w, h);
-    targets->linear        = make_texture(GL_RGBA16F, w, h);
-    targets->depth         = make_texture(GL_DEPTH_COMPONENT32F, wide, high);
+    targets->resolved = make_texture(GL_RGBA16F, wide, high);
+    targets->encoded = make_texture(GL_RGBA8, w, h);
+    targets->linear = make_texture(GL_RGBA16F, w, h);
+    targets->depth = make_texture(GL_DEPTH_COMPONENT32F, wide, high);
 
-    static const GLenum both[]      = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    const GLuint*       framebuffer = targets->framebuffer;
-    GLuint              drawn = framebuffer[HAIR_TARGET_DRAWN], encoded = framebuffer[HAIR_TARGET_ENCODED];
+    static const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    const GLuint* framebuffer = targets->framebuffer;
+    GLuint drawn = framebuffer[HAIR_TARGET_DRAWN], encoded = framebuffer[HAIR_TARGET_ENCODED];
     if (targets->color_samples)
         glNamedFramebufferRenderbuffer(drawn, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, targets->color_samples);
     else
@@ -70,7 +70,7 @@ void hair_targets_resolve(const struct hair_targets* targets, const int lower[2]
 
 void hair_targets_delete(struct hair_targets* targets)
 {
-    const GLuint textures[]      = {targets->resolved, targets->encoded, targets->linear, targets->depth};
+    const GLuint textures[] = {targets->resolved, targets->encoded, targets->linear, targets->depth};
     const GLuint renderbuffers[] = {targets->color_samples, targets->depth_samples};
     glDeleteFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);
     glDeleteTextures(4, textures);

@@ -6,9 +6,9 @@
 #include <stdint.h>
 
 enum hair_target {
-    HAIR_TARGET_DRAWN,    // many samples a pixel
+    HAIR_TARGET_DRAWN, // many samples a pixel
     HAIR_TARGET_RESOLVED, // one
-    HAIR_TARGET_ENCODED,  // supersampling undone: 8 bits, and the light they come from
+    HAIR_TARGET_ENCODED, // supersampling undone: 8 bits, and the light they come from
     HAIR_TARGET_COUNT
 };
 

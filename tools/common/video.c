@@ -54,12 +54,12 @@ static void fill_planes(const struct hair_image* image, unsigned char* planes)
 {
     uint32_t width = image->width, height = image->height, columns = (width + 1) / 2, rows = (height + 1) / 2;
     unsigned char* blue = planes + (size_t)width * height;
-    unsigned char* red  = blue + (size_t)columns * rows;
+    unsigned char* red = blue + (size_t)columns * rows;
     for (uint32_t y = 0; y < rows; ++y)
         for (uint32_t x = 0; x < columns; ++x) {
             int sum[3] = {0};
             for (uint32_t k = 0; k < 4; ++k) {
-                int      rgb[3];
+                int rgb[3];
                 uint32_t px = 2 * x + k % 2, py = 2 * y + k / 2;
                 pixel(image, px, py, rgb);
                 for (int i = 0; i < 3; ++i) sum[i] += rgb[i];
@@ -82,8 +82,8 @@ bool hair_y4m_frame(FILE* file, const struct hair_image* image, unsigned char* p
 static int spawn(const char* const* arguments, int input, int output, pid_t* process)
 {
     posix_spawn_file_actions_t actions;
-    posix_spawnattr_t          attributes;
-    sigset_t                   signals;
+    posix_spawnattr_t attributes;
+    sigset_t signals;
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
@@ -105,7 +105,7 @@ static int spawn(const char* const* arguments, int input, int output, pid_t* pro
 FILE* hair_encoder_start(const char* tool, const char* path, int descriptor, pid_t* process)
 {
     // A file is rearranged so that playing can start before all of it is there; a pipe cannot be.
-    const char*       layout      = path ? "+faststart" : "+frag_keyframe+empty_moov";
+    const char* layout = path ? "+faststart" : "+frag_keyframe+empty_moov";
     const char* const arguments[] = {
         "ffmpeg", "-loglevel", "error", "-y", "-f", "yuv4mpegpipe", "-i", "pipe:0",
         // What the planes hold, as tags: nothing is converted.

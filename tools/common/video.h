@@ -8,8 +8,8 @@
 
 // Bytes of the planes of one frame: full brightness, colour halved in both directions.
 size_t hair_y4m_size(uint32_t width, uint32_t height);
-bool   hair_y4m_begin(FILE* file, uint32_t width, uint32_t height, double fps);
-bool   hair_y4m_frame(FILE* file, const struct hair_image* image, unsigned char* planes);
+bool hair_y4m_begin(FILE* file, uint32_t width, uint32_t height, double fps);
+bool hair_y4m_frame(FILE* file, const struct hair_image* image, unsigned char* planes);
 
 // Start ffmpeg reading YUV4MPEG2 from the stream returned, writing .mp4 to `path` or, when that is NULL, to
 // `descriptor`. NULL: not started, and `tool` has complained.
