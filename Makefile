@@ -228,7 +228,7 @@ install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFI
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as solids, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
 format: ## clang-format everything
-	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp')
+	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
 help: ## This list
 	@awk -F':.*## ' '/^# make/{print substr($$0, 3)} /^[a-z-]+:.*## /{printf "  %-10s %s\n", $$1, $$2}' Makefile
 clean: ## Remove build/
