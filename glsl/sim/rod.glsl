@@ -90,17 +90,36 @@ void find_edges()
     }
 }
 
-// The same; and whether some length is loose, wrong by more than the relative `tolerance`, or broken.
+#define MIN_GRANT 3e-7  // of the length of the guide: rounding of positions is a tenth of that
+#define SLOW_GRANT 0.02 // of the displacement of a vertex
+
+// Return the error of length that segment i may keep, by the relative `tolerance`. Among colliders what moves
+// slowly may keep less: the part that a Newton step leaves differs from substep to substep, and what hangs between
+// a root and a vertex that sticks would tremble with it.
+float granted_error(uint i, float tolerance)
+{
+    float grant = tolerance * own(rest_length);
+#ifdef HAIR_SOLIDS
+    grant = clamp(SLOW_GRANT * length(own(displacement) - root_moved), MIN_GRANT * guide_length, grant);
+#endif
+    return grant;
+}
+
+// Find unit edges; and whether the length of a segment is loose, wrong by more than the relative `tolerance` grants,
+// or broken.
 void measure(float tolerance)
 {
-    uint most = 0u;
+    bool is_loose = false, is_broken = false;
     find_edges();
     EACH(guide_count - 1u) {
-        if (i + 1u < guide_count) most = max(most, bits_of(own(excess) / own(rest_length)));
+        if (i + 1u < guide_count) {
+            is_loose  = is_loose || bits_of(own(excess)) > floatBitsToUint(granted_error(i, tolerance));
+            is_broken = is_broken || bits_of(own(excess)) > floatBitsToUint(TOO_LONG * own(rest_length));
+        }
     }
-    bvec2 found = any_of(bvec2(most > floatBitsToUint(tolerance), most > floatBitsToUint(TOO_LONG)));
-    loose       = found.x;
-    broken      = found.y;
+    bvec2 found = any_of(bvec2(is_loose, is_broken));
+    loose  = found.x;
+    broken = found.y;
 }
 
 void count_in(uint what)
