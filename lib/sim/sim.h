@@ -1,4 +1,5 @@
-// sim.h - guides in motion: fixed substeps, the head carried through them, one dispatch per step.
+// sim.h - simulation of the guides in substeps of a fixed length. The pose of the head is
+// interpolated to the end of every substep of a step.
 #ifndef HAIR_SIM_SIM_H
 #define HAIR_SIM_SIM_H
 
@@ -17,14 +18,16 @@
 #include "lib/sim/ties.h"
 #include "lib/wind/air.h"
 
-// What guides collide with where that may be anything: forms, any number of them. All 0 until then.
+// Collision data of instances with collision meshes or with more than HAIR_FEW_SOLIDS colliders.
+// All 0 until an instance first has them.
 struct hair_contacts {
-    int any; // whether it is so in this step
-    struct hair_forms* forms; // of the context
+    int any; // 1 if the current step uses this data.
+    struct hair_forms* forms; // Collision meshes of the context.
     struct hair_cells cells;
-    GLuint solid, solid_texture, cell, cell_texture; // buffers, and the same as shaders read them
-    uint32_t* held; // places of forms
-    uint32_t holds;
+    // Buffers of the colliders and of the grid's cells, and their textures for shaders.
+    GLuint solid, solid_texture, cell, cell_texture;
+    uint32_t* held; // Places in `forms` of the collision meshes in use.
+    uint32_t holds; // Length of `held`.
 };
 
 struct hair_sim {
@@ -32,30 +35,30 @@ struct hair_sim {
     hair_solver solver;
     hair_physics physics;
     hair_wind wind;
-    double asked_substep; // s; 0: as the solver wants
-    double substep; // s
-    GLuint guide, rest, state, health, step; // buffers, as in shared.h
-    GLuint rod, history, material, reduction; // the same; 0 under redblack
+    double asked_substep; // Substep length set by the application, s. 0 selects the solver's own.
+    double substep; // Substep length, s.
+    GLuint guide, rest, state, health, step; // Buffers, as in shared.h.
+    GLuint rod, history, material, reduction; // Buffers, as in shared.h. 0 under redblack.
     GLuint bend; // Forces and turns of segments. 0 without the mixed scheme.
-    uint32_t rounds; // of the reduction, before its last
-    struct hair_rods* rods; // under redblack NULL
-    int by_thread; // a thread per guide, not a work group
-    int in_two; // programs: see main() of glsl/sim/rod.comp
-    uint32_t list; // 0 or 1: between them, of the last dispatch
-    int struck; // there have been solids: the accurate solver's own substep is for impacts
-    double last_substep; // s: of the last substep done, which displacements are over
-    double next_substep; // s: of the one under way; 0: not known, as of what was loaded
-    uint32_t longer; // substeps, so many times as long as the solver wants them; 0: not yet
-    double unseen; // s: since a view last showed any of it
+    uint32_t rounds; // Rounds of the cyclic reduction before its last.
+    struct hair_rods* rods; // NULL under redblack.
+    int by_thread; // 1 prefers a thread per guide to a work group per guide.
+    int in_two; // 1 if guides may go through two programs. See main() of glsl/sim/rod.comp.
+    uint32_t list; // Guide list of the last dispatch, 0 or 1. Dispatches alternate between them.
+    int struck; // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    double last_substep; // Length of the last substep done, s. Displacements are over this time.
+    double next_substep; // Length of the current substep, s. 0 if unknown, as after loading.
+    uint32_t longer; // Multiple of the solver's own substep length. 0 until rods are first made.
+    double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
-    uint32_t most_vertices; // of a guide
-    uint32_t layout; // hash of how many vertices each guide has
-    double left; // s: since the end of the last substep, less than a substep
-    struct hair_pose last_before; // the head at the start of the last substep,
-    struct hair_pose last_after; // at its end,
-    struct hair_pose at_step; // at the last step, and
-    struct hair_pose head; // where it is to be at the next
-    float reach; // no guide is farther from the head's origin. m
+    uint32_t most_vertices; // Maximum number of vertices of a guide.
+    uint32_t layout; // Hash of the vertex counts of all guides.
+    double left; // Time since the end of the last substep, s. Shorter than a substep.
+    struct hair_pose last_before; // Head at the start of the last substep.
+    struct hair_pose last_after; // Head at the end of the last substep.
+    struct hair_pose at_step; // Head at the end of the last step.
+    struct hair_pose head; // Head at the end of the next step.
+    float reach; // Upper bound on the distance of guides from the head's origin, m.
     struct hair_solids solids;
     struct hair_contacts contacts;
     struct hair_crowd crowd;
@@ -68,62 +71,96 @@ struct hair_sim {
     struct hair_diagnosis diagnosis;
 };
 
-uint32_t hair_sim_contacts(const struct hair_sim* sim); // solids that guides collide with
+// Return the number of colliders that guides collide with.
+uint32_t hair_sim_contacts(const struct hair_sim* sim);
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom);
 void hair_sim_destroy(struct hair_sim* sim);
 
-// Run the substeps that fit into the time since the last one, and leave in the step buffer what smooth.comp reads.
+// Run the substeps that fit into the time since the last one. Write the step buffer for
+// smooth.comp.
 hair_result hair_sim_step(struct hair_sim* sim, double dt);
-void hair_sim_pass_time(struct hair_sim* sim, double dt); // as if it had, at rest
-void hair_sim_reset(struct hair_sim* sim); // rest pose under sim->head
-// sim->head and the hair with it
+// Advance the time by dt as a step of resting hair would.
+void hair_sim_pass_time(struct hair_sim* sim, double dt);
+// Reset the guides to their rest pose under sim->head.
+void hair_sim_reset(struct hair_sim* sim);
+// Move sim->head to a pose, and the hair rigidly with it.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
-void hair_sim_show(struct hair_sim* sim); // what smooth.comp reads, where the last step left the head
-void hair_sim_bind(struct hair_sim* sim); // buffers of passes that read the guides
+// Write the step buffer for smooth.comp, with the head where the last step left it.
+void hair_sim_show(struct hair_sim* sim);
+// Bind the buffers of passes that read guides.
+void hair_sim_bind(struct hair_sim* sim);
 
-// contacts.c: solids where they may be anything. `find` is for a step of dt that has been done up to a share of it, which
-// may be below 0; `write` fills in what it found of the parameters.
+// Functions of contacts.c, for collision meshes and for more than HAIR_FEW_SOLIDS colliders.
+
+// Return whether the instance has collision meshes or more than HAIR_FEW_SOLIDS colliders.
 int hair_contacts_are_any(const struct hair_sim* sim);
+// Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
+// has been done, and may be negative.
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start);
+// Write the parameters that hair_contacts_find() found.
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params);
 void hair_contacts_bind(const struct hair_sim* sim);
 void hair_contacts_free(struct hair_sim* sim);
 
-// rods.c: what the solvers of rods need beside the state. `write` fills in their share of the parameters.
+// Functions of rods.c, for what the solvers of rods need beside the state.
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
-hair_result hair_sim_renew_rods(struct hair_sim* sim); // if physics or what ties hold have changed so
+// Make the rods again if the physics, the pinned vertices or the substep length need other rods.
+hair_result hair_sim_renew_rods(struct hair_sim* sim);
+// Return the guides. Set *rest to their vertices unless `rest` is NULL. Both are NULL under
+// redblack.
 const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
-int hair_sim_is_other_rate(const struct hair_sim* sim); // 1: of the physics nothing else has changed
-hair_result hair_sim_need_crowd(struct hair_sim* sim); // what physics with cohesion or volume take
+// Return 1 if the rods must be made again for a changed rate, and for nothing else.
+int hair_sim_is_other_rate(const struct hair_sim* sim);
+// Make the hair-hair grid if the physics have cohesion or volume.
+hair_result hair_sim_need_crowd(struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);
 void hair_sim_bind_rods(struct hair_sim* sim);
+// Write the parameters of the solvers of rods.
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
-int hair_sim_is_mixed(const struct hair_sim* sim); // Return whether the mixed scheme solves the guides.
-int hair_sim_is_stiff(const struct hair_sim* sim); // 1: some guides of the accurate solver take BDF2
-struct hair_rods_report hair_sim_held(const struct hair_sim* sim); // how guides hold their groom
+// Return whether the mixed scheme solves the guides.
+int hair_sim_is_mixed(const struct hair_sim* sim);
+// Return 1 if the accurate solver solves some guides by BDF2.
+int hair_sim_is_stiff(const struct hair_sim* sim);
+// Return the report on the gravity preload of the guides.
+struct hair_rods_report hair_sim_held(const struct hair_sim* sim);
 
-// programs.c: passes compiled with what there is; all that a step with what is set now runs; and how many substeps a dispatch may have.
-int hair_sim_may_go_in_two(const struct hair_sim* sim); // programs: see main() of glsl/sim/rod.comp
+// Functions of programs.c, which selects the programs and the number of substeps of a dispatch.
+
+// Return whether guides may go through two programs. See main() of glsl/sim/rod.comp.
+int hair_sim_may_go_in_two(const struct hair_sim* sim);
+// Compile the solver for the current settings.
 hair_result hair_sim_need_solver(struct hair_sim* sim);
-uint32_t hair_sim_next_list(struct hair_sim* sim); // of the dispatch that comes, which empties the other
-void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params); // uploaded already
+// Return the guide list of the next dispatch, which empties the other list.
+uint32_t hair_sim_next_list(struct hair_sim* sim);
+// Run the solver with parameters that have been uploaded.
+void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params);
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
+// Compile all programs that a step with the current settings runs.
 hair_result hair_sim_need_programs(struct hair_sim* sim);
+// Return whether a thread solves a guide, and not a work group.
 int hair_sim_is_by_thread(const struct hair_sim* sim);
+// Return the maximum number of substeps of a dispatch.
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim);
-uint32_t hair_sim_part_rounds(const struct hair_sim* sim); // of loops, for parts of a substep
+// Return the maximum number of loop iterations for the parts of a substep.
+uint32_t hair_sim_part_rounds(const struct hair_sim* sim);
 
-// rounds.c: how often a software rasteriser goes round loops in a substep, at most; with a thread per guide or a work group.
+// Functions of rounds.c.
+
+// Return an upper bound on the loop iterations of a substep on a software rasteriser. `by_thread`
+// is 1 for a thread per guide, and 0 for a work group per guide.
 uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread);
-// The same of a program that leaves to another what the solver's own method cannot do.
+// Return the bound for a program that tries only the solver's own method, and leaves the rest to
+// another program.
 uint32_t hair_sim_rounds_of_first(const struct hair_sim* sim, int by_thread);
 
-// save.c: what the coming motion depends on, as bytes. `bytes` holds hair_sim_save_size(sim).
-size_t hair_sim_save_size(struct hair_sim* sim);
-void hair_sim_save(struct hair_sim* sim, unsigned char* bytes);
+// Functions of save.c, for the bytes of the state that the coming motion depends on.
 
-// Any bytes may be given. On failure nothing has changed.
+// Return the size of the saved state in bytes.
+size_t hair_sim_save_size(struct hair_sim* sim);
+// Write the saved state. `bytes` has room for hair_sim_save_size(sim).
+void hair_sim_save(struct hair_sim* sim, unsigned char* bytes);
+// Load a saved state from any bytes, which need not be valid. On failure nothing has changed.
 hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size);
 
 #endif
