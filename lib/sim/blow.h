@@ -1,34 +1,40 @@
-// blow.h - air that flows round solids, as guides need it: the fluid in steps that are counted in substeps.
+// blow.h - wind coupling of the guides: a fluid wind that flows around colliders.
 //
-// Time goes in blocks of substeps, counted from the last reset, as it does for the crowd: at a block's start the fluid makes
-// one step as long as the block, and the air is then as it is for all of it. So motion does not depend on the frame rate.
+// Time is divided into blocks of substeps, counted from the last reset, as for the hair-hair grid.
+// The fluid makes one step as long as the block at the block's start, and then stays constant for
+// the block. Motion therefore does not depend on the frame rate.
 #ifndef HAIR_SIM_BLOW_H
 #define HAIR_SIM_BLOW_H
 
 #include "lib/wind/fluid.h"
 
 struct hair_blow {
-    const struct hair_solid_field* field; // of the instance, brought up to date before every step
-    struct hair_fluid fluid; // there is none unless the wind is one
-    uint32_t beat; // substeps done of the block under way
-    // Of the grid of hair, where the fluid knows of it.
-    GLuint share, params; // buffers, as the crowd's
-    double metres; // of guides that a unit of mass is
+    const struct hair_solid_field* field; // Distance field of the instance, updated before every step.
+    struct hair_fluid fluid; // Exists only while the wind model is a fluid.
+    uint32_t beat; // Number of substeps done in the current block.
+    // Buffers of the grid of hair in the fluid, as in hair_crowd. 0 if the fluid ignores hair.
+    GLuint share, params;
+    double metres; // Length of guides per unit of mass, m.
 };
 
 struct hair_sim;
 
 int hair_blow_is_on(const struct hair_sim* sim);
 hair_result hair_blow_need_programs(struct hair_sim* sim);
-hair_result hair_blow_need(struct hair_sim* sim); // what the wind takes; what it no longer does is let go
+// Create what the wind needs. Free what the wind no longer needs.
+hair_result hair_blow_need(struct hair_sim* sim);
 void hair_blow_free(struct hair_sim* sim);
-void hair_blow_forget(struct hair_sim* sim); // the air's past: it is the wind again
+// Discard the fluid's past. The fluid starts again from the wind.
+void hair_blow_forget(struct hair_sim* sim);
 
-// How many substeps the block under way still has, in a step of `dt`. At its start: step the fluid first.
+// Return the number of substeps left in the current block, within a step of `dt`. Step the fluid
+// first at the start of a block.
 uint32_t hair_blow_left(struct hair_sim* sim, double dt);
+// Count substeps as done.
 void hair_blow_count(struct hair_sim* sim, uint32_t substeps);
 
-// Where the fluid's box is from the head's origin as the last substep left it: its corner, m, and 1 / its side, 1/m.
+// Return the fluid's box. xyz is its corner from the head's origin after the last substep, m. w is
+// 1 / its side, 1/m.
 hair_vec4 hair_blow_box(const struct hair_sim* sim);
 
 #endif

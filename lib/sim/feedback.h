@@ -1,4 +1,5 @@
-// feedback.h - redblack without compute shaders: as Tariq 2010 runs it under Direct3D 10, for comparison.
+// feedback.h - the solver redblack by transform feedback instead of compute shaders. Tariq 2010
+// runs it so under Direct3D 10. This variant serves for comparison.
 #ifndef HAIR_SIM_FEEDBACK_H
 #define HAIR_SIM_FEEDBACK_H
 
@@ -6,14 +7,15 @@
 
 struct hair_sim;
 
-#define HAIR_FEEDBACK_STATES 3 // two in turn, and that of the guides, which is the last to be written
+// Number of states: two that alternate, and the state of the guides, which is written last.
+#define HAIR_FEEDBACK_STATES 3
 
-// All 0 unless it is asked for.
+// Objects of the transform feedback. All 0 unless `wanted` is set.
 struct hair_feedback {
     int wanted;
-    GLuint buffer[2], owner; // two states; the guide of each vertex
-    GLuint texture[HAIR_FEEDBACK_STATES]; // of each state
-    GLuint captured[HAIR_FEEDBACK_STATES]; // transform feedback into it
+    GLuint buffer[2], owner; // The two alternating states, and the guide of each vertex.
+    GLuint texture[HAIR_FEEDBACK_STATES]; // Texture of each state.
+    GLuint captured[HAIR_FEEDBACK_STATES]; // Transform feedback object that writes each state.
     GLuint rest_texture, guide_texture, owner_texture;
     GLuint framebuffer;
 };
@@ -21,7 +23,8 @@ struct hair_feedback {
 hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides);
 void hair_feedback_free(struct hair_sim* sim);
 
-// All substeps of `params`, as redblack.comp has them, but that strands put back to rest are not counted.
+// Run all substeps of `params`, as redblack.comp does. Do not count the strands that are reset to
+// rest.
 void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* params);
 
 #endif

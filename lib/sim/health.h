@@ -1,4 +1,4 @@
-// health.h - what shows that hair thrashes, is stretched, or gains energy that nothing gave it.
+// health.h - diagnosis of hair that thrashes, is stretched, or gains energy without a source.
 #ifndef HAIR_SIM_HEALTH_H
 #define HAIR_SIM_HEALTH_H
 
@@ -8,30 +8,31 @@
 
 struct hair_diagnosis {
     int wanted; // hair_desc.diagnose
-    int watches; // The step under way is watched.
-    int goes_on; // The last one was.
-    double time; // of the window under way, s
-    double substep; // of the steps that were watched, s
-    GLuint energy; // buffer: hair_energy per guide. 0 until it is needed.
-    GLuint energy_params; // the same: hair_energy_params
-    GLuint found; // the same: uint[HAIR_FOUND_COUNT]
-    GLuint motion_params; // the same: hair_motion_params
+    int watches; // 1 if the current step is watched.
+    int goes_on; // 1 if the last step was watched.
+    double time; // Elapsed time of the current window, s.
+    double substep; // Substep length of the watched steps, s.
+    GLuint energy; // Buffer of hair_energy per guide. 0 until needed.
+    GLuint energy_params; // Buffer of hair_energy_params. 0 until needed.
+    GLuint found; // Buffer of uint[HAIR_FOUND_COUNT]. 0 until needed.
+    GLuint motion_params; // Buffer of hair_motion_params. 0 until needed.
 };
 
 struct hair_sim;
 
 void hair_diagnosis_free(struct hair_sim* sim);
 
-// Find out whether the coming step is to be watched, and make what that needs. `stirred`: something drives hair.
+// Decide whether to watch the coming step, and create what watching needs. `stirred` is 1 if
+// something drives the hair.
 hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred);
 
-// Watch the energy of guides at the end of a step of so many substeps.
+// Watch the energy of guides at the end of a step. The step had `substeps` substeps.
 void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps);
 
-// Compare no energy of before with one of now: guides are elsewhere.
+// Discard earlier energies, because the guides have been moved.
 void hair_diagnosis_forget(struct hair_sim* sim);
 
-// Fill in `health`. Waits for the GPU.
+// Fill in `health`. Wait for the GPU.
 hair_result hair_sim_health(struct hair_sim* sim, hair_health* health);
 
 #endif

@@ -1,4 +1,5 @@
-// rod_shape.h - one guide as a rod, in double precision: what the files of rod.h share.
+// rod_shape.h - one guide as a rod, in double precision. The files that implement rod.h share this
+// header.
 #ifndef HAIR_SIM_ROD_SHAPE_H
 #define HAIR_SIM_ROD_SHAPE_H
 
@@ -6,10 +7,10 @@
 
 #include <math.h>
 
-// Components x, y, z; of quaternions w after them.
 typedef struct hair_dvec3 {
     double x, y, z;
 } hair_dvec3;
+// Quaternion with the real part w.
 typedef struct hair_dquat {
     double x, y, z, w;
 } hair_dquat;
@@ -57,58 +58,71 @@ static inline hair_dvec3 hair_drotate(hair_dquat q, hair_dvec3 v)
 
 struct hair_rod_shape {
     double ratio[3];
-    uint32_t count; // of vertices
-    int clamped, held; // at the root
-    uint32_t tied[HAIR_MAX_GUIDE_VERTICES]; // by the tie of this number, from 1; 0: not
-    double gravity; // m/s^2
-    hair_dvec3 load; // the gravity that the rest strain is to bear, m/s^2
-    double weight; // of all but the root vertex
-    double length[HAIR_MAX_GUIDE_VERTICES]; // of segment i, 0 for the tip
+    uint32_t count; // Number of vertices.
+    // Constraints of the root. `clamped` fixes its frame, and `held` fixes its position.
+    int clamped, held;
+    uint32_t tied[HAIR_MAX_GUIDE_VERTICES]; // Number of the pin, from 1. 0 if not pinned.
+    double gravity; // Magnitude of gravity, m/s^2.
+    hair_dvec3 load; // Gravity that the rest strain is to balance, m/s^2.
+    double weight; // Weight of all vertices but the root.
+    double length[HAIR_MAX_GUIDE_VERTICES]; // Length of segment i, m. 0 for the tip.
     double mass[HAIR_MAX_GUIDE_VERTICES];
-    double pull[HAIR_MAX_GUIDE_VERTICES]; // squared angular frequency of the pull to the groom, 1/s^2
-    double bend[HAIR_MAX_GUIDE_VERTICES]; // bending stiffness at vertex i
-    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // of segment i
-    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // from the frame of segment i-1 to that of i, w >= 0
-    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES]; // of vertex i in the groom, from the root
-    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES]; // derivative of vertex i's energy by its strain in the groom
-    double rest_real[HAIR_MAX_GUIDE_VERTICES]; // 2 w at rest, w the real part of `turn`: see rod.h
+    double pull[HAIR_MAX_GUIDE_VERTICES]; // Squared angular frequency of the pull to the groom, 1/s^2.
+    double bend[HAIR_MAX_GUIDE_VERTICES]; // Bending stiffness at vertex i.
+    hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // Frame of segment i.
+    hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // Rotation from frame i-1 to frame i, w >= 0.
+    hair_dvec3 place[HAIR_MAX_GUIDE_VERTICES]; // Position of vertex i in the groom, from the root.
+    // Derivative of vertex i's energy by its strain in the groom.
+    hair_dvec3 stress[HAIR_MAX_GUIDE_VERTICES];
+    // 2 w at rest, where w is the real part of `turn`. See rod.h.
+    double rest_real[HAIR_MAX_GUIDE_VERTICES];
 };
 
-// `rest` is that of the guide. The stress is 0 and rest_real is the groom's: hair_rod_hold() or
-// hair_rod_bear() set them.
+// Compute the shape of a guide. `rest` is the guide's first vertex. The stress is 0 and rest_real
+// is the groom's until hair_rod_hold() or hair_rod_bear() sets them.
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out);
 
-// Bending stiffness over the length it is for. 0 where vertex i resists nothing.
+// Return the bending stiffness at vertex i, divided by the length of rod that bends there. Return 0
+// where vertex i does not resist bending.
 double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i);
 
-// From the rest strain that bears the stress to the strain of the groom, at a vertex of that stiffness, not 0.
+// Maximum length of hair_rod_excess().
 #define HAIR_ROD_MOST_STRAIN 1.0
+// Return the strain of the groom less the rest strain that balances the stress, at vertex i. The
+// stiffness of the vertex is not 0.
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness);
 
-// taut.c: of strands that hang from a held root and whose tip outweighs them. Others have tautness 0.
-double hair_rod_tautness(const struct hair_rod_shape* shape); // the highest frequency that gives, 1/s
-double hair_rod_longest_taut(const struct hair_rod_shape* shape); // b that implicit methods can have, s
-void hair_rod_add_inertia(struct hair_rod_shape* shape, double b); // where that is exceeded
-double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i); // of its inertia
+// Functions of taut.c, for strands with a held root and a tip that outweighs them.
 
-// follow.c: write one hair_rod per vertex as glsl/sim/follow.comp reads it. Its factors have another
-// meaning there.
+// Return an upper bound on the frequency of crosswise oscillation, 1/s. Return 0 for other strands.
+double hair_rod_tautness(const struct hair_rod_shape* shape);
+// Return the longest b of an implicit method that needs no tip inertia, s.
+double hair_rod_longest_taut(const struct hair_rod_shape* shape);
+// Add inertia to the vertices for which b is too long.
+void hair_rod_add_inertia(struct hair_rod_shape* shape, double b);
+// Return the weight of vertex i as a fraction of its inertia.
+double hair_rod_weight_share(const struct hair_rod_shape* shape, uint32_t i);
+
+// Write one hair_rod per vertex for glsl/sim/follow.comp, which interprets the factors in its own
+// way. See follow.c.
 void hair_follow_write(const struct hair_rod_shape* shape, struct hair_rod* out);
 
-// hold.c. Set stress and rest_real of a new shape so that it holds its groom, and multiply its
-// bending stiffness for that by 1 to 3, vertex by vertex. With more than that the groom would still be
-// unstable, or a rest strain further than 1 from the groom's own: then the guide is three times as
-// stiff and sags as little as leads to a stable pose.
+// Maximum multiple of the bending stiffness that holds the groom.
 #define HAIR_ROD_MOST_STIFFEN 3.0
+// Result of hair_rod_hold().
 struct hair_rod_held {
-    double stiffest; // greatest multiple of the stiffness; 1 when there is none
-    double sag; // farthest that a vertex comes to rest from the groom, m; 0 when it holds
+    double stiffest; // Largest multiple of the stiffness. 1 if no vertex is stiffened.
+    double sag; // Largest distance of a vertex at rest from the groom, m. 0 if the groom holds.
     int sags;
 };
+// Set stress and rest_real of a new shape so that the shape holds its groom. Multiply its bending
+// stiffness by 1 to 3, vertex by vertex, as far as holding the groom needs. Even with 3 the groom
+// may be unstable, or its rest strain further than 1 from the groom's own. The guide is then three
+// times as stiff, and sags by as little as leads to a stable pose. See hold.c.
 struct hair_rod_held hair_rod_hold(struct hair_rod_shape* shape);
 
-// Use what hair_rod_hold() found before for a shape like this.
+// Apply the result of an earlier hair_rod_hold() to an equal shape.
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne);
 
 #endif

@@ -1,6 +1,8 @@
-// skin.h - a scalp that the host skins: given before a step, and roots that ride on it.
+// skin.h - a scalp that the application skins, and the motion of roots with the scalp. The
+// application sets the scalp before a step.
 //
-// Where a root is and how it is turned is kept against the head, so that what moves or places the head takes it along.
+// Positions and rotations of roots are kept relative to the head. Whatever moves the head thus
+// moves the roots too.
 #ifndef HAIR_SIM_SKIN_H
 #define HAIR_SIM_SKIN_H
 
@@ -8,14 +10,16 @@
 #include "lib/gl/gl.h"
 #include "lib/groom/seats.h"
 
-struct hair_skin { // But for `seats` all 0 until a scalp is first given.
-    struct hair_seats* seats; // held; NULL: the groom has no scalp
-    GLuint ride, seat, rest, scalp[2], params; // buffers, as in shared.h; the scalp of the last step, and
-        // that to come
-    GLuint texture; // of the rides
-    struct hair_pose space; // in which that to come is given, in the world
-    int fresh; // it has been given since the last step
-    hair_vec4 rotation, offset; // from that of the last step to the head, as in shared.h
+// All members but `seats` are 0 until the application first sets a scalp.
+struct hair_skin {
+    struct hair_seats* seats; // Root bindings, of which a reference is held. NULL without a scalp.
+    // Buffers, as in shared.h. scalp[0] is the scalp of the last step, and scalp[1] that of the
+    // next.
+    GLuint ride, seat, rest, scalp[2], params;
+    GLuint texture; // Texture of `ride`.
+    struct hair_pose space; // Pose in the world of the space that scalp[1] is given in.
+    int fresh; // 1 if a scalp has been set since the last step.
+    hair_vec4 rotation, offset; // Transform of scalp[0] to the head's frame, as in shared.h.
 };
 
 struct hair_sim;
@@ -23,26 +27,32 @@ struct hair_sim;
 int hair_skin_is_on(const struct hair_sim* sim);
 void hair_skin_free(struct hair_sim* sim);
 
-// Make what it takes, once: as if the scalp had been at rest so far. There are seats.
+// Create buffers and programs, once. The scalp counts as at rest so far. `seats` is not NULL.
 hair_result hair_skin_make(struct hair_sim* sim);
 
-// What is to be the scalp at the next step: xyz per vertex; or out of a buffer that holds it from `first` on, every
-// `stride` floats, as one that is bound from `offset` on for `size` bytes. It has been made.
+// Set the scalp of the next step, xyz per vertex. hair_skin_make() has succeeded.
 void hair_skin_give(struct hair_sim* sim, const float* positions, const struct hair_pose* space);
+// Set the scalp of the next step from `size` bytes of a buffer, from the byte `offset` on. The
+// first vertex is at the float `first` of that range, and the vertices are `stride` floats apart.
+// hair_skin_make() has succeeded.
 void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size, uint32_t first,
                            uint32_t stride, const struct hair_pose* space);
 
-// Where roots go in so many substeps of a step, the last from one share of it to another; or, resetting, are at once.
-// `again`: more of the step that it has been called for. The head is where it is to be.
+// Move the roots with the scalp in a step of `substeps` substeps. The last substep goes from the
+// fraction `before` of the step to the fraction `after`. `again` continues the step of the last
+// call. The head is already where it is at the end of the step.
 void hair_skin_ride(struct hair_sim* sim, int again, uint32_t substeps, float before, float after);
+// Move the roots to the scalp at once, without a past.
 void hair_skin_reset(struct hair_sim* sim);
 
-// The scalp is at rest, and always was: rides that say so, which the caller frees, and what becomes of those there are.
+// Create the scalp motion of a scalp that was always at rest, in a buffer that the caller frees.
 hair_result hair_skin_make_still(struct hair_sim* sim, GLuint* out);
+// Replace the scalp motion by a result of hair_skin_make_still(), and put the scalp at rest.
 void hair_skin_forget(struct hair_sim* sim, GLuint still);
 
-// What passes that know of rides read; and, for those that write followers, all the buffers.
+// Bind the scalp motion for the passes that read it.
 void hair_skin_bind(struct hair_sim* sim);
+// Bind all buffers for the passes that write followers.
 void hair_skin_bind_all(struct hair_sim* sim, uint32_t followers);
 
 #endif

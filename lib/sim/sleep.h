@@ -1,65 +1,74 @@
-// sleep.h - hair that has come to rest sleeps: nothing of it is simulated until something stirs it.
+// sleep.h - sleeping of hair that has come to rest. Sleeping hair is not simulated until an event
+// wakes it.
 //
-// Once nothing has stirred hair for a while, guides are looked at now and then: how far they are from where they were, and
-// how fast. The answer is used some steps after it was asked for, and never sooner, so that it does not matter when the GPU
-// gave it: hair sleeps at the same step in every run. A GPU that is farther behind than that, as it may be when nobody
-// shows what is stepped, is not waited for either: hair stays awake until the answer is there, and is not looked at
-// again before.
+// Once no event has woken the hair for a while, the GPU measures the activity of the guides now and
+// then: their distance from an earlier position, and their speed. A measurement is used some steps
+// after its request, and never sooner. The time at which the GPU answers therefore does not matter,
+// and hair falls asleep at the same step in every run. A GPU may be farther behind than that, for
+// example when nothing that is stepped is shown. No step waits for such a GPU. Hair then stays
+// awake, and is not measured again, until the answer arrives.
 #ifndef HAIR_SIM_SLEEP_H
 #define HAIR_SIM_SLEEP_H
 
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 
-// What the guides do.
+// Activity of the guides.
 struct hair_stirring {
-    float far; // from where they were, m: the most that one has been seen to be
-    float speed; // m/s, likewise
+    float far; // Maximum measured distance of a vertex from its anchor, m.
+    float speed; // Maximum measured speed of a vertex, m/s.
 };
 
 struct hair_sleep {
     int asleep;
-    double calm; // s: simulated since something last stirred hair
-    double due; // at which `calm` guides are looked at next
-    uint32_t looks; // since then
-    struct hair_stirring now; // of this round of looks,
-    float before; // how far in the one before, m; or below 0
-    double since; // `calm` when the round under way began,
-    double span, span_before; // s: how long the last took, and the one before it
-    // A look that is under way.
-    int waits, known; // and that it has been answered:
+    double calm; // Simulated time since an event last woke the hair, s.
+    double due; // Value of `calm` at which guides are measured next, s.
+    uint32_t looks; // Number of measurements since the last such event.
+    struct hair_stirring now; // Activity in the current round of measurements.
+    float before; // Distance in the previous round, m. Negative if there was none.
+    double since; // Value of `calm` at the start of the current round, s.
+    double span, span_before; // Duration of the last round and of the round before that, s.
+    // State of the pending measurement. `waits` is 1 while there is one, `known` once it is
+    // answered.
+    int waits, known;
     struct hair_stirring answer;
-    uint32_t steps; // since it was asked for
-    double time; // s, likewise
-    // What guides have come to rest under.
+    uint32_t steps; // Number of steps since the request.
+    double time; // Simulated time since the request, s.
+    // Conditions under which guides have come to rest.
     struct hair_pose head;
     hair_physics physics;
     hair_wind wind;
-    uint32_t made; // gl->made
-    int stirred; // by what is none of these
-    uint32_t turn; // as in hair_stir_params
-    GLuint anchor, stir, seen, params; // buffers; 0 until they are needed
-    const float* mapped; // what is in `seen`
+    uint32_t made; // Value of gl->made.
+    int stirred; // 1 if any other event has woken the hair since the last step.
+    uint32_t turn; // Alternating index of the answer, as in hair_stir_params.
+    GLuint anchor, stir, seen, params; // Buffers. 0 until needed.
+    const float* mapped; // Contents of `seen`.
     GLsync fence;
 };
 
 struct hair_sim;
 
 void hair_sleep_free(struct hair_sim* sim);
-void hair_sleep_stir(struct hair_sim* sim); // something has
+// Wake the hair at the next step.
+void hair_sleep_stir(struct hair_sim* sim);
 
-// Whether a step of `dt` is slept through, which then it has been. No OpenGL.
+// Sleep through a step of `dt` if the hair is asleep, and return whether it did. No OpenGL.
 int hair_sleep_through(struct hair_sim* sim, double dt);
 
-// Whether something has stirred hair since the last step; what a step of `dt` then takes; and after it, whether it was.
+// Return whether an event has woken the hair since the last step.
 int hair_sleep_is_stirred(const struct hair_sim* sim);
+// Create what watching a step of `dt` needs.
 hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt);
+// Update the sleep state after a step of `dt`. Use a pending measurement and request the next when
+// due.
 void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt);
 
-// For what is saved: the answer is known, nothing has stirred hair since the last step or there is nothing to tell. Waits.
+// Settle the sleep state before a save. Wait for a pending measurement. Discard it if an event has
+// woken the hair since the last step.
 void hair_sleep_settle(struct hair_sim* sim);
-// What is loaded is to be compared with how things are here. `was`: what there was before.
+// Compare a loaded state with the current conditions from now on. `was` is the replaced state.
 void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was);
+// Create the programs and buffers of measurements.
 hair_result hair_sleep_make(struct hair_sim* sim);
 
 #endif
