@@ -1,10 +1,12 @@
-// blow.c - the fluid of a simulation: made for its wind, and stepped at the start of every block of substeps.
+// blow.c - the fluid of a simulation. The wind's settings decide its size and method. The fluid is
+// stepped at the start of every block of substeps.
 #include "lib/sim/blow.h"
 
 #include "lib/sim/sim.h"
 
-#define BLOCK (1.0 / 60) // s, or a substep if that is longer
-#define AROUND 1.5f // of the field's longest side: that of the box, unless the wind says
+#define BLOCK (1.0 / 60) // Length of a block, s. A block is at least a substep long.
+// Default side of the fluid's box, as a multiple of the distance field's longest side.
+#define AROUND 1.5f
 
 int hair_blow_is_on(const struct hair_sim* sim)
 {
@@ -17,7 +19,7 @@ static hair_vec3 field_size(const struct hair_field_box* box)
     return hair_v3(side * (float)box->bricks[0], side * (float)box->bricks[1], side * (float)box->bricks[2]);
 }
 
-// Cycles and sweeps that suffice for a thousandth of what was to be driven out.
+// Return the number of cycles or sweeps that reduce the divergence to a thousandth.
 static uint32_t enough(hair_projection projection, uint32_t cells)
 {
     if (projection == HAIR_PROJECTION_MULTIGRID) return 4;
@@ -104,7 +106,7 @@ static uint32_t block_length(const struct hair_sim* sim)
     return substeps < 1 ? 1 : substeps;
 }
 
-// Mass and momentum of hair, in the fluid's box.
+// Gather the mass and momentum of hair in the fluid's box.
 static void gather_hair(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
@@ -127,7 +129,8 @@ static void gather_hair(struct hair_sim* sim)
     hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
-// By the drag that guides have of it: what air loses, they gain.
+// Return the drag of the hair on the air, from the drag of the air on guides. What the air loses,
+// the guides gain.
 static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
 {
     const hair_wind* wind = &sim->wind;

@@ -9,7 +9,8 @@
 #include "lib/wind/fluid.h"
 
 struct hair_blow {
-    const struct hair_solid_field* field; // Distance field of the instance, updated before every step.
+    // Distance field of the instance, updated before every step.
+    const struct hair_solid_field* field;
     struct hair_fluid fluid; // Exists only while the wind model is a fluid.
     uint32_t beat; // Number of substeps done in the current block.
     // Buffers of the grid of hair in the fluid, as in hair_crowd. 0 if the fluid ignores hair.

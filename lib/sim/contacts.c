@@ -1,20 +1,28 @@
-// contacts.c - solids as guides meet them where they may be anything: on the GPU with the lists that say which are where.
+// contacts.c - colliders of any shape and number: the GPU buffers of the colliders, and of the
+// lists that tell which colliders are in which cell.
 #include "lib/sim/sim.h"
 
+// Assumed maximum displacement by the fitting of lengths, beyond free motion, m. FIT of
+// glsl/sim/contact_lists.glsl has this value too.
 #define FIT                                                                                                  \
-    0.02f // m: farther than it would go freely no vertex is moved, as glsl/sim/contact_lists.glsl has it
-#define FASTEST 5.0f // m/s: hair relative to the head; what is faster may pass through what is thin
-#define MOST_GIVE 0.1f // m
-#define LOOSE 1.05f // hair may stretch a little
-#define FARTHEST 1e4f // m: as glsl/sim/rod.glsl has it
-#define MOST_ROUNDS 630 // of walks in a list on a software rasteriser: see rounds_of_list in rounds.c
+    0.02f
+// Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
+// colliders.
+#define FASTEST 5.0f
+#define MOST_GIVE 0.1f // Maximum of half the way of a vertex, m.
+#define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
+#define FARTHEST 1e4f // m. FARTHEST of glsl/sim/rod.glsl.
+// Maximum iterations of sphere tracing in a list on a software rasteriser. See rounds_of_list() in
+// rounds.c.
+#define MOST_ROUNDS 630
 
 static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, float share_start)
 {
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->at_step);
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = LOOSE * sim->reach;
-    int may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim); // Be farther.
+    // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
+    int may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim);
     return (struct hair_cells_desc){
         .reach = may ? FARTHEST : fminf(far, FARTHEST),
         .give = FIT + fminf(half, MOST_GIVE),
@@ -24,7 +32,6 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     };
 }
 
-// Or else they are few, and none is a form.
 int hair_contacts_are_any(const struct hair_sim* sim)
 {
     return sim->rods && (sim->solids.forms || sim->solids.contacts > HAIR_FEW_SOLIDS);
@@ -35,7 +42,7 @@ static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
     for (uint32_t i = 0; i < count; ++i) hair_forms_drop(sim->contacts.forms, held[i]);
 }
 
-// The forms of this step's contacts instead of those of the last step's.
+// Hold the collision meshes of this step's contacts. Release those of the last step's.
 static hair_result hold_forms(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
@@ -61,7 +68,7 @@ static hair_result hold_forms(struct hair_sim* sim)
     contacts->held = held;
     contacts->holds = taken;
     if (taken) result = hair_forms_need_texture(contacts->forms);
-    for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // Taking may have moved them all.
+    for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // hair_forms_take() may move nodes.
         if (cells->contact[i].body.size.w == HAIR_SHAPE_FORM)
             cells->contact[i].first = contacts->forms->pooled[held[k++]].first;
     return result;
@@ -106,7 +113,7 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
     if (!result) result = hold_forms(sim);
     if (!result) result = hair_cells_list(host, cells, &desc, &others);
     if (!result && others) result = upload(sim);
-    if (result) cells->entries = 0; // What is on the GPU may be anything.
+    if (result) cells->entries = 0; // The lists on the GPU may be incomplete.
     return result;
 }
 

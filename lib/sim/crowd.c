@@ -1,19 +1,24 @@
-// crowd.c - the grid of the crowd: made of the groom at rest, filled and read at the start of every block.
+// crowd.c - the hair-hair grid. The groom at rest determines its size and limits. The grid is
+// filled and read at the start of every block.
 #include "lib/sim/crowd.h"
 
 #include "lib/sim/sim.h"
 
-#define BLOCK (1.0 / 120) // s, or a substep if that is longer
-#define LEAST_CELL 0.01f // m: finer than guides are apart there would be nothing to gather
-#define MOST_IN_BIN 32 // vertices that are looked at of those in a cell
-#define MOST_OF_STRAND 16 // cells of it at a node, as the grid's units have to hold: more counts as that much
+#define BLOCK (1.0 / 120) // Length of a block, s. A block is at least a substep long.
+// Minimum distance between nodes, m. Cells smaller than the spacing of guides would hold no
+// neighbours.
+#define LEAST_CELL 0.01f
+#define MOST_IN_BIN 32 // Maximum number of vertices sampled in a cell.
+// Maximum length of a strand at a node, in cells, that the grid's units can hold. More counts as
+// this.
+#define MOST_OF_STRAND 16
 
 int hair_crowd_is_on(const struct hair_sim* sim)
 {
     return sim->rods && (sim->physics.cohesion > 0 || sim->physics.volume > 0);
 }
 
-// Around all that hair can reach that keeps its length.
+// Place the grid around all that hair of its rest length can reach.
 static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
 {
     struct hair_crowd* crowd = &sim->crowd;
@@ -40,15 +45,15 @@ static uint32_t node_count(const struct hair_crowd* crowd)
     return crowd->nodes[0] * crowd->nodes[1] * crowd->nodes[2];
 }
 
-// In fours, as they are cleared.
+// Return the number of vectors of four numbers, the unit in which the grid is cleared.
 static uint32_t grid_fours(const struct hair_crowd* crowd)
 {
     return (HAIR_CROWD_NODE_NUMBERS * node_count(crowd) + 3) / 4;
 }
 
 struct spot {
-    uint32_t node[3]; // the lowest of the eight around
-    float part[3]; // of the way to the next, per axis
+    uint32_t node[3]; // The lowest of the eight nodes around.
+    float part[3]; // Fraction of the way to the next node, per axis.
 };
 
 static struct spot spot_of(const struct hair_crowd* crowd, const hair_vec4* position)
@@ -70,13 +75,13 @@ static uint32_t node_at(const struct hair_crowd* crowd, uint32_t x, uint32_t y, 
     return x + crowd->nodes[0] * (y + crowd->nodes[1] * z);
 }
 
-// What is worked out at rest. Arrays of one block.
+// Arrays for the computation of the grid at rest.
 struct draft {
-    double* mass; // of every vertex: half the length of the segments beside it. m
-    double* volume; // that it has for itself, in cells
-    double* filled; // of every node, by volume
-    uint32_t* bin; // where the vertices of the cell begin in `vertex`
-    uint32_t* vertex; // sorted by cell
+    double* mass; // Mass of every vertex, half the length of its adjacent segments, m.
+    double* volume; // Volume of every vertex, in cells.
+    double* filled; // Volume at every node, in cells.
+    uint32_t* bin; // Start of every cell in `vertex`.
+    uint32_t* vertex; // Vertices sorted by cell.
 };
 
 static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest,
@@ -106,8 +111,9 @@ static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struc
     }
 }
 
-// Mass around a vertex by the grid's own weights, as if a node were right there. At least that of a straight strand
-// along an axis, which puts most into a node: so one by itself, wherever it is and however turned, fills none.
+// Return the mass around a vertex, with the weights that a node at the vertex would have. The
+// minimum is the mass of a straight strand along an axis, the direction that puts the most mass
+// into a node. A strand by itself thus fills no node, whatever its position and direction.
 static double mass_around(const struct hair_sim* sim, const struct hair_rest* rest, const struct draft* draft,
                           uint32_t i)
 {
@@ -116,7 +122,7 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
     double sum = 0, cell = (double)crowd->cell;
     for (uint32_t n = 0; n < 27; ++n) {
         uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
-        if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue; // -1 too
+        if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue; // -1 wraps to UINT32_MAX.
         uint32_t bin = node_at(crowd, x, y, z), end = draft->bin[bin + 1];
         uint32_t stride = (end - draft->bin[bin] + MOST_IN_BIN - 1) / MOST_IN_BIN;
         for (uint32_t k = draft->bin[bin]; k < end; k += stride) {
@@ -144,7 +150,7 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
     }
 }
 
-// In the grid's units. `volume` NULL: none.
+// Upload the contributions of vertices in the grid's units. NULL for `volume` means 0.
 static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* guides, const double* mass,
                                  const double* volume, GLuint* out)
 {
@@ -166,7 +172,8 @@ static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* 
     return result;
 }
 
-// A node presses from where it is full, or as it is at rest.
+// Upload the contributions of vertices and the volume limit of each node. A node exerts pressure
+// above the volume of a full cell, or above its volume at rest if that is greater.
 static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct draft* draft)
 {
     const hair_host* host = &sim->gl->host;
@@ -270,10 +277,11 @@ static void write_params(const struct hair_sim* sim, struct hair_crowd_params* p
 {
     const struct hair_crowd* crowd = &sim->crowd;
     double time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
-    float sound = 0.5f * crowd->cell / (float)time; // No faster than half a cell a block: that is stable.
+    float sound = 0.5f * crowd->cell / (float)time; // Half a cell per block is stable.
     hair_quat q = sim->last_after.rotation;
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
-    // What is left of a relative velocity after a block is exp(-rate time), however long it is.
+    // The fraction of a relative velocity after a block is exp(-rate time), for any length of the
+    // block.
     *params = (struct hair_crowd_params){
         .rotation = {q.x, q.y, q.z, q.w},
         .moved = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},

@@ -12,8 +12,8 @@
 
 // Total mass of all vertices, in the grid's units of mass, and their total volume, in its units of
 // volume. Rounding adds at most half a unit per vertex, and there are at most 2^26 vertices. No sum
-// exceeds 32 bits, even if all hair is at one node. A momentum has its mass times its speed as a
-// fraction of HAIR_CROWD_SPEED units. No vertex counts as faster than HAIR_CROWD_SPEED.
+// exceeds 32 bits, even if all hair is at one node. The unit of
+// momentum is the unit of mass times HAIR_CROWD_SPEED. No vertex counts as faster than that speed.
 #define HAIR_CROWD_UNITS 1073741824.0
 
 // The hair-hair grid. All 0 until hair first has cohesion or volume.

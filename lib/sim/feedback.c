@@ -1,7 +1,8 @@
-// feedback.c - redblack by transform feedback: every phase draws all guide vertices as points, from one buffer into another.
+// feedback.c - the solver redblack by transform feedback. Every phase draws all guide vertices as
+// points, from one buffer into another.
 #include "lib/sim/sim.h"
 
-#define GUIDES 2 // of HAIR_FEEDBACK_STATES
+#define GUIDES 2 // Index of the guides' state among HAIR_FEEDBACK_STATES.
 
 static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* guides)
 {
@@ -57,7 +58,8 @@ void hair_feedback_free(struct hair_sim* sim)
     hair_gl_free_buffer(gl, &feedback->owner);
 }
 
-// From where the last phase left vertices, *at, into the other of the two, or at a substep's end back into the guides.
+// Run a phase from state *at, which the last phase wrote, into the other of the two alternating
+// states. At the end of a substep, run it into the guides' state. Set *at to the state written.
 static void run_phase(struct hair_sim* sim, hair_gl_pass pass, int* at)
 {
     struct hair_gl* gl = sim->gl;
@@ -101,6 +103,6 @@ void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* para
         hair_gl_write_uniform(gl, sim->step, sizeof own, &own);
         run_substep(sim, &own);
     }
-    hair_gl_write_uniform(gl, sim->step, sizeof *params, params); // As others read it.
+    hair_gl_write_uniform(gl, sim->step, sizeof *params, params); // Other passes read it.
     hair_gl_end_capture(gl, &was);
 }

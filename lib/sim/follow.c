@@ -1,16 +1,18 @@
-// follow.c - what glsl/sim/follow.comp knows of each segment: how stiff it is, and all that it carries.
+// follow.c - the parameters of each segment for glsl/sim/follow.comp: its stiffness, and the
+// moments of all masses beyond.
 //
-// The energy of segment i of direction t is, with Q the rotation of the segment before it from the rest pose,
+// The energy of segment i in the direction t is
 //
 //   E = K/2 |t - Q r|^2 - (Q a' + C') . t
 //
-// where K is the bending stiffness at its first vertex, r its rest direction, C' the weight of all beyond and a'
-// the force that bears it as the rest strain does: its moment r x a' is the opposite of the stress in the groom.
-// The segment rests at t = r if the stress is the moment of the weight. C = c r + p is the first moment of the
-// masses beyond, p across r.
+// K is the bending stiffness at the segment's first vertex, and r its rest direction. Q is the
+// rotation of the segment before it from the rest pose. C' is the weight of all beyond. a' is the
+// force that balances this weight as the rest strain does. Its moment r x a' is the opposite of the
+// stress in the groom. The segment rests at t = r if the stress is the moment of the weight. C = c
+// r + p is the first moment of the masses beyond, with p perpendicular to r.
 #include "lib/sim/rod_shape.h"
 
-#define LARGEST 1e30 // number of a rod: what physics at their limits make may be beyond floats.
+#define LARGEST 1e30 // Maximum number of a rod. Extreme physics can exceed the range of floats.
 
 static float float_of(double v)
 {
@@ -22,7 +24,7 @@ static hair_vec4 vec4_of(hair_dvec3 v, double w)
     return (hair_vec4){float_of(v.x), float_of(v.y), float_of(v.z), float_of(w)};
 }
 
-// Find the first moment of the masses beyond vertex i about it. Return their moment of inertia.
+// Find the first moment about vertex i of the masses beyond. Return their moment of inertia.
 static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec3* first)
 {
     double inertia = 0;
@@ -32,7 +34,7 @@ static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec
         *first = hair_dadd(*first, hair_dscale(arm, s->mass[k]));
         inertia += s->mass[k] * hair_ddot(arm, arm);
     }
-    // Masses beyond may lie about the vertex itself, but not the next vertex.
+    // Masses beyond may coincide with the vertex itself. The next vertex cannot.
     return fmax(inertia, s->mass[i + 1] * s->length[i] * s->length[i]);
 }
 
@@ -54,7 +56,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, struct hai
     hair_dvec3 across = hair_dadd(moment, hair_dscale(r, -c));
     hair_dvec3 aim = hair_dscale(r, stiffness);
     if (stiffness > 0) aim = hair_dadd(aim, hair_dcross(r, moment_of_stress(s, i)));
-    // A swing of the segment before it, at its own frequency, becomes sqrt(1 + 1/16) times as large at most.
+    // This damping limits resonance with the segment before to sqrt(1 + 1/16) times its swing.
     double swing = sqrt((stiffness + arm * s->gravity) / inertia);
     out->strain = vec4_of(hair_dscale(aim, 1 / inertia), c / inertia);
     out->factor = vec4_of(hair_dscale(across, 1 / inertia), (double)out->factor.w);

@@ -1,21 +1,26 @@
 // health.c - what went wrong in the simulation, and what goes wrong now.
 //
-// Two passes look at guides. motion.comp runs when hair_get_health is called: how fast guides move, and how much they are
-// stretched. energy.comp runs after steps in which nothing does work on them, if hair_desc.diagnose asks for it.
+// Two passes examine the guides. motion.comp runs when hair_get_health is called, and measures the
+// speed and stretch of guides. energy.comp runs after steps in which nothing does work on the
+// guides, if hair_desc.diagnose is set.
 //
-// A guide is restless that still moves at the speed v when damping must have calmed it. An oscillation decays at least by
-// exp(-c t / 2). An overdamped one creeps at some rate s, at L s exp(-s t) at most, which by any s is below v after
-// L / (e v). The sum of both times is longer than either, and is allowed.
+// A guide is restless if it still moves at the speed v when damping must have calmed it. Let c be
+// the damping, t the time, and L the length of the guide. An oscillation decays at least as exp(-c
+// t / 2). Overdamped motion with the decay rate s has at most the speed L s exp(-s t). For any s,
+// that speed is below v after L / (e v). A guide may move for the sum of both times, which is
+// longer than either.
 #include "lib/sim/sim.h"
 
 #include <math.h>
 #include <string.h>
 
-#define RESTLESS_SPEED 0.02 // m/s, as in motion.comp
-#define FASTEST_SPEED 100.0 // m/s: no hair on a head is faster.
+#define RESTLESS_SPEED 0.02 // m/s. RESTLESS_SPEED of motion.comp.
+#define FASTEST_SPEED 100.0 // Upper bound on the speed of hair on a head, m/s.
 #define EULERS_NUMBER 2.718281828
 #define NEVER 1e30f // s
-#define WINDOW 0.25 // s: the lowest oscillations of hair, of 2 Hz, have a greatest energy in it.
+// Length of a window, s. The slowest oscillations of hair, of 2 Hz, reach their maximum energy in
+// it.
+#define WINDOW 0.25
 
 void hair_diagnosis_free(struct hair_sim* sim)
 {
@@ -29,21 +34,24 @@ void hair_diagnosis_forget(struct hair_sim* sim)
     sim->diagnosis.goes_on = 0;
 }
 
-// Energy ----------------------------------------------------------------------------------------------------
+// Energy
+// ----------------------------------------------------------------------------------------------------
 
 static hair_gl_pass energy_pass(const struct hair_sim* sim)
 {
     return hair_sim_is_mixed(sim) ? HAIR_GL_ENERGY | HAIR_GL_WITH(MIXED) : HAIR_GL_ENERGY;
 }
 
-// Return whether work can be done on a guide from outside. A scalp that is skinned, and hair around, may do some.
+// Return whether work can be done on a guide from outside. A skinned scalp and other hair may do
+// work.
 static int is_driven(const struct hair_sim* sim, int stirred)
 {
     return stirred || memcmp(&sim->at_step, &sim->head, sizeof sim->head) != 0 ||
            hair_wind_is_on(&sim->wind) || hair_crowd_is_on(sim) || hair_skin_is_on(sim);
 }
 
-// Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules that have none.
+// Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules
+// that have none.
 static int has_energy(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_DIRECT || sim->solver == HAIR_SOLVER_ACCURATE;
@@ -88,9 +96,11 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     if (ends) d->time = 0;
 }
 
-// Motion ----------------------------------------------------------------------------------------------------
+// Motion
+// ----------------------------------------------------------------------------------------------------
 
-// Return for how long nothing has driven hair that must come to rest; below 0: something drives it, or it need not.
+// Return the time for which nothing has driven the hair, s. Return a negative value if something
+// drives the hair, or if the hair need not come to rest.
 static float calm_of(const struct hair_sim* sim)
 {
     int rests = sim->physics.root != HAIR_ROOT_FREE && !hair_wind_is_on(&sim->wind);
@@ -133,7 +143,8 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     return HAIR_OK;
 }
 
-// All of it -------------------------------------------------------------------------------------------------
+// Report
+// ----------------------------------------------------------------------------------------------------
 
 static float float_of(uint32_t bits)
 {

@@ -6,44 +6,46 @@
 // unstable, and the rest strain may be far from the groom's own strain. Both get better with more
 // stiffness, at any vertex.
 //
-// Stiffness is a property of the material. As little as possible is added, and never more than
-// three times what there is. Vertex i becomes min(3, 1 + c e_i) times as stiff, with the least c
-// that suffices:
+// Stiffness is a property of the material. As little as possible is added, and the result is never
+// more than three times the original. Vertex i becomes min(3, 1 + c e_i) times as stiff, with the
+// smallest c that suffices. The weight of vertex i is
 //
 //   e_i = sum_(k > i) m_k (s_k - s_i)
 //
-// is the moment that all beyond vertex i would exert if it stood out straight, s being the arc
-// length. This weight adds about half as much stiffness, on average over the vertices of the
-// built-in haircuts, as one multiple for all vertices.
+// where m is the mass of a vertex and s its arc length. e_i is the moment that all beyond vertex i
+// would exert on it if it stood out straight. On the built-in haircuts, this weight adds about half
+// as much stiffness as one multiple for all vertices.
 //
 // Where three times is not enough, the guide holds another pose, which sags. The candidates are the
-// poses y(t) in which a guide three times as stiff rests under t times the gravity, with the groom
-// as its rest shape. y(0) is the groom, and y(1) is stable because it is at rest. In the pose y(t)
-// the rest strain again balances the whole gravity, with the 2 w0 of rod.h from that pose. This is
-// exact however roughly y(t) was computed, so one step of Newton's method for each t is enough. The
-// least t is taken whose pose is stable, and to which the guide falls when it is released from its
-// groom. Measured over the built-in haircuts, other ways from the groom to a hanging pose sag
-// farther: gravity on a part of the strand only, or a pull to the groom that weakens.
+// poses y(t) of rest of a guide three times as stiff under t times the gravity, with the groom as
+// its rest shape. y(0) is the groom, and y(1) is stable because it is at rest. In the pose y(t) the
+// rest strain again balances the whole gravity, with the 2 w0 of rod.h from that pose. This balance
+// is exact however roughly y(t) was computed, so one step of Newton's method for each t is enough.
+// The smallest t is taken whose pose is stable and is reached by the guide when released from its
+// groom. Other ways from the groom to a hanging pose sag farther on the built-in haircuts. Examples
+// are gravity on a part of the strand only, and a pull to the groom that weakens.
 #include "lib/sim/statics.h"
 
 #include <string.h>
 
-#define MARGIN 1.05 // multiple of gravity under which a pose must be stable
-#define SLOWEST 2.0 // least frequency about a pose, rad/s: critically damped by the default damping of 4/s
-#define FINENESS 1.02 // precision of 1 + c
-#define STEP 0.125 // of t
-#define BISECTIONS 3 // of a step of t
-#define STEPS 1 // Newton's method, for each t below 1
-#define LAST_STEPS 60 // Newton's method, where it must converge
-#define SAME 1e-4 // distance between equal poses, as a fraction of the length
+#define MARGIN 1.05 // Multiple of gravity under which a pose must be stable.
+// Minimum frequency about a pose, rad/s. The default damping of 4/s damps this frequency
+// critically.
+#define SLOWEST 2.0
+#define FINENESS 1.02 // Precision of 1 + c, as a ratio.
+#define STEP 0.125 // Step of t.
+#define BISECTIONS 3 // Number of bisections of a step of t.
+#define STEPS 1 // Steps of Newton's method for each t below 1.
+#define LAST_STEPS 60 // Maximum steps of Newton's method where it must converge.
+#define SAME 1e-4 // Maximum distance between equal poses, as a fraction of the length.
 
 struct search {
     struct hair_rod_shape* shape;
     struct hair_rod_pose pose;
-    double bend[HAIR_MAX_GUIDE_VERTICES]; // stiffness of the material
+    double bend[HAIR_MAX_GUIDE_VERTICES]; // Stiffness of the material.
     double lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
-    hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // rest shape that is the groom
-    hair_rod_rest rest[HAIR_MAX_GUIDE_VERTICES]; // rest shape that makes the pose an equilibrium
+    hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // Rest shape equal to the groom.
+    hair_rod_rest rest[HAIR_MAX_GUIDE_VERTICES]; // Rest shape that balances the pose.
 };
 
 static void find_levers(const struct hair_rod_shape* s, double* lever)
@@ -64,14 +66,14 @@ static void stiffen(struct search* a, double c)
         s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MOST_STIFFEN, 1 + c * a->lever[i]);
 }
 
-// Return how far the rest strain is from the groom's own.
+// Return the difference of the groom's own strain and the rest strain.
 static hair_dvec3 strain_off(const struct search* a, uint32_t i)
 {
     hair_rod_rest own = a->own[i], rest = a->rest[i];
     return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
 }
 
-// Return whether the pose can be held. Set `rest` to the rest shape that does.
+// Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
 static int holds(struct search* a, double margin)
 {
     const struct hair_rod_shape* s = a->shape;
@@ -89,7 +91,7 @@ static int holds(struct search* a, double margin)
     return hair_rod_is_stable(s, &a->pose, SLOWEST * SLOWEST);
 }
 
-// Return the least c with which the groom holds. It holds with `does`.
+// Return the smallest c with which the groom holds. The groom holds with c = `does`.
 static double least_stiffening(struct search* a, double does)
 {
     double fails = 1; // 1 + c
@@ -104,14 +106,14 @@ static double least_stiffening(struct search* a, double does)
     return does - 1;
 }
 
-// Move the pose on to y(t). Return whether it holds.
+// Move the pose to y(t). Return whether the pose holds.
 static int holds_at(struct search* a, double t)
 {
     hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
     return holds(a, MARGIN);
 }
 
-// Find the least t whose pose holds, and the pose. Return more than 1 when none holds.
+// Find the smallest t whose pose holds, and set the pose. Return more than 1 if no pose holds.
 static double find_pose(struct search* a)
 {
     hair_dquat failed[HAIR_MAX_GUIDE_VERTICES], found[HAIR_MAX_GUIDE_VERTICES];
@@ -135,7 +137,7 @@ static double find_pose(struct search* a)
     return does;
 }
 
-// Return how far a vertex of the pose is from its place, at most.
+// Return the maximum distance of a vertex of the pose from its position in `place`.
 static double distance(const struct search* a, const hair_dvec3* place)
 {
     double most = 0;
@@ -144,7 +146,7 @@ static double distance(const struct search* a, const hair_dvec3* place)
     return most;
 }
 
-// Return whether the guide comes to rest in the pose when it is released from its groom.
+// Return whether the guide comes to rest in the pose when released from its groom.
 static int is_reached(const struct search* a)
 {
     struct hair_rod_pose released;
@@ -155,7 +157,7 @@ static int is_reached(const struct search* a)
     return distance(a, released.place) < SAME * length;
 }
 
-// Find the pose to hold and its rest shape. Return the distance from the groom.
+// Find the pose to hold and its rest shape. Return the distance of that pose from the groom.
 static double sag(struct search* a)
 {
     double t = find_pose(a);
@@ -165,7 +167,7 @@ static double sag(struct search* a)
         t = fmin(t + STEP, 1);
         holds_at(a, t);
     }
-    // The rest shape bears nothing then, and the guide hangs.
+    // No pose can be held. The rest shape balances no gravity, and the guide hangs.
     memcpy(a->rest, a->own, sizeof a->rest);
     hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
     hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
@@ -189,7 +191,7 @@ static void start(struct search* a, struct hair_rod_shape* s)
     hair_rod_pose_at(s, s->frame, &a->pose);
 }
 
-// Set the stress to that of the rest strain in the groom, and rest_real.
+// Set the stress that the rest strain causes in the groom. Set rest_real to the rest shape.
 static void finish(struct search* a)
 {
     struct hair_rod_shape* s = a->shape;

@@ -67,7 +67,8 @@ struct hair_rod_shape {
     double weight; // Weight of all vertices but the root.
     double length[HAIR_MAX_GUIDE_VERTICES]; // Length of segment i, m. 0 for the tip.
     double mass[HAIR_MAX_GUIDE_VERTICES];
-    double pull[HAIR_MAX_GUIDE_VERTICES]; // Squared angular frequency of the pull to the groom, 1/s^2.
+    // Squared angular frequency of the pull to the groom, 1/s^2.
+    double pull[HAIR_MAX_GUIDE_VERTICES];
     double bend[HAIR_MAX_GUIDE_VERTICES]; // Bending stiffness at vertex i.
     hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // Frame of segment i.
     hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // Rotation from frame i-1 to frame i, w >= 0.

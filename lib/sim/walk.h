@@ -15,7 +15,7 @@ struct hair_walk {
     struct hair_gl* gl;
     const unsigned char* read; // All bytes of the state to read. NULL reads nothing.
     unsigned char* write; // Room for all bytes of the state. NULL writes nothing.
-    unsigned char* own; // The numbers read for buffers, in native byte order, at the offsets in `read`.
+    unsigned char* own; // Numbers read for buffers, in native byte order, at their offsets.
     size_t at, end; // Offset of the next field, and of the end of the fields to read.
     hair_result result; // First failure. Nothing is read after a failure.
     int lacks_bend; // The state that is read has no forces of segments.
