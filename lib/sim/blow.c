@@ -129,8 +129,8 @@ static void gather_hair(struct hair_sim* sim)
     hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
-// Return the drag of the hair on the air, from the drag of the air on guides. What the air loses,
-// the guides gain.
+// Return the drag of the hair on the air, from the drag of the air on guides. The guides gain the
+// momentum that the air loses.
 static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
 {
     const hair_wind* wind = &sim->wind;

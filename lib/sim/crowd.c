@@ -122,7 +122,8 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
     double sum = 0, cell = (double)crowd->cell;
     for (uint32_t n = 0; n < 27; ++n) {
         uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
-        if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue; // -1 wraps to UINT32_MAX.
+        // A coordinate of -1 wraps to UINT32_MAX.
+        if (x >= crowd->nodes[0] || y >= crowd->nodes[1] || z >= crowd->nodes[2]) continue;
         uint32_t bin = node_at(crowd, x, y, z), end = draft->bin[bin + 1];
         uint32_t stride = (end - draft->bin[bin] + MOST_IN_BIN - 1) / MOST_IN_BIN;
         for (uint32_t k = draft->bin[bin]; k < end; k += stride) {

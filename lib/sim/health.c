@@ -34,8 +34,7 @@ void hair_diagnosis_forget(struct hair_sim* sim)
     sim->diagnosis.goes_on = 0;
 }
 
-// Energy
-// ----------------------------------------------------------------------------------------------------
+// Energy ------------------------------------------------------------------------------------------
 
 static hair_gl_pass energy_pass(const struct hair_sim* sim)
 {
@@ -96,8 +95,7 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     if (ends) d->time = 0;
 }
 
-// Motion
-// ----------------------------------------------------------------------------------------------------
+// Motion ------------------------------------------------------------------------------------------
 
 // Return the time for which nothing has driven the hair, s. Return a negative value if something
 // drives the hair, or if the hair need not come to rest.
@@ -143,8 +141,7 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     return HAIR_OK;
 }
 
-// Report
-// ----------------------------------------------------------------------------------------------------
+// Report ------------------------------------------------------------------------------------------
 
 static float float_of(uint32_t bits)
 {

@@ -8,12 +8,12 @@
 //
 // Stiffness is a property of the material. As little as possible is added, and the result is never
 // more than three times the original. Vertex i becomes min(3, 1 + c e_i) times as stiff, with the
-// smallest c that suffices. The weight of vertex i is
+// smallest c that suffices. The lever of vertex i is
 //
 //   e_i = sum_(k > i) m_k (s_k - s_i)
 //
 // where m is the mass of a vertex and s its arc length. e_i is the moment that all beyond vertex i
-// would exert on it if it stood out straight. On the built-in haircuts, this weight adds about half
+// would exert on it if it stood out straight. On the built-in haircuts, this lever adds about half
 // as much stiffness as one multiple for all vertices.
 //
 // Where three times is not enough, the guide holds another pose, which sags. The candidates are the

@@ -1,16 +1,23 @@
-// programs.c - which programs a simulation runs, and how much of it at once.
+// programs.c - selection of the programs of a simulation, and of the number of substeps per
+// dispatch.
 #include "lib/sim/sim.h"
 
-#define MOST_FEW 2048 // guides: so many a GPU has under way at once, whatever registers they take
-#define GUIDES_PER_GROUP 8 // where a thread has a whole guide: GROUP_THREADS of glsl/sim/mapping.glsl
-#define MOST_IN_THREAD 128 // Vertices of a guide that a thread of a GPU has memory for,
-#define MOST_MIXED 64 // and under the mixed scheme
-#define GROUPS_OF_LIST 16 // of a unit of a GPU, which has as many under way
-#define MOST_ROUNDS 65000 // that a software rasteriser may go in one thread: see rounds.c
-#define PART_ROUNDS_OF_THREAD 30000 // of these, for parts of a substep: 21 of 32 vertices
-#define PART_ROUNDS_OF_GROUP 9000 // and 71
+// Maximum number of guides that a GPU runs at once, however many registers they take.
+#define MOST_FEW 2048
+// Guides per work group with a thread per guide. GROUP_THREADS of glsl/sim/mapping.glsl.
+#define GUIDES_PER_GROUP 8
+#define MOST_IN_THREAD 128 // Maximum vertices of a guide that fit into a GPU thread's memory.
+#define MOST_MIXED 64 // Maximum vertices of a guide that fit under the mixed scheme.
+#define GROUPS_OF_LIST 16 // Work groups that a unit of a GPU runs at once.
+// Maximum loop iterations of a thread on a software rasteriser. See rounds.c.
+#define MOST_ROUNDS 65000
+// Loop iterations for parts of a substep with a thread per guide. They suffice for 21 parts of a
+// guide of 32 vertices.
+#define PART_ROUNDS_OF_THREAD 30000
+// Loop iterations for parts of a substep with a work group per guide. They suffice for 71 parts.
+#define PART_ROUNDS_OF_GROUP 9000
 
-// Where a thread would have too much to do, it is a work group's.
+// A work group solves a guide that would be too much for a thread.
 int hair_sim_is_by_thread(const struct hair_sim* sim)
 {
     uint32_t most = hair_sim_is_mixed(sim) ? MOST_MIXED : MOST_IN_THREAD;
@@ -18,7 +25,7 @@ int hair_sim_is_by_thread(const struct hair_sim* sim)
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 
-// Return how many substeps that take so many rounds fit into a dispatch.
+// Return how many substeps of `rounds` loop iterations fit into a dispatch.
 static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
@@ -26,13 +33,14 @@ static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
-// Return whether guides go through two programs. The first knows SHAKE only, and the second does what it leaves.
+// Return whether guides go through two programs. The first only knows SHAKE, and the second solves
+// the guides that the first leaves.
 static int goes_in_two_by_shake(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
 }
 
-// Return whether the second program may split substeps: see glsl/sim/parts.glsl.
+// Return whether the second program may split substeps. See glsl/sim/parts.glsl.
 static int has_parts(const struct hair_sim* sim)
 {
     return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->ties.count;
@@ -48,7 +56,8 @@ uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
     return whole >= MOST_ROUNDS ? 0 : most < MOST_ROUNDS - whole ? most : MOST_ROUNDS - whole;
 }
 
-// Without parts both programs take as many substeps. With parts the second takes the substeps of a dispatch in several.
+// Without parts, both programs run the same number of substeps per dispatch. With parts, the second
+// program divides the substeps of the first into several dispatches.
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 {
     int by_thread = hair_sim_is_by_thread(sim);
@@ -56,15 +65,16 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
                                            : hair_sim_rounds_of_substep(sim, by_thread));
 }
 
-// Guides whose work groups wait for the solids that they look up, and so keep them at hand and read several at once: of 1,024
-// on an H200 a body of a thousand balls takes 1.9 times what one of ten capsules does. Of 10,201, without either, 2.3 times;
-// with them more, for they take registers that others want.
+// Return whether guides are so few that their work groups wait for the memory of colliders. Such
+// work groups cache colliders and read several at once, which is faster. For many guides this would
+// be slower, because the registers of the cache reduce the number of guides that run at once.
 static int has_few_guides(const struct hair_sim* sim, int by_thread)
 {
     return sim->guides <= MOST_FEW && !by_thread;
 }
 
-// Compiled with what there is, and with nothing else. `any` number of solids, among them `bodies`.
+// Return the solver's pass with only the features in use. `any` is 1 if colliders are looked up in
+// the grid. `bodies` is 1 if some colliders are neither spheres nor capsules.
 static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bodies, int by_thread)
 {
     static const hair_gl_pass row[] = {
@@ -89,7 +99,8 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
 }
 
-// What they need for it must be there from the start. Two rounds of guides fill a GPU well enough.
+// The lists of two programs are allocated at creation, so this decision is made then. Direct takes
+// two programs only for more guides than twice what a GPU runs at once.
 int hair_sim_may_go_in_two(const struct hair_sim* sim)
 {
     if (sim->solver == HAIR_SOLVER_ACCURATE) return 1;
@@ -109,15 +120,16 @@ static hair_gl_pass pass_now(const struct hair_sim* sim)
     return solver_pass_for(sim, any, bodies, hair_sim_is_by_thread(sim));
 }
 
-// Of straight hair among few capsules: 102,400 guides take 1.23 ms on an H200 in five substeps, by one program 1.41. Without any
-// 10,240 guides took 1.09 times as long by two; with all else programs need registers that so many guides leave them not.
+// Return whether guides go through two programs now. Direct does so only for straight hair among
+// few capsules, where two programs are faster. Without capsules two programs are slower. With any
+// other feature, programs need more registers than that many guides leave them.
 static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
 {
     if (goes_in_two_by_shake(sim)) return 1;
     return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(SOLIDS), 1);
 }
 
-// `pass`, or the two that it is done by.
+// Compile `pass`, or the two programs that replace it.
 static hair_result need_solver(const struct hair_sim* sim, hair_gl_pass pass)
 {
     if (!goes_in_two(sim, pass)) return hair_gl_need(sim->gl, pass);
@@ -136,7 +148,7 @@ uint32_t hair_sim_next_list(struct hair_sim* sim)
     return sim->list;
 }
 
-// Run the second program over its list, in as many dispatches as its loops need.
+// Run the second program over its list, in as many dispatches as its loop iterations need.
 static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
     uint32_t count = params->substeps;
@@ -196,7 +208,7 @@ hair_result hair_sim_need_programs(struct hair_sim* sim)
     int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
     hair_gl_pass smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
     hair_result result = need_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
-    if (!result && any && sim->by_thread && gl->software) // Lists say which, from step to step.
+    if (!result && any && sim->by_thread && gl->software) // The lists of a step decide which.
         result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
     if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
     if (!result && sim->physics.sleep > 0) result = hair_gl_need(gl, HAIR_GL_STIR);

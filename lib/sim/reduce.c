@@ -1,21 +1,28 @@
-// reduce.c - the implicit systems made ready for a work group: what parallel cyclic reduction (Hockney 1965) does to
-// the right side only, for the matrix is always the same.
+// reduce.c - parallel cyclic reduction (Hockney 1965) of the implicit systems for a work group. The
+// matrix is constant, so its part of the reduction is done here. Shaders reduce only the right
+// side.
 //
-// Pairs of vertices make the five diagonals of a system three of 2x2 blocks. In round n the block B is freed of the
-// blocks B - 2^n and B + 2^n, r += a r_(B-2^n) + c r_(B+2^n); after the last x = D^-1 r. Per vertex and round a row
-// of a and one of c. Bending reaches less far the shorter a substep is: rounds from which no vertex learns anything are
-// left out.
+// Pairs of vertices turn the five diagonals of a system into three diagonals of 2x2 blocks. Round n
+// eliminates the blocks B - 2^n and B + 2^n from the row of block B. The right side r changes by
+//
+//   r_B += a r_(B-2^n) + c r_(B+2^n)
+//
+// where a and c are 2x2 blocks. After the last round the solution is x = D^-1 r, where D is the
+// remaining diagonal block. Each vertex stores a row of a and a row of c per round. Bending reaches
+// less far in shorter substeps, so rounds that influence no vertex are left out.
 #include "lib/sim/rod.h"
 
 #include <math.h>
 #include <string.h>
 
 #define MOST_BLOCKS (HAIR_MAX_GUIDE_VERTICES / 2)
-// Of a vertex's displacement over a substep of 1/240 s, what others make: less is nothing. Of shorter ones as much less as
-// keeps the error that makes one of second order, for they are the more.
+// Influence on a vertex's displacement over a substep of 1/240 s, as a fraction, that may be
+// neglected. The fraction shrinks with the cube of shorter substeps, so that the accumulated error
+// stays of second order.
 #define HEARD 1e-4
 
-struct block { // of 2x2, row by row
+// A 2x2 block, row by row.
+struct block {
     double m[4];
 };
 struct block_row {
@@ -45,7 +52,8 @@ static struct block minus_times_inverse(struct block a, struct block b)
     return (struct block){{-c.m[0], -c.m[1], -c.m[2], -c.m[3]}};
 }
 
-// Entry (i, j) of L D L^T, j <= i <= j + 2; beyond the last vertex of the identity.
+// Return the entry (i, j) of L D L^T, where j <= i <= j + 2. Beyond the last vertex, return that of
+// the identity.
 static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint32_t j)
 {
     if (i >= count) return i == j;
@@ -83,10 +91,10 @@ static void write_round(const struct hair_guide* guide, uint32_t block, struct b
 static double least_heard(double substep, int is_free)
 {
     double ratio = 240 * substep;
-    return is_free ? 0 : HEARD * fmin(ratio * ratio * ratio, 1); // What is free flies on.
+    return is_free ? 0 : HEARD * fmin(ratio * ratio * ratio, 1); // Free strands move as a whole.
 }
 
-// By how much displacements d_j change d_i = a r_j / D_i, with r_j = D_j d_j.
+// Return the maximum influence of displacements d_j on d_i = a r_j / D_i, where r_j = D_j d_j.
 static double share_of(struct block a, struct block own, struct block far)
 {
     double most = 0;
@@ -95,7 +103,8 @@ static double share_of(struct block a, struct block own, struct block far)
     return most;
 }
 
-// `last`: one for every round it may come after. Returns after how many no more than `least` is heard.
+// Reduce the system of a guide. Write to `last` the final solve after each possible number of
+// rounds. Return the number of rounds after which the influence is at most `least`.
 static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
                              double least, hair_vec4* out, hair_vec4* last)
 {
@@ -124,7 +133,8 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
     }
     for (uint32_t b = 0; b < count; ++b)
         write_round(guide, b, inverse(row[round % 2][b].own), none, last + (size_t)round * vertices);
-    // Where others go on nothing is left out for it that is not left out for it alone.
+    // Other guides may need more rounds. Fill the rounds that this guide does not need with zeros,
+    // and repeat its last.
     for (uint32_t n = heard; n < round; ++n) {
         size_t from = (size_t)n * vertices + guide->first;
         memset(out + from, 0, guide->count * sizeof *out);
@@ -152,7 +162,7 @@ uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const
         uint32_t own = reduce_guide(&guides[i], first, vertices, least, out, last);
         rounds = own > rounds ? own : rounds;
     }
-    for (uint32_t i = 0; i < count; ++i) { // Of a guide with fewer after those that it has.
+    for (uint32_t i = 0; i < count; ++i) { // Guides may have fewer rounds of their own.
         uint32_t own = hair_rods_rounds(guides[i].count) - 1;
         size_t from = (size_t)(own < rounds ? own : rounds) * vertices + guides[i].first;
         memcpy(out + from, last + from, guides[i].count * sizeof *out);

@@ -1,30 +1,43 @@
-// rod.c - rods as the shaders read them: rest strain, masses, and the factors of the implicit systems.
+// rod.c - rods for the shaders: rest strain, masses, and the factors of the implicit systems.
 //
-// Taken implicitly, the bending of vertex i is that of a round, straight strand, at least as stiff: energy k/2 |row
-// x|^2 with row = (1/l_(i-1), -1/l_(i-1) - 1/l_i, 1/l_i) of the vertices i-1, i, i+1; at the root (-1/l_0, 1/l_0).
-// K sums these; the systems are diag(m_i A_i) + b^2 K, five diagonals, symmetric and positive:
+// The implicit systems take vertex i to bend like a round, straight strand that is at least as
+// stiff. With the stiffness k, the positions x and the segment lengths l, the energy of vertex i is
+// k/2 |row x|^2. The entries of the row for the vertices i-1, i and i+1 are
 //
-//   b = 2/3 h of BDF2, h of implicit Euler   A_i = 1 + c b + w_i^2 b^2   of damping c and pull w_i
+//   row = (1/l_(i-1), -1/l_(i-1) - 1/l_i, 1/l_i)
+//
+// At the root the row is (-1/l_0, 1/l_0). The matrix K is the sum of k row^T row over all vertices.
+// The systems have five diagonals, are symmetric and positive, and are
+//
+//   diag(m_i A_i) + b^2 K,   A_i = 1 + c b + w_i^2 b^2
+//
+// where m is the mass, c the damping and w the angular frequency of the pull. In a substep of
+// length h, b is 2/3 h for BDF2, and h for implicit Euler.
 #include "lib/sim/rod_shape.h"
 #include "lib/sim/ties.h"
 
 #include <string.h>
 
 #define FRAME (1.0 / 60) // s
-#define FEWEST_A_FRAME 18 // substeps of the accurate solver: a whip to half a millimetre
-#define FEWEST_A_FRAME_MIXED 24 // BDF2 for the same accuracy
-#define MOST_A_FRAME 100 // that one guide can ask for all
-#define EXPLICIT_MARGIN 1.15
-#define EXPLICIT_MARGIN_BENT 1.5
-#define STRAIGHT 1e-4 // sine of half the angle at a vertex
+// Minimum substeps per frame of the accurate solver, for an error of a whip of half a millimetre.
+#define FEWEST_A_FRAME 18
+#define FEWEST_A_FRAME_MIXED 24 // Substeps per frame with which BDF2 has that accuracy.
+#define MOST_A_FRAME 100 // Maximum substeps per frame that one guide can impose on all.
+#define EXPLICIT_MARGIN 1.15 // Stability margin of explicit bending.
+#define EXPLICIT_MARGIN_BENT 1.5 // Stability margin of strands that are not straight at rest.
+#define STRAIGHT 1e-4 // Maximum sine of half the angle at a vertex of a straight strand.
 #define FEWEST_A_FRAME_DIRECT 4
-#define MOST_A_FRAME_DIRECT 16 // for a heavy tip; what it lacks then, inertia makes up for: taut.c
-#define MOST_STIFF 1e6 // h^2 K_ii / m_i.
-#define MIXED_STIFFER 2e4 // so many times as stiff the mixed scheme can solve,
-#define MIXED_STIFFER_FREE 1e5 // and of what nothing holds
-#define MOST_STIFF_FREE 1e4 // of what nothing holds: by its mass alone it moves as a whole
+// Maximum substeps per frame of direct, for a heavy tip. Beyond that, tip inertia is added: see
+// taut.c.
+#define MOST_A_FRAME_DIRECT 16
+#define MOST_STIFF 1e6 // Maximum of h^2 K_ii / m_i.
+#define MIXED_STIFFER 2e4 // Multiple of that maximum that the mixed scheme can solve.
+#define MIXED_STIFFER_FREE 1e5 // Multiple of MOST_STIFF_FREE that the mixed scheme can solve.
+// Maximum of h^2 K_ii / m_i for a free strand. Only its mass determines its motion as a whole.
+#define MOST_STIFF_FREE 1e4
 
-struct band { // of a symmetric matrix: diagonal, and the entries one and two to the right of it
+// Row of a symmetric matrix: the diagonal, and the entries one and two to its right.
+struct band {
     double x, y, z;
 };
 
@@ -38,14 +51,15 @@ static double implicit_ratio(const struct hair_rod_shape* s)
     return fmax(s->ratio[0], s->ratio[2]);
 }
 
-// Row of vertex i, by the vertices before, at and after it.
+// Return the row of vertex i, for the vertices before, at and after it.
 static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 {
     double before = i > 0 ? 1 / s->length[i - 1] : 0, after = 1 / s->length[i];
     return (hair_dvec3){before, -before - after, after};
 }
 
-// Greatest stiffness at vertex i for which a substep of length h can still be solved in single precision.
+// Return the maximum stiffness at vertex i that can be solved in single precision with substeps of
+// length h.
 static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
     hair_dvec3 row = row_of(s, i);
@@ -72,7 +86,7 @@ static void find_bands(const struct hair_rod_shape* s, const double* stiffness, 
     double ratio = implicit_ratio(s);
     for (uint32_t i = 0; i < s->count; ++i) k[i] = (struct band){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) add_row(k, i, row_of(s, i), ratio * stiffness[i]);
-    // What is held moves by no force: what it does is known.
+    // No force moves a held vertex. Its motion is known.
     for (uint32_t i = 0; i < s->count; ++i) {
         if (!is_fixed(s, i)) continue;
         k[i] = (struct band){0, 0, 0};
@@ -81,7 +95,8 @@ static void find_bands(const struct hair_rod_shape* s, const double* stiffness, 
     }
 }
 
-// The highest frequency of bending, squared, is at most this: the greatest sum of a row of m^(-1/2) K m^(-1/2).
+// Return an upper bound on the squared frequency of bending. The bound is the maximum row sum of
+// absolute values of m^(-1/2) K m^(-1/2).
 static double most_frequency_squared(const struct hair_rod_shape* s, const struct band* k)
 {
     double most = 0;
@@ -96,7 +111,7 @@ static double most_frequency_squared(const struct hair_rod_shape* s, const struc
     return most;
 }
 
-// Whether the shape at rest is straight: the groom's is, and no stress is borne.
+// Return whether the shape at rest is straight. The groom must be straight, and free of stress.
 static int is_straight(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
@@ -106,16 +121,18 @@ static int is_straight(const struct hair_rod_shape* s)
     return 1;
 }
 
-// Leapfrog is stable below 2 / w. The margin is for what K leaves out: tension, and of what is not straight at rest
-// its curvature and twist. Measured: with 1.15 such strands fall back four times as often as with 1.5, and do not
-// always come to rest.
+// Return the longest substep for which explicit bending is stable. Leapfrog is stable below 2 / w,
+// where w is the highest frequency. The margin covers what K leaves out. For straight strands this
+// is tension. For other strands it is also curvature and twist. With a margin of 1.15 such strands
+// fall back four times as often as with 1.5, and do not always come to rest.
 static double longest_explicit(const struct hair_rod_shape* s, const struct band* k)
 {
     double most = most_frequency_squared(s, k);
     return most > 0 ? 2 / ((is_straight(s) ? EXPLICIT_MARGIN : EXPLICIT_MARGIN_BENT) * sqrt(most)) : INFINITY;
 }
 
-// The rows of L D L^T above the next: the last, and the one before it. x: D, y: L(i+1,i), z: L(i+2,i).
+// The two rows of L D L^T above the next row. `one` is the last row, and `two` the row before that.
+// x is D, y is L(i+1,i), and z is L(i+2,i).
 struct rows {
     struct band one, two;
 };
@@ -142,7 +159,8 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }
 
-// Write what the mixed scheme needs, which has no factors. Return the least factor by which a vertex is softened.
+// Write a guide of the mixed scheme, which has no factors. Return the smallest stiffness factor of
+// a vertex.
 static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_rod* out)
 {
     double softest = 1, stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
@@ -163,7 +181,7 @@ static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
         out[i].factor.w = (float)next;
 }
 
-// Write a guide of the scheme of straight rods. Return the least factor by which a vertex is softened.
+// Write a guide of the scheme of straight rods. Return the smallest stiffness factor of a vertex.
 static double write_guide(const struct hair_rod_shape* s, double tautness, const hair_physics* physics,
                           hair_solver solver, double h, struct hair_rod* out)
 {
@@ -176,7 +194,7 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
     }
     find_bands(s, stiffness, k);
     int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
-    if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be just that, rounded.
+    if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be rounded.
     int taut = accurate && tautness * h > 2 / EXPLICIT_MARGIN;
     double damping = (double)physics->damping, b = 2 * h / 3;
 
@@ -226,7 +244,8 @@ static void find_borne(const struct hair_guide* guide, const struct hair_rest* r
     hair_rod_bear(out, borne + guide->first);
 }
 
-// Write a guide for the scheme that solves it. The shape is changed. Return the least factor by which a vertex is softened.
+// Write a guide for the scheme that solves it. Change the shape. Return the smallest stiffness
+// factor of a vertex.
 static double write_shape(struct hair_rod_shape* s, const hair_physics* physics, hair_solver solver,
                           int mixed, double substep, struct hair_rod* out)
 {
@@ -277,7 +296,7 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
     }
 }
 
-// Of one guide, in substeps a frame.
+// Return the number of substeps per frame that one guide needs for explicit bending.
 static double least_explicit(const struct hair_rod_shape* s)
 {
     struct band k[HAIR_MAX_GUIDE_VERTICES];
@@ -305,9 +324,11 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
     return FRAME / most;
 }
 
-// Radians at a vertex below which a strand is straight: what rounding leaves of one in any direction.
+// Maximum strain at a vertex of a straight strand, in radians. Rounding leaves this much of a
+// straight strand in any direction.
 #define STRAIGHT_STRAIN 5e-5
-// Vertices of a straight guide: the scheme of straight rods loses one of more that a spinning head pulls taut.
+// Maximum vertices of a guide for the scheme of straight rods. A longer guide loses its length when
+// a spinning head pulls it taut.
 #define MOST_STRAIGHT 32
 
 static int is_curved(const struct hair_rod_shape* s)
@@ -321,7 +342,8 @@ static int is_curved(const struct hair_rod_shape* s)
     return 0;
 }
 
-// Whether a stiffness is beyond what the matrix of straight rods can be factored with in single precision.
+// Return whether some stiffness is too large to factor the matrix of straight rods in single
+// precision.
 static int is_fine(const struct hair_rod_shape* s, double h)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i)

@@ -1,7 +1,9 @@
 // rod_shape.c - a guide's lengths, masses, stiffness, frames and strain in its groom.
 #include "lib/sim/rod_shape.h"
 
-#define SHORTEST 1e-9 // m. The shortest segment of the shortest strand that a groom keeps is about as long.
+// Minimum length of a segment, m. The shortest segment of the shortest strand of a groom is about
+// as long.
+#define SHORTEST 1e-9
 #define TWO_PI 6.283185307179586
 
 static hair_dvec3 along(hair_dquat q)
@@ -20,7 +22,8 @@ static hair_dquat load_frame(const hair_vec4* q)
     return unit((hair_dquat){(double)q->x, (double)q->y, (double)q->z, (double)q->w});
 }
 
-// A frame from the groom, which is rounded: turned by as little as it takes for y to be just along the segment.
+// Return a frame of the groom, corrected for rounding. The smallest rotation aligns its y axis with
+// the segment.
 static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
 {
     hair_dquat q = load_frame(rounded);
@@ -29,7 +32,7 @@ static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
     if (!(size > 0)) return q;
     hair_dvec3 to = hair_dscale(segment, 1 / size), c = hair_dcross(from, to);
     double w = 1 + hair_ddot(from, to);
-    if (w < 1e-6) return hair_dmultiply(q, (hair_dquat){1, 0, 0, 0}); // No frame of its segment.
+    if (w < 1e-6) return hair_dmultiply(q, (hair_dquat){1, 0, 0, 0}); // Not a frame of its segment.
     return unit(hair_dmultiply(unit((hair_dquat){c.x, c.y, c.z, w}), q));
 }
 
@@ -96,29 +99,30 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
         out->stress[i] = (hair_dvec3){0, 0, 0};
     }
     out->rest_real[out->count - 1] = 0;
-    // Only from a clamp can a strand stand out: from a hinge it hangs, and free it falls, bearing nothing.
+    // Only a clamped strand can balance gravity. A hinged strand hangs, and a free strand falls.
     out->load = hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->hold : 0);
     find_masses(out, rest, physics);
     find_turns(out, guide, rest);
 }
 
-// Return the stiffness of the hinge at the clamp over B / l, from the weight that hangs on it. It is 2
-// without weight: the hinge then stands for half a segment. Far from the clamp a chain under the tension T
-// that leaves it at a small angle straightens by the factor r a segment, where r + 1/r = 2 + p^2 and p = l
-// sqrt(T / B). Its moment at the clamp is made that of a continuous rod, sqrt(B T) times the angle. The
-// tension is taken to be all the weight, whichever way the strand hangs, and the factor that of the round
-// section.
+// Return the stiffness of the hinge at the clamp, divided by B / l. B is the bending stiffness
+// `bend`, l the segment's length, and T the tension. Without weight the result is 2, because the
+// hinge then stands for half a segment. A chain under tension that leaves the clamp at a small
+// angle straightens by the factor r per segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). The
+// result gives the chain the moment of a continuous rod at the clamp, sqrt(B T) times the angle.
+// The tension is taken to be the whole weight, whichever way the strand hangs. The section is taken
+// to be round.
 //
-// Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns by the
-// moment 2 sqrt(B T) sin(a / 2), and its curvature k has integral k^2 ds = 4 sqrt(T / B) (1 - cos(a / 2)).
-// Segments are as long as the arcs they stand for, and the chords of those are shorter by the fraction l^2
-// k^2 / 24. A chain thus hangs too low by
+// Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns
+// by the moment 2 sqrt(B T) sin(a / 2). Its curvature k has the integral k^2 ds = 4 sqrt(T / B) (1
+// - cos(a / 2)). Segments are as long as the arcs they stand for. The chords of those arcs are
+// shorter by the fraction l^2 k^2 / 24. A chain thus hangs too low by
 //
 //   l^2 / 6 sqrt(T / B) (1 - cos(a / 2))
 //
-// Limp strands from a level or rising clamp are off by at most 1.3 times that, with this factor and the
-// energy of the mixed scheme: see tests/unit/rod_rest_test.c. Neither another stiffness of the clamp nor
-// another part of the second term of its energy comes much nearer.
+// With this factor and the energy of the mixed scheme, limp strands from a level or rising clamp
+// are off by at most 1.3 times that. See tests/unit/rod_rest_test.c. Neither another stiffness of
+// the clamp nor another part of the second term of its energy comes much nearer.
 static double clamp_factor(double length, double weight, double bend)
 {
     double p = length * sqrt(weight / bend);

@@ -1,4 +1,5 @@
-// rods.c - guides as rods on the GPU: made of the groom and the physics, and again when the physics change.
+// rods.c - guides as rods on the GPU: made of the groom and the physics, and again when the physics
+// change.
 #include "lib/sim/sim.h"
 
 #include <string.h>
@@ -35,8 +36,8 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
     return 0;
 }
 
-// For work groups only, and of methods that have such systems. Ends with a row of nothing, which is read for vertices that a
-// guide has not.
+// For work groups only, and of methods that have such systems. Ends with a row of nothing, which is
+// read for vertices that a guide has not.
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
                                   GLuint* buffer, uint32_t* rounds)
 {
@@ -61,8 +62,8 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     return result;
 }
 
-// By doubling, so that little is made anew while a level of detail changes; one doubling at a time, so that what is drawn
-// does not catch up in leaps.
+// By doubling, so that little is made anew while a level of detail changes; one doubling at a time,
+// so that what is drawn does not catch up in leaps.
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;

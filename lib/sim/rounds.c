@@ -1,9 +1,10 @@
 // rounds.c - how often a software rasteriser goes round the loops of a substep.
 //
-// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops together, and says
-// nothing. So it is counted at the worst: methods are tried with all their steps, and fail; each vertex is in reach of all
-// solids. Of eight guides, each a thread's, all go round for as long as one of them does. A loop that nobody enters goes
-// round once. Only rounds from solid to solid of a list would be too many so, though there are few as a rule: a thread
+// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops
+// together, and says nothing. So it is counted at the worst: methods are tried with all their
+// steps, and fail; each vertex is in reach of all solids. Of eight guides, each a thread's, all go
+// round for as long as one of them does. A loop that nobody enters goes round once. Only rounds
+// from solid to solid of a list would be too many so, though there are few as a rule: a thread
 // counts those itself, and stops at HAIR_CONTACT_ROUNDS.
 #include "lib/sim/sim.h"
 
@@ -50,9 +51,10 @@ static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
     return by_thread ? HAIR_MIXED_STEPS_BY_THREAD(sim->most_vertices) : HAIR_MIXED_STEPS;
 }
 
-// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep takes one Newton step. In a step
-// 14 loops go over the guide in mixed_step.glsl and what it includes. Where a part begins and ends 23 do, in mixed.glsl,
-// mixed_chain.glsl, mixed_parts.glsl and accept.glsl.
+// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep
+// takes one Newton step. In a step 14 loops go over the guide in mixed_step.glsl and what it
+// includes. Where a part begins and ends 23 do, in mixed.glsl, mixed_chain.glsl, mixed_parts.glsl
+// and accept.glsl.
 static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 {
     uint32_t most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
@@ -62,14 +64,16 @@ static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
     return loops;
 }
 
-// Return the loops of follow-the-leader, but for its drawing: what predicts, meets solids and accepts.
+// Return the loops of follow-the-leader, but for its drawing: what predicts, meets solids and
+// accepts.
 static struct loops loops_of_follow(const struct hair_sim* sim)
 {
     uint32_t met = hair_sim_contacts(sim) > 0, tied = sim->ties.count > 0;
     return (struct loops){.over = 4 + tied + met * (2 + DRAWN_AGAIN * 4)};
 }
 
-// From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be found.
+// From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be
+// found.
 static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, int first)
 {
     if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
@@ -100,7 +104,8 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
     }
 }
 
-// Of a vertex that looks up solids in a list, which is gone through twice for each method and the last when it is made.
+// Of a vertex that looks up solids in a list, which is gone through twice for each method and the
+// last when it is made.
 static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
@@ -114,7 +119,8 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
     if (sim->contacts.any) return rounds_of_list(sim, by_thread);
-    // Others are walked through: BODY_STEPS. The mixed scheme looks once in a Newton step, and twice when it leads.
+    // Others are walked through: BODY_STEPS. The mixed scheme looks once in a Newton step, and
+    // twice when it leads.
     uint32_t looks = hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) + 4 : 44;
     return solids ? looks * (solids + 10 + 12 * others) : 0;
 }

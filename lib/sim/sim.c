@@ -115,7 +115,8 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     if (sim->rods) hair_sim_write_rods(sim, params);
 }
 
-// What smooth.comp needs to place the strands between the ends of the last substep, under the head's pose now.
+// What smooth.comp needs to place the strands between the ends of the last substep, under the
+// head's pose now.
 static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
 {
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
@@ -142,13 +143,15 @@ void hair_sim_show(struct hair_sim* sim)
     upload(sim, &params);
 }
 
-// Of the step that is done at the end of substep `i`, where the first begins `from` seconds into it, or before it.
+// Of the step that is done at the end of substep `i`, where the first begins `from` seconds into
+// it, or before it.
 static double share_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
 {
     return fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
 }
 
-// The next `count` substeps, of which the first begins `from` seconds into a step of `dt`, or before it.
+// The next `count` substeps, of which the first begins `from` seconds into a step of `dt`, or
+// before it.
 static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
                            double dt)
 {
@@ -213,7 +216,8 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
     hair_air_blow(&sim->air, sim->gl, &now);
 }
 
-// `total` substeps, after which sim->left is what is left of the step. `again`: it has begun already.
+// `total` substeps, after which sim->left is what is left of the step. `again`: it has begun
+// already.
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
@@ -280,7 +284,8 @@ static void tidy_up(struct hair_sim* sim)
 
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
-    // Where only the rate has changed, substeps change their length between two of them: so nothing that is drawn jumps.
+    // Where only the rate has changed, substeps change their length between two of them: so nothing
+    // that is drawn jumps.
     int waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
     int again = 0;
     double from = -sim->left;
@@ -351,7 +356,8 @@ void hair_sim_reset(struct hair_sim* sim)
     run_over_vertices(sim, hair_sim_reset_pass(sim, hair_skin_is_on(sim)), &params);
 }
 
-// The whole past goes along with the head, so that nothing swings: every pose by the same rigid motion.
+// The whole past goes along with the head, so that nothing swings: every pose by the same rigid
+// motion.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
     hair_result result = hair_gl_need(sim->gl, hair_sim_turn_pass(sim));

@@ -1,13 +1,14 @@
 // taut.c - strands that a heavy tip pulls taut.
 //
-// Under the weight W_i of all beyond segment i a strand swings crosswise, vertex against vertex, with at most
+// Under the weight W_i of all beyond segment i a strand swings crosswise, vertex against vertex,
+// with at most
 //
 //   w^2 = 2 (W_(i-1) / l_(i-1) + W_i / l_i) / m_i
 //
-// What keeps lengths takes their directions to be known, and no longer finds them where w b goes far beyond 1, b being
-// h or, of BDF2, 2/3 h. There vertices are given more inertia, not weight: they rest where they did, and what is added
-// vanishes with h squared. It is little beside the tip's: with 32 vertices and a tip of 1000 times the strand's mass a
-// hundredth.
+// What keeps lengths takes their directions to be known, and no longer finds them where w b goes
+// far beyond 1, b being h or, of BDF2, 2/3 h. There vertices are given more inertia, not weight:
+// they rest where they did, and what is added vanishes with h squared. It is little beside the
+// tip's: with 32 vertices and a tip of 1000 times the strand's mass a hundredth.
 #include "lib/sim/rod_shape.h"
 
 #define MOST_PHASE 2.7 // w b. Measured: with 5 lengths get lost when the head shakes, with 3.3 hardly ever.
