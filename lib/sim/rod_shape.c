@@ -114,9 +114,12 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
 // to be round.
 //
 // Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns
-// by the moment 2 sqrt(B T) sin(a / 2). Its curvature k has the integral k^2 ds = 4 sqrt(T / B) (1
-// - cos(a / 2)). Segments are as long as the arcs they stand for. The chords of those arcs are
-// shorter by the fraction l^2 k^2 / 24. A chain thus hangs too low by
+// by the moment 2 sqrt(B T) sin(a / 2). Its curvature k along the arc length s satisfies
+//
+//   integral k^2 ds = 4 sqrt(T / B) (1 - cos(a / 2))
+//
+// Segments are as long as the arcs they stand for. The chords of those arcs are shorter by the
+// fraction l^2 k^2 / 24. A chain thus hangs too low by
 //
 //   l^2 / 6 sqrt(T / B) (1 - cos(a / 2))
 //

@@ -1,32 +1,38 @@
-// rods.c - guides as rods on the GPU: made of the groom and the physics, and again when the physics
-// change.
+// rods.c - rods of the guides on the GPU, made from the groom and the physics. They are made again
+// when the physics change.
 #include "lib/sim/sim.h"
 
 #include <string.h>
 
 struct hair_rods {
-    struct hair_guide* guides; // copies: the groom may be gone when physics change
+    // Copies, because the groom may be destroyed before the physics change.
+    struct hair_guide* guides;
     struct hair_rest* rest;
     struct hair_rod_borne* borne;
     hair_physics made_for, borne_for;
     struct hair_rods_report report;
-    int held; // whether `borne` is of borne_for
-    int mixed; // The mixed scheme solves the guides: see glsl/sim/mixed.glsl.
-    int stiff; // for SHAKE, some
-    int struck; // made for: sim->struck,
-    uint32_t tied; // and sim->ties.which;
-    uint32_t longer; // and substeps so many times as long as the solver wants them
+    int held; // 1 if `borne` is up to date for `borne_for`.
+    int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
+    int stiff; // 1 if some guides are too stiff for SHAKE.
+    int struck; // Value of sim->struck that the rods were made for.
+    uint32_t tied; // Value of sim->ties.which that the rods were made for.
+    uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
 };
 
+// Maximum length of a substep that is longer than the solver's own, s. Substeps twice as long lose
+// lengths.
 #define LONGEST                                                                                              \
-    (1.0 / 60) // s: of a substep that is longer than the solver wants. Lengths get lost in twice that.
+    (1.0 / 60)
 
-#define ROWS_IN_GROUP 64 // vertices whose rows a work group has memory for: see glsl/sim/mixed_rows.glsl
+// Maximum vertices whose rows fit into a work group's memory. See glsl/sim/mixed_rows.glsl.
+#define ROWS_IN_GROUP 64
 
-#define UNSEEN 0.25 // s: for so long hair is taken to be seen any moment
+#define UNSEEN 0.25 // Time without a view after which hair counts as unseen, s.
 
+// Divisor of the accurate solver's own substep once there are colliders. From 1.5 on, no substep
+// falls back to another method when the head shakes over colliders.
 #define CONTACT_MARGIN                                                                                       \
-    1.6 // of substeps. Measured: from 1.5 on nothing falls back in a head's shake over solids
+    1.6
 
 static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {
@@ -36,8 +42,8 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
     return 0;
 }
 
-// For work groups only, and of methods that have such systems. Ends with a row of nothing, which is
-// read for vertices that a guide has not.
+// Create the reduction buffer. It is empty unless work groups run a method with implicit systems.
+// The buffer ends with a row of zeros, which shaders read for vertices beyond the end of a guide.
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
                                   GLuint* buffer, uint32_t* rounds)
 {
@@ -62,8 +68,9 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     return result;
 }
 
-// By doubling, so that little is made anew while a level of detail changes; one doubling at a time,
-// so that what is drawn does not catch up in leaps.
+// Return the multiple of the solver's own substep length for the current rate. Multiples are powers
+// of two, so that rods are seldom made again while a level of detail changes. They change by one
+// doubling at a time, so that the drawn hair does not leap.
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
@@ -84,7 +91,8 @@ static int are_mixed(const struct hair_sim* sim)
                                sim->asked_substep);
 }
 
-// Return the bytes of forces and turns, and of the rows of a work group that has no room for them.
+// Return the size of forces and turns, in bytes. Include the rows if they do not fit into the
+// memory of a work group.
 static size_t bend_size(const struct hair_sim* sim)
 {
     size_t each = sim->most_vertices > ROWS_IN_GROUP ? 3 + HAIR_MIXED_ROW_VECTORS : 3;
@@ -100,7 +108,7 @@ static void hold(struct hair_sim* sim)
     rods->held = 1;
 }
 
-// All that depends on physics, in a new buffer: what is under way keeps the old one.
+// Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
 static hair_result make(struct hair_sim* sim, int struck)
 {
     const hair_host* host = &sim->gl->host;
@@ -113,7 +121,7 @@ static hair_result make(struct hair_sim* sim, int struck)
     if (substep == 0) {
         substep = hair_rods_substep(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
                                     sim->solver, mixed);
-        // Impacts stir what bending in explicit steps can only just bear.
+        // Impacts can destabilise explicit bending that is near its limit.
         if (struck && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
     uint32_t longer = times_longer(sim);
@@ -193,7 +201,7 @@ hair_result hair_sim_need_crowd(struct hair_sim* sim)
     return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
 }
 
-// 1: solids have come, and the accurate solver's own substep is another then.
+// Return 1 if the presence of colliders has changed the accurate solver's own substep.
 static int is_struck_anew(const struct hair_sim* sim, int struck)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;

@@ -1,37 +1,50 @@
-// rounds.c - how often a software rasteriser goes round the loops of a substep.
+// rounds.c - upper bounds on the loop iterations of a substep on a software rasteriser.
 //
-// llvmpipe leaves every loop of a shader once it has gone round 65,535 times in all its loops
-// together, and says nothing. So it is counted at the worst: methods are tried with all their
-// steps, and fail; each vertex is in reach of all solids. Of eight guides, each a thread's, all go
-// round for as long as one of them does. A loop that nobody enters goes round once. Only rounds
-// from solid to solid of a list would be too many so, though there are few as a rule: a thread
-// counts those itself, and stops at HAIR_CONTACT_ROUNDS.
+// llvmpipe leaves every loop of a shader after 65,535 iterations of all its loops together, and
+// reports no error. The functions here therefore count the worst case. In the worst case, all steps
+// of all methods are tried and fail, and each vertex is in reach of all colliders. With a thread
+// per guide, eight guides run together, and iterate for as long as one of them does. A loop that no
+// thread enters takes one iteration. The worst case is too many for iterations from collider to
+// collider of a list, which are usually few. Threads count those themselves, and stop at
+// HAIR_CONTACT_ROUNDS.
 #include "lib/sim/sim.h"
 
-#define TRIED 2u // methods, before a last one follows the leader. It may be some guides' second.
-#define LOOKS 9u // at lengths, for each of them, and
-#define STEPS 8u // between these: MOST_STEPS of glsl/sim/lengths.glsl
+// Number of methods tried before follow-the-leader. For some guides the second method is already
+// that.
+#define TRIED 2u
+#define LOOKS 9u // Length checks per method.
+#define STEPS 8u // Newton steps between the length checks. MOST_STEPS of glsl/sim/lengths.glsl.
+// Sweeps of follow-the-leader with a heavy tip. HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro,
+// and one more.
 #define HEAVY_SWEEPS                                                                                         \
-    13 // of following the leader: HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro, and once more
-#define DRAWN_AGAIN 3u // by follow, after contact: CONTACT_ROUNDS of glsl/sim/follow.comp
-#define TIED_SWEEPS 18 // likewise, TIED_ROUNDS,
-#define TIED_ENDS 30 // and what begins and ends these, for each tie
-#define CACHED 16 // of a work group, each time that a vertex looks at solids: see glsl/sim/contact_cache.glsl
-#define MOST_LOOKS 20u // at solids of a list: for each method tried, and two of what is led. Each goes
-#define TIMES 6u // through it, ROUNDS of glsl/sim/contact_any.glsl, and
-#define TIMES_WALKED 2u // to those that are walked through
-#define LEAST_LOOKS 4u // of a thread that has no rounds left, each once through
-#define HALVINGS 10 // of a work group's vertices, and what ends them: cyclic reduction
-#define AT_ONCE 8u // guides, where each is a thread's
-#define IDLE 500 // of loops that go over methods and steps, and of those that nobody enters,
-#define IDLE_GROUP 250 // more of a work group, and what it sums up
+    13
+// Times that the solver follow draws a strand again after contact. CONTACT_ROUNDS of
+// glsl/sim/follow.comp.
+#define DRAWN_AGAIN 3u
+// Sweeps of follow-the-leader with pins. TIED_ROUNDS of glsl/sim/leader.glsl, to and fro, and two
+// more.
+#define TIED_SWEEPS 18
+#define TIED_ENDS 30 // Iterations per pin that begin and end these sweeps.
+// Iterations over cached colliders each time that a vertex of a work group tests colliders. See
+// glsl/sim/contact_cache.glsl.
+#define CACHED 16
+// Times that a vertex tests the colliders of a list, for all methods tried and two for
+// follow-the-leader.
+#define MOST_LOOKS 20u
+#define TIMES 6u // Passes through a list per test. ROUNDS of glsl/sim/contact_any.glsl.
+#define TIMES_WALKED 2u // Passes per test through the colliders that need sphere tracing.
+#define LEAST_LOOKS 4u // Tests, of one pass each, by a thread that has no iterations left.
+#define HALVINGS 10 // Iterations of cyclic reduction by a work group, with those that end the loop.
+#define AT_ONCE 8u // Guides that run together with a thread per guide.
+#define IDLE 500 // Iterations of loops over methods and steps, and of loops that no thread enters.
+#define IDLE_GROUP 250 // Further such iterations of a work group, with those of its sums.
 
-// Of one substep, loops over a strand.
+// Number of loops over a strand in one substep.
 struct loops {
-    uint32_t over; // each vertex by itself: a work group goes over all of them at once
-    uint32_t rows; // tridiagonal systems: there and back, or a work group's reduction
-    uint32_t along; // from vertex to vertex, which is one thread's in any case
-    uint32_t ends; // rounds, whatever the strand has
+    uint32_t over; // Loops over independent vertices. A work group runs all vertices at once.
+    uint32_t rows; // Tridiagonal systems, solved there and back, or reduced by a work group.
+    uint32_t along; // Loops from vertex to vertex, which always run on one thread.
+    uint32_t ends; // Iterations that do not depend on the number of vertices.
 };
 
 static uint32_t lesser(uint32_t a, uint32_t b)
@@ -39,7 +52,7 @@ static uint32_t lesser(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-// STIFFLY of glsl/sim/lengths.glsl.
+// Return STIFFLY of glsl/sim/lengths.glsl.
 static uint32_t stiff_steps(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_DIRECT ? 1 : hair_sim_is_stiff(sim) ? 3 : 0;
@@ -51,9 +64,9 @@ static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
     return by_thread ? HAIR_MIXED_STEPS_BY_THREAD(sim->most_vertices) : HAIR_MIXED_STEPS;
 }
 
-// Return the loops of the mixed scheme at the worst, when every attempt at a part of a substep
-// takes one Newton step. In a step 14 loops go over the guide in mixed_step.glsl and what it
-// includes. Where a part begins and ends 23 do, in mixed.glsl, mixed_chain.glsl, mixed_parts.glsl
+// Return the loops of the mixed scheme in the worst case, when every attempt at a part of a substep
+// takes one Newton step. A step has 14 loops over the guide in mixed_step.glsl and what it
+// includes. The begin and end of a part have 23, in mixed.glsl, mixed_chain.glsl, mixed_parts.glsl
 // and accept.glsl.
 static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 {
@@ -64,16 +77,16 @@ static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
     return loops;
 }
 
-// Return the loops of follow-the-leader, but for its drawing: what predicts, meets solids and
-// accepts.
+// Return the loops of follow-the-leader that predict, handle colliders and accept. Loops that draw
+// the strand are not included.
 static struct loops loops_of_follow(const struct hair_sim* sim)
 {
     uint32_t met = hair_sim_contacts(sim) > 0, tied = sim->ties.count > 0;
     return (struct loops){.over = 4 + tied + met * (2 + DRAWN_AGAIN * 4)};
 }
 
-// From where predict.glsl says that a strand would go, to lengths.glsl saying that they cannot be
-// found.
+// Return the loops of all methods, from predict.glsl until lengths.glsl fails to find the lengths.
+// `first` is 1 for a program that only tries the solver's own method.
 static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, int first)
 {
     if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
@@ -89,12 +102,12 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
     return loops;
 }
 
-// What leader.glsl adds. A strand that solids have a hand in is led twice.
+// Add the loops of leader.glsl. A strand that touches colliders follows the leader twice.
 static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* loops)
 {
     uint32_t met = hair_sim_contacts(sim) > 0;
     uint32_t led = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
-    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Their spans are where they like.
+    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Pins differ between guides.
     loops->over += led * 3;
     if (sim->ties.count) {
         loops->along += led * (TIED_SWEEPS * abreast + 1);
@@ -104,8 +117,8 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
     }
 }
 
-// Of a vertex that looks up solids in a list, which is gone through twice for each method and the
-// last when it is made.
+// Return the iterations of a vertex that looks up colliders in a list. Making the list goes through
+// it twice for each method tried, and for follow-the-leader.
 static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
@@ -114,27 +127,27 @@ static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
     return made + MOST_LOOKS * (TIMES * (cells->longest + 2 + CACHED) + TIMES_WALKED * cells->rounds);
 }
 
-// Of a vertex, in all tries of a substep.
+// Return the iterations of a vertex over colliders, in all attempts of a substep.
 static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
     if (sim->contacts.any) return rounds_of_list(sim, by_thread);
-    // Others are walked through: BODY_STEPS. The mixed scheme looks once in a Newton step, and
-    // twice when it leads.
+    // Other colliders need sphere tracing of BODY_STEPS steps. The mixed scheme tests colliders
+    // once per Newton step, and twice when it follows the leader.
     uint32_t looks = hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) + 4 : 44;
     return solids ? looks * (solids + 10 + 12 * others) : 0;
 }
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int first)
 {
-    uint32_t around = sim->most_vertices + 1; // A loop goes round once more to find that it is at its end.
+    uint32_t around = sim->most_vertices + 1; // The last iteration finds the end.
     uint32_t each = rounds_of_contact(sim, by_thread);
     uint32_t at_root = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);
-    uint32_t look = (TRIED + 1) * at_root; // Of few solids also by guide.
+    uint32_t look = (TRIED + 1) * at_root; // Few colliders are also tested once per guide.
     uint32_t spare = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
-    loops.over += 4; // It is loaded, taken for true or put back, and stored.
+    loops.over += 4; // The guide is loaded, accepted or reset, and stored.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)
         return around * (loops.over + 2 * loops.rows + loops.along + each) + loops.ends + look + spare + IDLE;

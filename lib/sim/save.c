@@ -6,8 +6,7 @@
 //        20  the fields, as walk() lists them
 //   the end  u64 FNV-1a hash of all bytes before
 //
-// The hash finds what was damaged; against harm every field is checked as well, for anyone can make
-// a hash.
+// The hash finds what was damaged; against harm every field is checked as well, for anyone can make a hash.
 #include "lib/sim/sim.h"
 #include "lib/sim/walk.h"
 
@@ -131,8 +130,8 @@ static void walk_ties(struct hair_walk* c, struct hair_ties* ties, struct loaded
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_knot(c, &knot[i]);
 }
 
-// Within a block of substeps what other hair does is part of the state. An instance without
-// cohesion and volume reads over it.
+// Within a block of substeps what other hair does is part of the state. An instance without cohesion and volume reads
+// over it.
 static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t vertices)
 {
     size_t size = vertices * sizeof(hair_vec4);
@@ -142,8 +141,8 @@ static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t v
     if (!crowd->push) hair_walk_over(c, "crowd's accelerations", size);
 }
 
-// Forces and turns of segments. An instance without the mixed scheme reads over them. One that
-// lacks them begins without: hair_sim_load clears its buffer.
+// Forces and turns of segments. An instance without the mixed scheme reads over them. One that lacks them begins without:
+// hair_sim_load clears its buffer.
 static void walk_bend(struct hair_walk* c, struct hair_sim* sim)
 {
     size_t size = 3 * sim->guide_vertices * sizeof(hair_vec4);
@@ -196,8 +195,7 @@ static void walk_sleep(struct hair_walk* c, struct hair_sim* sim)
         hair_walk_buffer(c, "anchors of guides", sleep->anchor, sim->guide_vertices * sizeof(hair_vec4));
 }
 
-// The air of a fluid that has a past. An instance without one, or with another, reads over it and
-// begins with the wind.
+// The air of a fluid that has a past. An instance without one, or with another, reads over it and begins with the wind.
 static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
 {
     struct hair_fluid* fluid = &blow->fluid;
@@ -314,8 +312,8 @@ static hair_result read(struct hair_walk* c, struct hair_sim* sim, struct loaded
                                loaded->before.count);
 }
 
-// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a
-// dispatch has just written.
+// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has
+// just written.
 static hair_result upload(const struct hair_walk* c)
 {
     GLuint source = 0;

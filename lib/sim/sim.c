@@ -1,13 +1,16 @@
-// sim.c - the accumulator: time comes in any portions, substeps go out of one length.
+// sim.c - the accumulator, which divides steps of any length into substeps of one length.
 #include "lib/sim/sim.h"
 
 #include <string.h>
 
 #define TWO_PI 6.28318530718f
 #define REDBLACK_SUBSTEP (1.0 / 120)
-#define EARLY 1e-6 // of a substep
-#define MOST_OF_THREAD 128 // vertices: what keeps more for itself NVIDIA's driver does not link
-#define FARTHEST 1e4f // m in a substep: beyond it redblack.comp puts strands back in their rest pose
+#define EARLY 1e-6 // Tolerance of the end of a substep, as a fraction of a substep.
+// Maximum vertices of a guide for a thread per guide. NVIDIA's driver fails to link programs with
+// more private memory.
+#define MOST_OF_THREAD 128
+// Maximum displacement in a substep, m. Beyond it redblack.comp resets strands to their rest pose.
+#define FARTHEST 1e4f
 
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 {
@@ -115,12 +118,12 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     if (sim->rods) hair_sim_write_rods(sim, params);
 }
 
-// What smooth.comp needs to place the strands between the ends of the last substep, under the
-// head's pose now.
+// Write the parameters by which smooth.comp interpolates strands within the last substep, under the
+// current pose of the head.
 static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
 {
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
-    int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Then there is no between.
+    int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Too far to interpolate.
     double span = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
     params->alpha = far ? 1 : (float)fmin(sim->left / span, 1);
     params->rotation_before = vec4_of_quat(sim->last_before.rotation);
@@ -139,19 +142,19 @@ void hair_sim_show(struct hair_sim* sim)
     struct hair_step_params params = {0};
     write_physics(sim, &params);
     write_now(sim, &params);
-    params.rotation_now = vec4_of_quat(sim->at_step.rotation); // The head may have been moved since.
+    params.rotation_now = vec4_of_quat(sim->at_step.rotation); // The head may have moved.
     upload(sim, &params);
 }
 
-// Of the step that is done at the end of substep `i`, where the first begins `from` seconds into
-// it, or before it.
+// Return the fraction of a step of dt that is done at the end of substep `i`. The first substep
+// begins `from` seconds into the step, which may be negative.
 static double share_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
 {
     return fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
 }
 
-// The next `count` substeps, of which the first begins `from` seconds into a step of `dt`, or
-// before it.
+// Write the next `count` substeps. The first begins `from` seconds into a step of `dt`, which may
+// be negative.
 static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
                            double dt)
 {
@@ -203,7 +206,7 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
     return result ? result : hair_sim_need_solver(sim);
 }
 
-// `count` substeps of the parameters.
+// Write the wind for `count` substeps of the parameters.
 static void write_air(struct hair_sim* sim, const struct hair_step_params* params, uint32_t count)
 {
     const struct hair_air_now now = {.wind = &sim->wind,
@@ -216,8 +219,8 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
     hair_air_blow(&sim->air, sim->gl, &now);
 }
 
-// `total` substeps, after which sim->left is what is left of the step. `again`: it has begun
-// already.
+// Run `total` substeps. sim->left is already the time that remains after them. `again` is 1 if the
+// step has begun already.
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
@@ -269,13 +272,14 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
     if (!crowd) sim->crowd.beat = 0;
 }
 
-// A hair's breadth early, so that 2/120 s holds two 1/120 s.
+// Return the number of substeps that fit into a time. The tolerance EARLY makes 2/120 s hold two
+// substeps of 1/120 s.
 static uint32_t count_substeps(const struct hair_sim* sim, double time)
 {
     return (uint32_t)(time / sim->substep + EARLY);
 }
 
-// What is of no use any more.
+// Free what is no longer used.
 static void tidy_up(struct hair_sim* sim)
 {
     if (!sim->solids.now.count && sim->contacts.solid) hair_contacts_free(sim);
@@ -284,8 +288,8 @@ static void tidy_up(struct hair_sim* sim)
 
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
-    // Where only the rate has changed, substeps change their length between two of them: so nothing
-    // that is drawn jumps.
+    // If only the rate has changed, finish the current substep at its old length first. The drawn
+    // hair then does not jump.
     int waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
     int again = 0;
     double from = -sim->left;
@@ -324,7 +328,7 @@ void hair_sim_pass_time(struct hair_sim* sim, double dt)
     hair_solids_settle(&sim->solids);
 }
 
-// Head and solids are where they are, and were never elsewhere.
+// Discard the past of the head, the colliders and the fluid, as if all had always been at rest.
 static void settle(struct hair_sim* sim)
 {
     sim->last_before = sim->last_after = sim->at_step = sim->head;
@@ -356,8 +360,7 @@ void hair_sim_reset(struct hair_sim* sim)
     run_over_vertices(sim, hair_sim_reset_pass(sim, hair_skin_is_on(sim)), &params);
 }
 
-// The whole past goes along with the head, so that nothing swings: every pose by the same rigid
-// motion.
+// Move all past poses by the rigid motion that moves the head, so that the hair does not swing.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
     hair_result result = hair_gl_need(sim->gl, hair_sim_turn_pass(sim));
@@ -375,8 +378,8 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     }
     hair_ties_teleport(sim, &from, to);
     hair_sleep_stir(sim);
-    sim->crowd.beat = 0; // What other hair does was found for how the head was turned.
-    hair_solids_forget(&sim->solids); // Where they were says nothing about how they move now.
+    sim->crowd.beat = 0; // The grid's accelerations are for the old rotation of the head.
+    hair_solids_forget(&sim->solids); // Old positions imply no velocities.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now = vec4_of_quat(to->rotation);

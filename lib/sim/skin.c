@@ -149,8 +149,8 @@ void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, s
     skin->fresh = 1;
 }
 
-// The scalp that is to come is there, seen from the head: conj(r) s (p + conj(s) (t - o)), with s
-// and t its space and r and o the head, so that what is far out cancels first.
+// The scalp that is to come is there, seen from the head: conj(r) s (p + conj(s) (t - o)), with s and t its space and r
+// and o the head, so that what is far out cancels first.
 static void take_fresh(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;

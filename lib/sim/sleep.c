@@ -1,8 +1,8 @@
 // sleep.c - whether guides have come to rest, and what stirs them again.
 //
-// What comes to rest does so by about as much less in every round of looks as in the one before: of
-// a round's way d after one of d_0, d q / (1 - q) is left, q = d / d_0. What neither comes nor goes
-// is taken for what rounding leaves, or for a slow creep, of which NEARLY_ALL says how slow.
+// What comes to rest does so by about as much less in every round of looks as in the one before: of a round's way d after
+// one of d_0, d q / (1 - q) is left, q = d / d_0. What neither comes nor goes is taken for what rounding leaves, or for a
+// slow creep, of which NEARLY_ALL says how slow.
 #include "lib/sim/sleep.h"
 #include "lib/sim/sim.h"
 
@@ -24,8 +24,8 @@
 #define MOST_GROUPS 256
 #define LONGEST_WAIT 1000000000u // ns: of who saves, never of a step
 
-// s: until guides are looked at for the first time, then from a look to the next. Not in step with
-// each other, so that whatever swings is not met at the same place time after time.
+// s: until guides are looked at for the first time, then from a look to the next. Not in step with each other, so that
+// whatever swings is not met at the same place time after time.
 #define FIRST 0.2
 static const double gaps[ROUND] = {0.10, 0.13, 0.17};
 
@@ -191,8 +191,7 @@ static void look(struct hair_sim* sim)
     }
 }
 
-// Take the answer, if it is there after no longer than `wait`, ns. What cannot be had is that all
-// is in motion.
+// Take the answer, if it is there after no longer than `wait`, ns. What cannot be had is that all is in motion.
 static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;

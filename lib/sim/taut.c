@@ -1,27 +1,30 @@
-// taut.c - strands that a heavy tip pulls taut.
+// taut.c - tip inertia: added inertia for strands that a heavy tip pulls taut.
 //
-// Under the weight W_i of all beyond segment i a strand swings crosswise, vertex against vertex,
-// with at most
+// Let W_i be the weight of all beyond segment i, l_i the length of segment i, and m_i the mass of
+// vertex i. Vertices of the strand oscillate crosswise against each other with an angular frequency
+// of at most
 //
 //   w^2 = 2 (W_(i-1) / l_(i-1) + W_i / l_i) / m_i
 //
-// What keeps lengths takes their directions to be known, and no longer finds them where w b goes
-// far beyond 1, b being h or, of BDF2, 2/3 h. There vertices are given more inertia, not weight:
-// they rest where they did, and what is added vanishes with h squared. It is little beside the
-// tip's: with 32 vertices and a tip of 1000 times the strand's mass a hundredth.
+// The length constraints take the directions of segments to be known, and fail where w b is far
+// beyond 1. In a substep of length h, b is 2/3 h for BDF2, and h for other methods. Such vertices
+// get more inertia, but no more weight. They rest where they did, and the added inertia vanishes
+// with h squared. The added inertia is small beside that of the tip. With 32 vertices and a tip of
+// 1000 times the strand's mass, it is a hundredth.
 #include "lib/sim/rod_shape.h"
 
-#define MOST_PHASE 2.7 // w b. Measured: with 5 lengths get lost when the head shakes, with 3.3 hardly ever.
+// Maximum of w b. When the head shakes, lengths get lost with 5, and hardly ever with 3.3.
+#define MOST_PHASE 2.7
 
 static int is_heavy(const struct hair_rod_shape* s)
 {
     double length = 0;
     for (uint32_t i = 0; i < s->count; ++i) length += s->length[i];
     return s->held && !s->tied[s->count - 1] &&
-           s->mass[s->count - 1] > length; // As glsl/sim/rod.comp has it.
+           s->mass[s->count - 1] > length; // As in glsl/sim/rod.comp.
 }
 
-// Crosswise stiffness at vertices 1 to count - 2, times 2.
+// Compute twice the crosswise stiffness at vertices 1 to count - 2.
 static void find_stiffness(const struct hair_rod_shape* s, double* out)
 {
     double weight = s->mass[s->count - 1] * s->gravity;

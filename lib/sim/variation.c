@@ -2,8 +2,8 @@
 // Newton's step.
 //
 // The forces F_i, the stress G, e and (w, v) are those of statics.c. Let segment i turn by a_i, as
-// its own frame sees it: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a
-// vertex, k its stiffness and R the ratios of rod.h. To second order the vertex's energy changes by
+// its own frame sees it: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex,
+// k its stiffness and R the ratios of rod.h. To second order the vertex's energy changes by
 //
 //   G . du + k/2 du . R du - (G . v + e w) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2
 //     + e v . (a - b) + k R_z/2 (v . (a - b))^2 + e/2 a . (w + [v]x) b

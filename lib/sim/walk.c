@@ -1,4 +1,4 @@
-// walk.c - the fields of a saved state, one by one.
+// walk.c - serialization of the fields of a saved state.
 #include "lib/sim/walk.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "lib/base/bytes.h"
 
-// Whether the next `size` bytes are there to be read.
+// Return whether the next `size` bytes can be read. Fail if the state ends before them.
 static int can_read(struct hair_walk* c, const char* name, size_t size)
 {
     if (!c->read || c->result) return 0;
@@ -19,7 +19,7 @@ static int can_read(struct hair_walk* c, const char* name, size_t size)
 
 static void check(struct hair_walk* c, const char* name, double value, double least, double most)
 {
-    if (c->result || (value >= least && value <= most)) return; // Written so that NaN fails too.
+    if (c->result || (value >= least && value <= most)) return; // NaN fails this test too.
     c->result = hair_fail(c->host, HAIR_ERROR_FILE,
                           "the %s at byte %zu of the saved state is %.9g, not in [%.9g, %.9g]", name, c->at,
                           value, least, most);
@@ -113,7 +113,7 @@ void hair_walk_buffer(struct hair_walk* c, const char* name, GLuint buffer, size
     if (c->write) {
         unsigned char* at = c->write + c->at;
         c->gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, at);
-        for (size_t i = 0; i < size / 4; ++i) { // In place, from the machine's order of bytes.
+        for (size_t i = 0; i < size / 4; ++i) { // Convert from native byte order in place.
             uint32_t bits;
             memcpy(&bits, at, sizeof bits);
             at = hair_write_u32(at, bits);
