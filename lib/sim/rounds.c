@@ -107,7 +107,8 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
 {
     uint32_t met = hair_sim_contacts(sim) > 0;
     uint32_t led = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
-    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1; // Pins differ between guides.
+    // Guides that run together may have their pins at different vertices.
+    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1;
     loops->over += led * 3;
     if (sim->ties.count) {
         loops->along += led * (TIED_SWEEPS * abreast + 1);

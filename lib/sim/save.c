@@ -1,12 +1,14 @@
-// save.c - the moving part of a simulation as bytes that may come back from anywhere.
+// save.c - the changing state of a simulation as bytes. Bytes to load may come from untrusted
+// sources.
 //
 //   byte  0  "hairsave"
 //         8  u32 version
-//        12  u64 bytes of all
-//        20  the fields, as walk() lists them
+//        12  u64 size of the whole state in bytes
+//        20  the fields, in the order of walk()
 //   the end  u64 FNV-1a hash of all bytes before
 //
-// The hash finds what was damaged; against harm every field is checked as well, for anyone can make a hash.
+// The hash detects damage. Every field is checked as well, because an attacker can compute the hash
+// too.
 #include "lib/sim/sim.h"
 #include "lib/sim/walk.h"
 
@@ -15,13 +17,15 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 15 // Version of the list in walk() and of what its fields mean: raise it with either.
+#define VERSION 15 // Version of the fields in walk() and of their meaning. Raise it with any change of these.
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
 
-#define MOST_PLACE 1e9 // m: of the head, as in hair_set_transform
-#define MOST_PAST 1e12 // m: of a pose before it, which teleports between two steps take further
+#define MOST_PLACE 1e9 // Maximum coordinate of the head, m. hair_set_transform has this limit too.
+// Maximum coordinate of an earlier pose, m. Teleports between two steps can move these poses
+// farther.
+#define MOST_PAST 1e12
 #define LEAST_SUBSTEP 1e-6 // s
 #define MOST_SUBSTEP 0.11
 
@@ -29,25 +33,27 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
-#define MOST_BEAT 2000 // substeps of a block of the crowd or the fluid: more than there are of the shortest
-#define MOST_CELLS 1e16 // from the world's origin to the fluid's box
+// Maximum substeps of a block of the hair-hair grid or the fluid. The shortest substeps need fewer.
+#define MOST_BEAT 2000
+#define MOST_CELLS 1e16 // Maximum distance of the fluid's box from the world's origin, in cells.
 #define MOST_CALM 1e9 // s
-#define MOST_LONGER 16 // by the least hair_physics.rate
-#define SOLID_WORDS 14 // of a solid, before the mark of its form and its key
+#define MOST_LONGER 16 // 1 / the minimum of hair_physics.rate.
+// Number of words of a collider before the mark of its collision mesh and its key.
+#define SOLID_WORDS 14
 #define SOLID_BYTES (4 * SOLID_WORDS + 16)
 #define KNOT_BYTES 36
 
-// What is read, before it is checked and forms are held.
+// Loaded arrays, before they are checked and collision meshes are held.
 struct loaded {
     struct loaded_solids {
         hair_solid* solid;
         uint32_t count;
     } now, before;
-    struct hair_knot* knot; // of ties
+    struct hair_knot* knot; // Pins.
     uint32_t ties;
 };
 
-// The form of that mark among the solids there are. NULL: none.
+// Return the collision mesh with a mark among the present colliders. Return NULL if there is none.
 static const hair_form* find_form(const struct hair_solids* solids, uint64_t mark)
 {
     const struct hair_solid_list* lists[] = {&solids->now, &solids->before};
@@ -59,7 +65,7 @@ static const hair_form* find_form(const struct hair_solids* solids, uint64_t mar
     return NULL;
 }
 
-// As bits: hair_solids_restore knows which of the numbers matter to a shape.
+// Serialize a collider as bits. hair_solids_restore() checks the numbers that matter to its shape.
 static void walk_solid(struct hair_walk* c, const struct hair_solids* there, hair_solid* solid)
 {
     for (size_t k = 0; k < SOLID_WORDS; ++k) {
@@ -80,7 +86,8 @@ static void walk_solid(struct hair_walk* c, const struct hair_solids* there, hai
     if (solid->shape == HAIR_SHAPE_FORM) solid->form = find_form(there, marks[0] | (uint64_t)marks[1] << 32);
 }
 
-// Read into `loaded`. There are no more than bytes for them.
+// Serialize a list of colliders. Read into `loaded`, and fail if the count exceeds the bytes
+// available.
 static void walk_solids(struct hair_walk* c, const char* name, struct hair_solids* there,
                         struct hair_solid_list* list, struct loaded_solids* loaded)
 {
@@ -109,7 +116,7 @@ static void walk_knot(struct hair_walk* c, struct hair_knot* knot)
     for (int k = 0; k < 3; ++k) hair_walk_double(c, "place of a tie", &knot->place[k], -MOST_PAST, MOST_PAST);
 }
 
-// Read into `loaded`, as solids are.
+// Serialize the pins. Read into `loaded`, as for colliders.
 static void walk_ties(struct hair_walk* c, struct hair_ties* ties, struct loaded* loaded)
 {
     struct hair_knot* knot = ties->knot;
@@ -130,8 +137,8 @@ static void walk_ties(struct hair_walk* c, struct hair_ties* ties, struct loaded
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_knot(c, &knot[i]);
 }
 
-// Within a block of substeps what other hair does is part of the state. An instance without cohesion and volume reads
-// over it.
+// Serialize the accelerations of the hair-hair grid, which are part of the state within a block of
+// substeps. An instance without cohesion and volume skips them.
 static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t vertices)
 {
     size_t size = vertices * sizeof(hair_vec4);
@@ -141,8 +148,8 @@ static void walk_crowd(struct hair_walk* c, struct hair_crowd* crowd, uint32_t v
     if (!crowd->push) hair_walk_over(c, "crowd's accelerations", size);
 }
 
-// Forces and turns of segments. An instance without the mixed scheme reads over them. One that lacks them begins without:
-// hair_sim_load clears its buffer.
+// Serialize the forces and turns of segments. An instance without the mixed scheme skips them. If
+// the state lacks them, hair_sim_load() clears the buffer of the instance.
 static void walk_bend(struct hair_walk* c, struct hair_sim* sim)
 {
     size_t size = 3 * sim->guide_vertices * sizeof(hair_vec4);
@@ -154,7 +161,7 @@ static void walk_bend(struct hair_walk* c, struct hair_sim* sim)
     if (!sim->bend) hair_walk_over(c, "forces and turns of segments", size);
 }
 
-// Where a skinned scalp is, which hair_sim_load has made ready for, and where it has roots.
+// Serialize a skinned scalp and the scalp motion. hair_sim_load() has created the buffers.
 static void walk_skin(struct hair_walk* c, struct hair_sim* sim, int skinned)
 {
     struct hair_skin* skin = &sim->skin;
@@ -171,7 +178,7 @@ static void walk_skin(struct hair_walk* c, struct hair_sim* sim, int skinned)
     hair_walk_buffer(c, "scalp to come", skin->scalp[1], size);
 }
 
-// Whether hair sleeps, and what has been seen of its coming to rest.
+// Serialize the sleep state and the measurements of activity.
 static void walk_sleep(struct hair_walk* c, struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
@@ -195,7 +202,8 @@ static void walk_sleep(struct hair_walk* c, struct hair_sim* sim)
         hair_walk_buffer(c, "anchors of guides", sleep->anchor, sim->guide_vertices * sizeof(hair_vec4));
 }
 
-// The air of a fluid that has a past. An instance without one, or with another, reads over it and begins with the wind.
+// Serialize the air of a fluid that has a past. An instance without a fluid, or with another fluid,
+// skips the air and begins with the wind.
 static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
 {
     struct hair_fluid* fluid = &blow->fluid;
@@ -219,11 +227,12 @@ static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
     if (!own) blow->beat = 0;
 }
 
-// All that is saved, in order: of which haircut it is, and what the coming motion depends on.
+// Serialize all fields in order. They identify the haircut, and hold all that the coming motion
+// depends on.
 static void walk(struct hair_walk* c, struct hair_sim* sim, struct loaded* loaded)
 {
     int skinned = hair_skin_is_on(sim);
-    hair_walk_flag(c, "mark of a skinned scalp", &skinned); // First, so that hair_sim_load can look.
+    hair_walk_flag(c, "mark of a skinned scalp", &skinned); // hair_sim_load() reads this first field.
     hair_walk_same(c, "solver", sim->solver);
     hair_walk_same(c, "substep", sim->asked_substep);
     hair_walk_same(c, "number of guides", sim->guides);
@@ -297,7 +306,7 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
     return HAIR_OK;
 }
 
-// Into `sim`, which is a copy, `loaded`, `solids` and c->own.
+// Read and check a state. Fill in `sim`, which is a copy, and `loaded`, `solids` and c->own.
 static hair_result read(struct hair_walk* c, struct hair_sim* sim, struct loaded* loaded,
                         struct hair_solids* solids)
 {
@@ -312,8 +321,8 @@ static hair_result read(struct hair_walk* c, struct hair_sim* sim, struct loaded
                                loaded->before.count);
 }
 
-// By the GPU, in its order: one driver was seen to lose what the CPU writes into a buffer that a dispatch has
-// just written.
+// Upload the buffers by GPU copies, which run in order with dispatches. One driver was seen to lose
+// CPU writes into a buffer that a dispatch had just written.
 static hair_result upload(const struct hair_walk* c)
 {
     GLuint source = 0;
@@ -330,8 +339,9 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
 {
     const hair_host* host = &sim->gl->host;
     hair_result result = check_frame(host, bytes, size);
-    if (!result) result = hair_sim_need_crowd(sim); // Its accelerations may be among what is loaded,
-    if (!result) result = hair_blow_need(sim); // and its air.
+    // The state may contain accelerations of the hair-hair grid and the air of a fluid.
+    if (!result) result = hair_sim_need_crowd(sim);
+    if (!result) result = hair_blow_need(sim);
     int skinned = !result && size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
     if (skinned && !sim->skin.seats)
         result = hair_fail(
@@ -339,7 +349,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
             "the saved state is another's: its scalp is skinned, and the instance's groom has none");
     if (!result && skinned) result = hair_skin_make(sim);
     if (result) return result;
-    struct hair_sim own = *sim; // becomes what is loaded
+    struct hair_sim own = *sim; // Copy that receives the loaded state.
     struct loaded loaded = {0};
     struct hair_walk c = {.host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
     own.sleep.fence = NULL;

@@ -1,4 +1,4 @@
-// skin.c - the buffers of a skinned scalp, and the passes that follow it.
+// skin.c - the buffers of a skinned scalp, and the passes that compute the scalp motion.
 #include "lib/sim/skin.h"
 #include "lib/sim/sim.h"
 
@@ -142,15 +142,20 @@ void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, s
     hair_gl_write_uniform(gl, skin->scalp[1], scalp_size(skin), NULL);
     bind(sim, skin->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); // What shaders of the host have written into it.
+    // Shaders of the application may have written the buffer.
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     hair_gl_run(gl, HAIR_GL_SCALP, (skin->seats->vertex_count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
     skin->space = *space;
     skin->fresh = 1;
 }
 
-// The scalp that is to come is there, seen from the head: conj(r) s (p + conj(s) (t - o)), with s and t its space and r
-// and o the head, so that what is far out cancels first.
+// Make the new scalp the current one. Its transform into the head's frame maps a position p to
+//
+//   conj(r) s (p + conj(s) (t - o))
+//
+// where s and t are the rotation and position of its space, and r and o those of the head. In this
+// order, large coordinates cancel first.
 static void take_fresh(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;

@@ -1,32 +1,46 @@
-// sleep.c - whether guides have come to rest, and what stirs them again.
+// sleep.c - detection of guides that have come to rest, and of events that wake them.
 //
-// What comes to rest does so by about as much less in every round of looks as in the one before: of a round's way d after
-// one of d_0, d q / (1 - q) is left, q = d / d_0. What neither comes nor goes is taken for what rounding leaves, or for a
-// slow creep, of which NEARLY_ALL says how slow.
+// Hair comes to rest about geometrically. Let d_0 and d be the distances moved in one round of
+// measurements and in the next, and q = d / d_0. The distance still to go is then
+//
+//   d q / (1 - q)
+//
+// Motion that does not decay is taken for rounding, or for a slow creep. NEARLY_ALL is the maximum
+// of q, and limits that creep.
 #include "lib/sim/sleep.h"
 #include "lib/sim/sim.h"
 
 #include <string.h>
 
-#define ROUND 3 // looks
-#define LEAST_STEPS 4 // from a look until its answer is used: a GPU is three frames behind at most,
-#define LEAST_TIME 0.1 // s: of which each may have several steps
-#define NEARLY_ALL 0.95 // q: 19 times d is left
+#define ROUND 3 // Number of measurements in a round.
+// Minimum number of steps from a measurement to the use of its answer. A GPU is at most three
+// frames behind.
+#define LEAST_STEPS 4
+// Minimum time from a measurement to the use of its answer, s. A frame may have several steps.
+#define LEAST_TIME 0.1
+#define NEARLY_ALL 0.95 // Maximum of q. 19 times d is then still to go.
+// Minimum duration of a round, relative to the round before, for which the two can be compared.
+// Answers may be late.
 #define LIKE                                                                                                 \
-    0.75 // of a round is the least that one after it takes if they can be compared: answers may be late
-#define SPEED_SPAN 0.03 // s: in which what moves as fast as was seen gets no farther than it may
+    0.75
+// Time in which hair at the measured speed may not exceed the allowed distance, s.
+#define SPEED_SPAN 0.03
+// Fraction of hair_physics.sleep that the distance still to go may have. The head may move a
+// quarter. The rest is for motion between measurements.
 #define SHARE                                                                                                \
-    0.5f // of what may be left. The head may go a quarter; the rest is for what is seen between looks
-#define HEAD_SHARE 0.25f
-#define LOOSE 1.05f // hair may stretch a little
+    0.5f
+#define HEAD_SHARE 0.25f // Fraction of hair_physics.sleep that motion of the head may have.
+#define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
+// Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
+// for FIT and MOST_GIVE of contacts.c.
 #define AROUND                                                                                               \
-    0.1f // m: farther from hair no solid matters to it: FIT and MOST_GIVE of contacts.c, and its margin
+    0.1f
 #define MOST_GROUPS 256
-#define LONGEST_WAIT 1000000000u // ns: of who saves, never of a step
+#define LONGEST_WAIT 1000000000u // Maximum wait of a save, ns. Steps never wait.
 
-// s: until guides are looked at for the first time, then from a look to the next. Not in step with each other, so that
-// whatever swings is not met at the same place time after time.
-#define FIRST 0.2
+#define FIRST 0.2 // Time until the first measurement, s.
+// Times from each measurement to the next, s. They differ, so that an oscillation is not sampled at
+// the same phase each time.
 static const double gaps[ROUND] = {0.10, 0.13, 0.17};
 
 static void drop_answer(struct hair_sim* sim)
@@ -43,7 +57,7 @@ void hair_sleep_free(struct hair_sim* sim)
     drop_answer(sim);
     hair_gl_free_buffer(sim->gl, &sleep->anchor);
     hair_gl_free_buffer(sim->gl, &sleep->stir);
-    hair_gl_free_buffer(sim->gl, &sleep->seen); // Which is unmapped by that.
+    hair_gl_free_buffer(sim->gl, &sleep->seen); // Deletion unmaps the buffer.
     hair_gl_free_buffer(sim->gl, &sleep->params);
     sleep->mapped = NULL;
 }
@@ -55,7 +69,7 @@ void hair_sleep_stir(struct hair_sim* sim)
 
 // Events that wake hair ---------------------------------------------------------------------------
 
-// No point of hair goes farther from one pose to the other.
+// Return an upper bound on the distance that any point of hair moves between two poses.
 static float distance_between(const struct hair_pose* a, const struct hair_pose* b, float reach)
 {
     hair_quat p = a->rotation, q = b->rotation;
@@ -64,7 +78,7 @@ static float distance_between(const struct hair_pose* a, const struct hair_pose*
     return hair_length(hair_pose_offset(a, b)) + 2.01f * sqrtf(x * x + y * y + z * z + w * w) * reach;
 }
 
-// On its way from one place to the other, or at one of them.
+// Return whether a collider comes near the hair on its way from `a` to `b`.
 static int comes_near(const struct hair_sim* sim, const hair_solid* a, const hair_solid* b)
 {
     const hair_solid* ends[] = {a, b};
@@ -113,14 +127,14 @@ int hair_sleep_is_stirred(const struct hair_sim* sim)
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return 1;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
     if (hair_wind_is_unsteady(&sim->wind)) return 1;
-    // Air goes around them, however far they are.
+    // Colliders deflect the wind at any distance.
     if (sim->solids.changed && sim->air.params && sim->solids.now.count + sim->solids.before.count > 0)
         return 1;
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
     return !(far <= HEAD_SHARE * sim->physics.sleep) || has_solid_near(sim);
 }
 
-// Calm begins with what is now.
+// Restart the calm period under the current conditions.
 static void calm_down(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
@@ -174,7 +188,7 @@ static void look(struct hair_sim* sim)
     gl->CopyNamedBufferSubData(sleep->stir, sleep->seen, at, at, 2 * sizeof(uint32_t));
     sleep->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     sleep->due = sleep->calm + gaps[sleep->looks % ROUND];
-    sleep->waits = sleep->looks > 0; // The first has nothing to compare with.
+    sleep->waits = sleep->looks > 0; // The first has no anchors.
     sleep->steps = 0;
     sleep->time = 0;
     ++sleep->looks;
@@ -191,7 +205,8 @@ static void look(struct hair_sim* sim)
     }
 }
 
-// Take the answer, if it is there after no longer than `wait`, ns. What cannot be had is that all is in motion.
+// Read the answer if it arrives within `wait`, ns. If the answer cannot be had, assume that all
+// hair moves.
 static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;

@@ -1,7 +1,7 @@
-// statics.c - forces and stress of a rod in a pose, and the poses in which it rests.
+// statics.c - forces and stress of a rod in a pose, and its poses of rest.
 //
-// Let F_i be the force on all beyond segment i, by gravity g and the pull p_k = m_k w_k^2 to the
-// groom's places X_k:
+// Let x_k be the position of vertex k, m_k its mass, and X_k its position in the groom. Let F_i be
+// the force on all beyond segment i, by gravity g and the pull p_k = m_k w_k^2 to the groom:
 //
 //   F_i = sum_(k > i) m_k g + p_k (X_k - x_k)
 //
@@ -9,29 +9,33 @@
 //
 //   M_i = M_(i+1) + l_i t_i x F_i,   M_(n-1) = 0
 //
-// Let (w, v) = conj(q_(i-1)) q_i. Turning segment i by d, as segment i-1 sees it, changes the
-// strain 2 v by w d + d x v, and 2 w by -v . d. The stress G = dE/du and e = dE/d(2 w) thus exert
-// the moment M = w G + v x G - e v. In a pose whose 2 w are those at rest e is 0. The stress for a
-// moment is then
+// where l_i is the length of segment i, and t_i its direction.
+//
+// Let (w, v) = conj(q_(i-1)) q_i. A turn of segment i by d, in the frame of segment i-1, changes
+// the strain u = 2 v by w d + d x v, and 2 w by -v . d. The stress G = dE/du and e = dE/d(2 w) thus
+// exert the moment M = w G + v x G - e v. In a pose whose 2 w equal those at rest, e is 0. The
+// stress for a moment is then
 //
 //   G = w M + v (v . M) / w - v x M
 //
-// A pose at rest is found by Newton's method on the turns of the segments: variation.c. Where the
-// matrix is not positive, a multiple of the unit matrix is added. Each step is halved until it does
-// not raise the energy.
+// A pose of rest is found by Newton's method on the turns of the segments, as in variation.c. Where
+// the matrix is not positive, a multiple of the unit matrix is added. Each step is halved until it
+// does not raise the energy.
 #include "lib/sim/statics.h"
 
 #include <string.h>
 
-#define LEAST_COSINE 1e-6 // of half the angle between segments; at 0 there is no stress for some moments
-#define LONGEST_TURN 0.5 // of a segment in one step, radians
-#define HALVINGS 30 // of a step, at most
-#define ROUNDING 1e-14 // error of the energy, as a fraction
-#define AT_REST 1e-10 // torque that ends the search, as a fraction of the greatest possible
-#define KICK 1e-3 // torque that is tried in an unstable pose without any, as a fraction
-#define FIRST_SHIFT 1e-3 // added multiple of the unit matrix, over the greatest stiffness
-#define SHIFT_GROWTH 4.0
-#define LAST_SHIFT 1e6
+// Minimum cosine of half the angle between segments. At 0 there is no stress for some moments.
+#define LEAST_COSINE 1e-6
+#define LONGEST_TURN 0.5 // Maximum turn of a segment in one step, radians.
+#define HALVINGS 30 // Maximum halvings of a step.
+#define ROUNDING 1e-14 // Rounding error of the energy, as a fraction.
+#define AT_REST 1e-10 // Torque that ends the search, as a fraction of the maximum possible.
+// Torque that is tried in an unstable pose without torque, as a fraction of the maximum possible.
+#define KICK 1e-3
+#define FIRST_SHIFT 1e-3 // First added multiple of the unit matrix, over the maximum stiffness.
+#define SHIFT_GROWTH 4.0 // Growth factor of the added multiple.
+#define LAST_SHIFT 1e6 // Upper limit of the added multiple, over the maximum stiffness.
 
 static hair_dvec3 axis_of(hair_dquat q)
 {
@@ -40,7 +44,7 @@ static hair_dvec3 axis_of(hair_dquat q)
 
 void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
 {
-    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0])); // of the scalp
+    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0])); // Frame of the scalp.
     out->place[0] = (hair_dvec3){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat q = frames[i], r = hair_dmultiply(hair_dconjugate(before), q);
@@ -70,19 +74,21 @@ static hair_dvec3 stress_for(hair_dquat turn, hair_dvec3 moment)
     return hair_dadd(hair_dadd(hair_dscale(moment, w), hair_dscale(v, twist)), hair_dscale(across, -1));
 }
 
-// Moments as the frame of the segment they act on sees them: q_i* M_i = q_i* M_(i+1) + l_i y x F_i.
+// The moments are in the frame of the segment they act on:
+//
+//   q_i* M_i = q_i* M_(i+1) + l_i y x F_i
 void hair_rod_balance(const struct hair_rod_shape* s, struct hair_rod_pose* pose)
 {
     hair_dvec3 moment = {0, 0, 0};
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 lever = {s->length[i] * pose->force[i].z, 0, -s->length[i] * pose->force[i].x};
-        moment = hair_drotate(pose->turn[i], hair_dadd(moment, lever)); // As the segment before sees it.
+        moment = hair_drotate(pose->turn[i], hair_dadd(moment, lever)); // In frame i-1.
         pose->stress[i] = stress_for(pose->turn[i], moment);
         pose->real_stress[i] = 0;
     }
 }
 
-// Return what a turn differs from the rest shape by.
+// Return the difference of a turn from the rest shape.
 static hair_dquat excess_of(hair_rod_rest rest, hair_dquat turn)
 {
     return (hair_dquat){2 * turn.x - rest.x, 2 * turn.y - rest.y, 2 * turn.z - rest.z, 2 * turn.w - rest.w};
@@ -115,8 +121,8 @@ static double energy_of(const struct hair_rod_shape* s, const hair_rod_rest* res
     return energy;
 }
 
-// Return the derivative of vertex i's energy by the turn of the segment after it, and with a `side`
-// of -1 by that of the segment before, as these segments see it.
+// Return the derivative of vertex i's energy by the turn of the segment after it. With a `side` of
+// -1, return that by the turn of the segment before. Each is in the frame of its segment.
 static hair_dvec3 slope_at(const struct hair_rod_pose* pose, uint32_t i, int side)
 {
     hair_dvec3 g = pose->stress[i], v = axis_of(pose->turn[i]);
@@ -124,7 +130,7 @@ static hair_dvec3 slope_at(const struct hair_rod_pose* pose, uint32_t i, int sid
     return hair_dadd(hair_dscale(own, side), hair_dcross(g, v));
 }
 
-// Set `out` to the derivative of the energy by the turns. Return the greatest torque.
+// Set `out` to the derivative of the energy by the turns. Return the maximum torque.
 static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, hair_dvec3* out)
 {
     double most = 0;
@@ -154,7 +160,7 @@ static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, cons
     hair_rod_pose_at(s, to, pose);
 }
 
-// Take a step along the turns that does not raise the energy. Return 0 when there is none.
+// Take a step along the turns that does not raise the energy. Return 0 if there is no such step.
 static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
                    const hair_dvec3* turns, struct hair_rod_pose* pose)
 {

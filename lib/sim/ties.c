@@ -1,4 +1,4 @@
-// ties.c - ties as they are given, checked and sorted, and as the solvers read them.
+// ties.c - pins: checking, sorting, and upload for the solvers.
 #include "lib/sim/sim.h"
 
 #include <stdlib.h>
@@ -24,7 +24,7 @@ static hair_result check(const struct hair_sim* sim, const hair_tie* tie, uint32
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "ties[%u].to is %d, not in [0, %d]", i, (int)tie->to,
                          HAIR_TIE_WORLD);
     for (int k = 0; k < 3; ++k)
-        if (!(fabsf(tie->position[k]) <= 1e9f)) // NaN too.
+        if (!(fabsf(tie->position[k]) <= 1e9f)) // Rejects NaN too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT, "ties[%u].position[%d] is %g, not in [-1e9, 1e9]", i,
                              k, (double)tie->position[k]);
     return HAIR_OK;

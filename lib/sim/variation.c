@@ -1,9 +1,9 @@
-// variation.c - a rod's energy to second order in the turns of its segments: what is stable, and
-// Newton's step.
+// variation.c - a rod's energy to second order in the turns of its segments. It gives the test for
+// stability, and the step of Newton's method.
 //
-// The forces F_i, the stress G, e and (w, v) are those of statics.c. Let segment i turn by a_i, as
-// its own frame sees it: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex,
-// k its stiffness and R the ratios of rod.h. To second order the vertex's energy changes by
+// The forces F_i, the stress G, e and (w, v) are those of statics.c. Let segment i turn by a_i in
+// its own frame: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex, k its
+// stiffness, and R the ratios of rod.h. To second order the vertex's energy changes by
 //
 //   G . du + k/2 du . R du - (G . v + e w) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2
 //     + e v . (a - b) + k R_z/2 (v . (a - b))^2 + e/2 a . (w + [v]x) b
@@ -17,18 +17,19 @@
 //
 //   dx_(i+1) = dx_i + D_i a_i,   D_i a = l_i q_i (a x y) q_i*
 //
-// This ties every segment to every other. But all that is beyond vertex i knows of the rest is x =
-// dx_i and a = a_(i-1). Its least energy
+// This couples every segment to every other. But the part beyond vertex i depends on the rest only
+// through x = dx_i and a = a_(i-1). The minimum of its energy is
 //
-//   V_i(x, a) = min_b [vertex_i(a, b) + segment_i(b) + p_(i+1) |x + D_i b|^2 / 2 + V_(i+1)(x + D_i b, b)]
+//   V_i(x, a) = min_b [vertex_i(a, b) + segment_i(b) + p_(i+1) |x + D_i b|^2 / 2
+//                      + V_(i+1)(x + D_i b, b)]
 //
-// is again quadratic, from V_(n-1) = 0 at the tip to V_0(0, 0) at the clamp. The whole is positive
-// when the 3 x 3 matrix of each b is. This is a Riccati recursion, and linear in the number of
-// vertices. Twist is among the turns. The test thus finds all buckling of a rod, in and out of
-// plane.
+// V_i is again quadratic, from V_(n-1) = 0 at the tip to V_0(0, 0) at the clamp. The whole energy
+// is positive when the 3 x 3 matrix of each b is positive. This is a Riccati recursion, and its
+// cost is linear in the number of vertices. The turns include twist. The test thus finds all
+// buckling of a rod, in and out of plane.
 //
-// Small motions about a pose swing at a squared frequency of more than W when the energy less sum_k
-// m_k W |dx_k|^2 / 2 is positive. This is a pull that is weaker by W.
+// Small motions about a pose oscillate at a squared frequency of more than W when the energy less
+// sum_k m_k W |dx_k|^2 / 2 is positive. This term is equivalent to a pull that is weaker by W.
 #include "lib/sim/statics.h"
 
 #include <string.h>
@@ -37,7 +38,7 @@ struct block {
     double m[3][3];
 };
 
-// out += a b
+// Compute out += a b.
 static void add_product(struct block* out, const struct block* a, const struct block* b)
 {
     for (int r = 0; r < 3; ++r)
@@ -45,7 +46,7 @@ static void add_product(struct block* out, const struct block* a, const struct b
             out->m[r][c] += a->m[r][0] * b->m[0][c] + a->m[r][1] * b->m[1][c] + a->m[r][2] * b->m[2][c];
 }
 
-// out += sign a^T b
+// Compute out += sign a^T b.
 static void add_transposed(struct block* out, double sign, const struct block* a, const struct block* b)
 {
     for (int r = 0; r < 3; ++r)
@@ -54,7 +55,8 @@ static void add_transposed(struct block* out, double sign, const struct block* a
                 sign * (a->m[0][r] * b->m[0][c] + a->m[1][r] * b->m[1][c] + a->m[2][r] * b->m[2][c]);
 }
 
-// a = L L^T, L in the lower half, which alone is read. 0 when a is not positive.
+// Factor a = L L^T. Read only the lower half of a, and write L there. Return 0 if a is not
+// positive.
 static int factor(struct block* a)
 {
     for (int c = 0; c < 3; ++c) {
@@ -71,7 +73,7 @@ static int factor(struct block* a)
     return 1;
 }
 
-// x = L^-1 x
+// Compute x = L^-1 x.
 static void solve_lower(const struct block* l, double* x, int stride)
 {
     for (int r = 0; r < 3; ++r) {
@@ -80,7 +82,7 @@ static void solve_lower(const struct block* l, double* x, int stride)
     }
 }
 
-// x = L^-T x
+// Compute x = L^-T x.
 static void solve_upper(const struct block* l, double* x)
 {
     for (int r = 3; r-- > 0;) {
@@ -89,8 +91,9 @@ static void solve_upper(const struct block* l, double* x)
     }
 }
 
+// Second derivatives of a vertex's energy by the turns a a, b a and b b.
 struct hinge {
-    struct block before, between, after; // of turns a a, b a, b b
+    struct block before, between, after;
 };
 
 static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
@@ -98,10 +101,12 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_r
     const hair_dquat t = pose->turn[i];
     const hair_dvec3 q = pose->stress[i];
     const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
-    const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}}; // by -a: transposed
+    // Derivative of du by b. That by -a is the transpose.
+    const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
     const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
     const double strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
-    double by_a[3][3], with_b[3][3]; // du by a, negative, and by b; times the stiffness
+    // Stiffness times the derivative of du by -a, and by b.
+    double by_a[3][3], with_b[3][3];
     struct hinge h;
     for (int n = 0; n < 3; ++n)
         for (int c = 0; c < 3; ++c) {
@@ -124,7 +129,7 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_r
     return h;
 }
 
-// D_i of segment i.
+// Return D_i of segment i.
 static struct block swing_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
     hair_dvec3 x = hair_drotate(pose->frame[i], (hair_dvec3){s->length[i], 0, 0});
@@ -132,16 +137,18 @@ static struct block swing_of(const struct hair_rod_shape* s, const struct hair_r
     return (struct block){{{z.x, 0, -x.x}, {z.y, 0, -x.y}, {z.z, 0, -x.z}}};
 }
 
-// V_(i+1) before, V_i after its turn: x . xx x / 2 + x . xa a + a . aa a / 2 + along_x . x +
-// along_a . a.
+// Quadratic energy of the part beyond a vertex, V_(i+1) before eliminate() and V_i after it:
+//
+//   V(x, a) = x . xx x / 2 + x . xa a + a . aa a / 2 + along_x . x + along_a . a
 struct beyond {
     struct block xx, xa, aa;
     double along_x[3], along_a[3];
 };
 
 struct stage {
-    struct block pivot, by_x, by_a; // L of b's matrix; L^-1 of what x and a add to b's slope
-    double slope[3]; // L^-1 of b's
+    // L of b's matrix, and L^-1 times the derivatives of b's slope by x and by a.
+    struct block pivot, by_x, by_a;
+    double slope[3]; // L^-1 times b's slope.
 };
 
 static struct block pivot_of(const struct hair_rod_pose* pose, uint32_t i, double length,
@@ -162,11 +169,12 @@ static struct block pivot_of(const struct hair_rod_pose* pose, uint32_t i, doubl
 }
 
 struct matrix {
-    double shift; // added to the diagonal
-    double squared_frequency; // what swings slower counts as unstable
+    double shift; // Shift that is added to the diagonal.
+    double squared_frequency; // Slower oscillations count as unstable.
 };
 
-// From V_(i+1) to V_i. 0 when it has no least. `slope`: of the energy, or NULL.
+// Advance from V_(i+1) to V_i. Return 0 if there is no minimum. `slope` is the derivative of the
+// energy by the turn of segment i. NULL omits the linear terms.
 static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
                      struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
 {
