@@ -17,7 +17,8 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/form.h"
 
-#define VERSION 15 // Version of the fields in walk() and of their meaning. Raise it with any change of these.
+// Version of the fields in walk() and of their meaning. Raise it with any change of these.
+#define VERSION 15
 #define HEADER 20
 #define TRAILER 8
 #define MAGIC "hairsave"
@@ -232,7 +233,8 @@ static void walk_blow(struct hair_walk* c, struct hair_blow* blow)
 static void walk(struct hair_walk* c, struct hair_sim* sim, struct loaded* loaded)
 {
     int skinned = hair_skin_is_on(sim);
-    hair_walk_flag(c, "mark of a skinned scalp", &skinned); // hair_sim_load() reads this first field.
+    // hair_sim_load() reads this field in advance, so it is the first.
+    hair_walk_flag(c, "mark of a skinned scalp", &skinned);
     hair_walk_same(c, "solver", sim->solver);
     hair_walk_same(c, "substep", sim->asked_substep);
     hair_walk_same(c, "number of guides", sim->guides);

@@ -44,7 +44,8 @@ static hair_dvec3 axis_of(hair_dquat q)
 
 void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
 {
-    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0])); // Frame of the scalp.
+    // Frame of the segment before, which is that of the scalp at first.
+    hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0]));
     out->place[0] = (hair_dvec3){0, 0, 0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat q = frames[i], r = hair_dmultiply(hair_dconjugate(before), q);

@@ -101,7 +101,7 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_r
     const hair_dquat t = pose->turn[i];
     const hair_dvec3 q = pose->stress[i];
     const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
-    // Derivative of du by b. That by -a is the transpose.
+    // Derivative of du by b. The transpose is the derivative by -a.
     const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
     const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
     const double strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
