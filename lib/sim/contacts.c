@@ -1,5 +1,5 @@
-// contacts.c - colliders of any shape and number: the GPU buffers of the colliders, and of the
-// lists that tell which colliders are in which cell.
+// contacts.c - colliders of any shape and number. The colliders, and the lists of the colliders in
+// each cell, are in GPU buffers.
 #include "lib/sim/sim.h"
 
 // Assumed maximum displacement by the fitting of lengths, beyond free motion, m. FIT of

@@ -12,9 +12,9 @@
 //
 //   e_i = sum_(k > i) m_k (s_k - s_i)
 //
-// where m is the mass of a vertex and s its arc length. e_i is the moment that all beyond vertex i
-// would exert on it if it stood out straight. On the built-in haircuts, this lever adds about half
-// as much stiffness as one multiple for all vertices.
+// where m is the mass of a vertex and s its arc length. The lever e_i is the moment that all beyond
+// vertex i would exert on it if it stood out straight. On the built-in haircuts, this lever adds
+// about half as much stiffness as one multiple for all vertices.
 //
 // Where three times is not enough, the guide holds another pose, which sags. The candidates are the
 // poses y(t) of rest of a guide three times as stiff under t times the gravity, with the groom as

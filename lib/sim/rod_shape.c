@@ -124,7 +124,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
 //   l^2 / 6 sqrt(T / B) (1 - cos(a / 2))
 //
 // With this factor and the energy of the mixed scheme, limp strands from a level or rising clamp
-// are off by at most 1.3 times that. See tests/unit/rod_rest_test.c. Neither another stiffness of
+// have at most 1.3 times this error. See tests/unit/rod_rest_test.c. Neither another stiffness of
 // the clamp nor another part of the second term of its energy comes much nearer.
 static double clamp_factor(double length, double weight, double bend)
 {

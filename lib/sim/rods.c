@@ -42,8 +42,9 @@ static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
     return 0;
 }
 
-// Create the reduction buffer. It is empty unless work groups run a method with implicit systems.
-// The buffer ends with a row of zeros, which shaders read for vertices beyond the end of a guide.
+// Create the reduction buffer. The buffer is empty unless work groups run a method with implicit
+// systems. A buffer with systems ends with a row of zeros, which shaders read for vertices beyond
+// the end of a guide.
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
                                   GLuint* buffer, uint32_t* rounds)
 {

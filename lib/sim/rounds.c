@@ -10,7 +10,7 @@
 #include "lib/sim/sim.h"
 
 // Number of methods tried before follow-the-leader. For some guides the second method is already
-// that.
+// follow-the-leader.
 #define TRIED 2u
 #define LOOKS 9u // Length checks per method.
 #define STEPS 8u // Newton steps between the length checks. MOST_STEPS of glsl/sim/lengths.glsl.

@@ -1,4 +1,4 @@
-// sleep.c - detection of guides that have come to rest, and of events that wake them.
+// sleep.c - detection of guides that have come to rest, and of events that disturb them.
 //
 // Hair comes to rest about geometrically. Let d_0 and d be the distances moved in one round of
 // measurements and in the next, and q = d / d_0. The distance still to go is then
@@ -67,7 +67,7 @@ void hair_sleep_stir(struct hair_sim* sim)
     sim->sleep.stirred = 1;
 }
 
-// Events that wake hair ---------------------------------------------------------------------------
+// Events that disturb hair ------------------------------------------------------------------------
 
 // Return an upper bound on the distance that any point of hair moves between two poses.
 static float distance_between(const struct hair_pose* a, const struct hair_pose* b, float reach)

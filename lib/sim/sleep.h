@@ -1,12 +1,12 @@
 // sleep.h - sleeping of hair that has come to rest. Sleeping hair is not simulated until an event
 // wakes it.
 //
-// Once no event has woken the hair for a while, the GPU measures the activity of the guides now and
-// then: their distance from an earlier position, and their speed. A measurement is used some steps
-// after its request, and never sooner. The time at which the GPU answers therefore does not matter,
-// and hair falls asleep at the same step in every run. A GPU may be farther behind than that, for
-// example when nothing that is stepped is shown. No step waits for such a GPU. Hair then stays
-// awake, and is not measured again, until the answer arrives.
+// Once no event has disturbed the hair for a while, the GPU measures the activity of the guides now
+// and then. Activity is the distance of guides from an earlier position, and their speed. A
+// measurement is used some steps after its request, and never sooner. The time at which the GPU
+// answers therefore does not matter, and hair falls asleep at the same step in every run. A GPU may
+// be farther behind than that, for example when nothing that is stepped is shown. No step waits for
+// such a GPU. Hair then stays awake, and is not measured again, until the answer arrives.
 #ifndef HAIR_SIM_SLEEP_H
 #define HAIR_SIM_SLEEP_H
 
@@ -21,7 +21,7 @@ struct hair_stirring {
 
 struct hair_sleep {
     int asleep;
-    double calm; // Simulated time since an event last woke the hair, s.
+    double calm; // Simulated time since an event last disturbed the hair, s.
     double due; // Value of `calm` at which guides are measured next, s.
     uint32_t looks; // Number of measurements since the last such event.
     struct hair_stirring now; // Activity in the current round of measurements.
@@ -39,7 +39,7 @@ struct hair_sleep {
     hair_physics physics;
     hair_wind wind;
     uint32_t made; // Value of gl->made.
-    int stirred; // 1 if any other event has woken the hair since the last step.
+    int stirred; // 1 if any other event has disturbed the hair since the last step.
     uint32_t turn; // Alternating index of the answer, as in hair_stir_params.
     GLuint anchor, stir, seen, params; // Buffers. 0 until needed.
     const float* mapped; // Contents of `seen`.
@@ -55,7 +55,7 @@ void hair_sleep_stir(struct hair_sim* sim);
 // Sleep through a step of `dt` if the hair is asleep, and return whether it did. No OpenGL.
 int hair_sleep_through(struct hair_sim* sim, double dt);
 
-// Return whether an event has woken the hair since the last step.
+// Return whether an event has disturbed the hair since the last step.
 int hair_sleep_is_stirred(const struct hair_sim* sim);
 // Create what watching a step of `dt` needs.
 hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt);
@@ -64,7 +64,7 @@ hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt);
 void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt);
 
 // Settle the sleep state before a save. Wait for a pending measurement. Discard it if an event has
-// woken the hair since the last step.
+// disturbed the hair since the last step.
 void hair_sleep_settle(struct hair_sim* sim);
 // Compare a loaded state with the current conditions from now on. `was` is the replaced state.
 void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was);

@@ -29,7 +29,10 @@
 // buckling of a rod, in and out of plane.
 //
 // Small motions about a pose oscillate at a squared frequency of more than W when the energy less
-// sum_k m_k W |dx_k|^2 / 2 is positive. This term is equivalent to a pull that is weaker by W.
+//
+//   sum_k m_k W |dx_k|^2 / 2
+//
+// is positive. Subtracting this term is equivalent to a pull p_k that is weaker by m_k W.
 #include "lib/sim/statics.h"
 
 #include <string.h>
