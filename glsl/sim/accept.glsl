@@ -1,14 +1,16 @@
-// accept.glsl - the end of a substep: what was found is taken for true, or a guide is put back.
+// accept.glsl - the end of a substep. Accept its result, or return the guide to its rest pose.
 
-// Where SHAKE fails a strand is kinked, and swings from vertex to vertex as no explicit method can follow: it would fail
-// again and again, or flail without failing. Implicit Euler calms it, for 16 substeps: of `known`, so much for each.
+// Decrease of `known` per substep of implicit Euler after SHAKE has failed. A strand where SHAKE
+// fails is kinked, and oscillates from vertex to vertex. No explicit method can follow these
+// oscillations. It would fail again and again, or flail without failing. Implicit Euler damps them
+// for 16 substeps.
 #define WAIT (1.0 / 16.0)
 
-// Of the speed that following the leader makes. It makes more than there was: a strand that keeps it all flails, so that
-// the method of its solver fails again, for ever.
+// Fraction of the speed kept after follow-the-leader. Follow-the-leader adds speed. A strand that
+// keeps all of it flails, and the method of its solver then fails again, without end.
 #define LEADER_KEEPS 0.5
 
-// Return how much is known of the past after a substep without an impact.
+// Return how much of the past is known after a substep without an impact.
 float known_after(int method)
 {
 #ifdef HAIR_MIXED
@@ -17,26 +19,30 @@ float known_after(int method)
     return 2.0;
 }
 
-// Take what `moved` says for true: place, displacement and rates after a substep by `method`. A strand that is not
-// finite then, or beyond any hair, goes back to its rest pose, and along with the head; or false, where another program does that.
+// Accept `moved` as the result of a substep by `method`. Update place, displacement and rates. A
+// strand that is not finite, or is farther away than any hair, returns to its rest pose and moves
+// with the head. Return false if another program must do the substep instead.
 bool accept(int method, bool waits, vec3 head_moved)
 {
     bool lost = false, struck = false, turns = false;
     EACH(guide_count) {
         vec3 d = GET(moved), kept = d;
 #if defined(HAIR_FIRST) && defined(WATCHES_TURNS)
-        turns  = turns || turns_at(i, MIN_COSINE); // The second program splits the substep, unless something is touched.
+        // The second program splits the substep, unless a vertex touched a collider.
+        turns  = turns || turns_at(i, MIN_COSINE);
         struck = struck || (SOLIDS && own(met) != BITS(0u));
         lost   = lost || (!SOLIDS && turns);
 #endif
-        if (IS_LEADER(method)) { // What was drawn along may not keep that speed.
+        // Limit the speed that follow-the-leader added.
+        if (IS_LEADER(method)) {
             float fastest  = length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
             vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
             float speed    = length(relative);
             float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
-        // Rounded as store() and load() do it, so that it does not matter how many substeps a dispatch has.
+        // Round as store() and load() do, so that the number of substeps per dispatch does not
+        // matter.
         vec3 from_head = rounded(root_now + (GET(place) + (d - root_moved)));
         PUT(place, from_head - root_now);
 #ifdef KEEPS_RATES

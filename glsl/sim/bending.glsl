@@ -1,8 +1,9 @@
-// bending.glsl - forces of bending of round strands that are straight at rest, of energy k/2 |t_b - t_a|^2 of the
-// vertex between segments of directions t_a, t_b, with k the bending stiffness over its length. No frame is needed.
+// bending.glsl - bending forces of round strands that are straight at rest. The energy of the
+// vertex between segments of directions t_a and t_b is k/2 |t_b - t_a|^2, where k is the bending
+// stiffness divided by the length at the vertex. No frame is needed.
 OWN(vec4, strain); // w: k
 
-// Find the forces of bending on each vertex, and hand them to its neighbours.
+// Compute the bending forces, and store each segment's force in `handed` for its vertices.
 void find_bending()
 {
     EACH(guide_count) {
@@ -11,14 +12,16 @@ void find_bending()
         PUT(lever, i + 1u < guide_count ? own(strain).w * (GET(edge) - before) : vec3(0.0));
     }
     MEET;
-    EACH(guide_count - 1u) { // What a segment does to the vertex before it; to that after it the opposite.
+    // `handed` is the force of a segment on its first vertex. The force on its second vertex is
+    // opposite.
+    EACH(guide_count - 1u) {
         vec3 d = GET(lever) - AFTER_VEC3(lever);
         PUT(handed, d / own(rest_length));
     }
     MEET;
 }
 
-// What the segments beside a vertex do to it, as they handed it.
+// Return the force on a vertex from the segments before and after it.
 vec3 by_segments(uint i)
 {
     vec3 before = BEFORE_VEC3(handed);

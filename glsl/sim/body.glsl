@@ -1,8 +1,9 @@
-// body.glsl - solids that are no capsules: how deep in one a vertex comes, by the exact distance to its shape.
+// body.glsl - colliders that are not capsules. Compute the depth of a vertex by the exact distance
+// to the shape.
 #include "solid_distance.glsl"
 
-#define BODY_STEPS 10u // distances taken at most: at both ends, and on the way
-#define BODY_NEAR 1e-4 // m: that is on the surface
+#define BODY_STEPS 10u // Maximum number of distance evaluations: at both ends, and on the way
+#define BODY_NEAR 1e-4 // Distance at which a vertex counts as on the surface, m
 
 vec4 body_turn(uint k, float share)
 {
@@ -16,7 +17,7 @@ vec3 body_place(uint k, float share)
 
 #ifdef HAIR_ANY
 #include "form_distance.glsl"
-#define SHAPE_FORM 6u // as hair_shape
+#define SHAPE_FORM 6u // Value of hair_shape for a collision mesh
 
 form_grid form_of(uint k)
 {
@@ -24,11 +25,11 @@ form_grid form_of(uint k)
     return form_grid(contact_part(k, 10u), nodes.xyz, nodes.w);
 }
 #else
-#define form_grid uint // There are none.
+#define form_grid uint // There are no collision meshes.
 #define form_of(k) 0u
 #endif
 
-// Without rounding, in its own space.
+// Return the distance to the surface without rounding, in the collider's own space.
 float body_distance(vec4 size, form_grid form, vec3 at, out vec3 gradient)
 {
 #ifdef HAIR_ANY
@@ -43,8 +44,10 @@ float depth_of_place(uint k, vec3 place)
     return BODY_POSITION(k, 0).w + params.margin - body_distance(BODY_SIZE(k), form_of(k), at, gradient);
 }
 
-// As depth_in, for a vertex that goes from `start` to `end`. Where it may have gone right through, the way is walked in
-// the solid's own space by steps that are as long as the surface is far, and the vertex stopped where it goes in.
+// Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. Where the
+// vertex may have passed through the collider, sphere tracing in the collider's own space finds
+// where it enters. Each step of the tracing is as long as the distance to the surface. The vertex
+// stops at the entry.
 float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
 {
     vec4  turn_then = body_turn(k, share_then), turn_after = body_turn(k, share_now);
@@ -62,7 +65,8 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
             outwards = gradient;
             t        = 0.0;
         } else if (i == 1u) {
-            // The side it was on is where it goes out again, also from beyond the middle of what is thin.
+            // A vertex leaves through the side it came from, also from beyond the middle of a thin
+            // shape.
             float same  = dot(gradient, outwards);
             bool  holds = distance <= BODY_NEAR && (depth > 0.0 ? same <= 0.5 : same < -0.5);
             was         = -distance;

@@ -1,37 +1,47 @@
-// contact.glsl - what solids make of a displacement: out of them, and held by friction as far as Coulomb allows.
+// contact.glsl - contact and Coulomb friction of displacements. Colliders push vertices out, and
+// friction holds vertices on surfaces.
 //
-// The reaction of a solid is what is done minus what is wanted. Its part along the normal may only push; its part
-// along the surface is at most `friction` times that, and against the slip. Where that suffices there is no slip at
-// all: a strand at rest does not creep.
+// The reaction of a collider is the allowed displacement minus the wanted one. Its normal part only
+// pushes. Its tangential part opposes the slip, and is at most `friction` times the normal part. If
+// this force suffices there is no slip at all, and a strand at rest does not creep.
 //
-// A root that is held nearer to solids than the margin, or in one, leaves what follows it no way out that is as long
-// as it is: there a vertex may be as deep as its root, less a fifth of its distance from it.
+// A held root may be inside a collider, or nearer than the margin. The vertices after it then have
+// no way out that keeps their lengths. A vertex near such a root may be as deep as the root, less a
+// fifth of its distance from the root.
 #include "sim/contact_capsules.glsl"
 
 #define FREE 0.0
 #define SLIDES 1.0
-#define GLIDES 2.0 // between two solids, along both
+#define GLIDES 2.0 // Slides between two colliders, along both.
 #define STICKS 3.0
-#define STICK_PASS 0.1 // see pass_on
-#define LOCKED 0.9     // share that friction may take of what is along a segment
-#define EMERGE 1.0     // m/s, and in a substep half a segment at most, for lengths to be found
-#define RISE 0.2       // of a vertex out of where its root is, by its distance from that
+#define STICK_PASS 0.1 // Fraction passed on by a contact that sticks. See pass_on().
+#define LOCKED 0.9     // Maximum fraction that friction may take of a displacement along a segment
+// Speed at which a vertex leaves a collider, m/s. The way per substep is at most half a segment, so
+// that lengths can still be found.
+#define EMERGE 1.0
+// Decrease of the allowed depth per distance from a root that is inside colliders.
+#define RISE 0.2
 
-OWN(vec4, touch);      // xyz: normal, of GLIDES the way it can go; w: FREE to STICKS
+// Contact of a vertex. xyz: normal, or for GLIDES the direction in which the vertex can move. w:
+// FREE to STICKS.
+OWN(vec4, touch);
 #ifndef HAIR_MIXED
-OWN(vec4, slip);       // of SLIDES, xyz: the way it slides, as long as friction is; w: share that friction takes of it; of STICKS w: friction
+// Slip of a vertex. For SLIDES, xyz has the direction of the slip and friction as its length. w is
+// the fraction of the slip that friction takes. For STICKS, w is the friction.
+OWN(vec4, slip);
 #endif
 #ifdef HAIR_ANY
-#define BITS uvec2 // one for each solid of a list,
+#define BITS uvec2 // One bit for each collider of a list
 #else
-#define BITS uint // or for each there is
+#define BITS uint // One bit for each collider
 #endif
-OWN(BITS, reachable); // solids,
-OWN(BITS, met);       // and those met in this substep
-float sunk;                  // how deep in solids the root is held. m
+OWN(BITS, reachable); // Colliders that the vertex can touch
+OWN(BITS, met);       // Colliders that the vertex met in this substep
+float sunk;                  // Depth of the root in colliders, m
 
-// The vertices that can touch any. Of software rasterisers, which run what is within a condition for vertices for which it is
-// not true as well, a thread goes from one to the next.
+// Loop over the vertices that can touch a collider. A software rasteriser executes a conditional
+// block for all vertices, even where the condition is false. There, a thread follows a linked list
+// of these vertices instead.
 #ifdef HAIR_THREAD_PER_GUIDE
 #define LISTS_REACHING true
 #define EACH_REACHING for (uint i = first_reaching; i < guide_count; i = next_reaching[i])
@@ -51,8 +61,9 @@ void list_reaching()
 void list_reaching() {}
 #endif
 
-// Rounds that a thread of a software rasteriser may yet go from solid to solid in a substep, of the few that it may go in all:
-// see lib/sim/rounds.c. Without any left each vertex leaves the solid it is deepest in, and the strand is led.
+// Number of loop rounds over colliders that a thread of a software rasteriser has left in this
+// substep. The limit is explained in lib/sim/rounds.c. With no rounds left, each vertex leaves only
+// the collider in which it is deepest, and the strand falls back to follow-the-leader.
 #if defined(HAIR_THREAD_PER_GUIDE) && defined(HAIR_ANY)
 uint rounds_left;
 void grant_rounds() { rounds_left = HAIR_CONTACT_ROUNDS; }
@@ -64,15 +75,17 @@ void take_rounds(uint count) {}
 bool has_rounds() { return true; }
 #endif
 
-// How deep a vertex may be; and how far it comes out in a substep if it was deeper.
+// Return the depth that vertex i may have, and how far a deeper vertex comes out in a substep.
 vec2 granted_to(uint i)
 {
     float rise = min(EMERGE * SUBSTEP, 0.5 * guide_length / float(guide_count - 1u));
     return vec2(max(sunk - RISE * length(GET(place)), 0.0), rise);
 }
 
-// How deep in one solid the displacement d from `start`, both from the head's origin, leads; below 0: how far off it
-// stays. And how deep it was, and the normal there. A vertex that goes right through is stopped where it goes in.
+// Return the depth in one collider after the displacement d from `start`, both relative to the
+// head's origin. A negative depth is the distance from the surface. `was` is the depth before, and
+// `normal` the normal at the end. A vertex that passes through the collider is stopped where it
+// enters.
 float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out vec3 normal)
 {
     capsule now = solid_now(k), then = solid_then(k);
@@ -92,7 +105,7 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out v
     return depth;
 }
 
-// What the surface does there, at the end of the displacement.
+// Return the displacement of the surface at `end` over the substep.
 vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
 {
     capsule now = solid_now(k), then = solid_then(k);
@@ -101,7 +114,7 @@ vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
            cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
 }
 
-// The freedom that a further contact leaves of what others do.
+// Return the freedom that remains after a further contact of this normal.
 vec4 left_of(vec4 freedom, vec3 normal)
 {
     if (freedom.w == FREE) return vec4(normal, SLIDES);
@@ -127,15 +140,15 @@ float root_depth_in(uint k, bool is_body)
 #include "sim/contact_planes.glsl"
 #else
 
-// What solids have made of a displacement, and what they leave of it.
+// A displacement as colliders allow it, and the freedom that they leave.
 struct outcome {
     vec3 d;
-    vec4 freedom, slip; // as touch and slip have them
+    vec4 freedom, slip; // as in `touch` and `slip`
 };
 
 outcome untouched(vec3 want) { return outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0)); }
 
-// Out of one solid by the depth, and held by its friction.
+// Push a displacement out of one collider by the depth, and apply its friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {
     float friction = params.friction * factor;
@@ -156,8 +169,8 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 #include "sim/contact_few.glsl"
 #endif
 
-// What solids make of what is wanted, and what freedom they leave. Those in `kept` hold the vertex even where they
-// would have to pull.
+// Return the displacement that colliders allow for the wanted one, and the freedom that they leave.
+// Colliders in `kept` hold the vertex even where they have to pull.
 outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
 {
     outcome made = untouched(want);
@@ -165,17 +178,21 @@ outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inou
     return made;
 }
 
-// The part of a displacement that a contact lets pass. What sticks passes on a little, so that lengths between what
-// sticks can be found: by a tension that grows until something slips.
+// Return the part of a displacement that a contact lets pass. A contact that sticks passes a small
+// part, so that lengths between sticking vertices can be found. The tension between them then grows
+// until one slips.
 vec3 pass_on(vec4 freedom, vec3 d)
 {
-    vec3 part = dot(d, freedom.xyz) * freedom.xyz, rest = d - part; // Of what is free the normal is 0.
+    // The normal of a free vertex is 0.
+    vec3 part = dot(d, freedom.xyz) * freedom.xyz, rest = d - part;
     rest *= freedom.w == STICKS ? STICK_PASS : 1.0;
     return mix(rest, part, bvec3(freedom.w == GLIDES));
 }
 
-// The transpose of what a contact makes of a small change of what is wanted: of what slides friction takes a share across
-// the slip, and along it the more the harder it is pressed. Where that would be all and more it would stick.
+// Apply the transpose of the derivative of the allowed displacement by the wanted one. Friction
+// takes a fraction of a displacement across the slip. Along the slip, it takes more the harder the
+// contact is pressed. LOCKED limits this part, because beyond the limit the contact
+// would stick.
 vec3 pass_back(vec4 freedom, vec4 slip, vec3 d)
 {
     vec3  passed = pass_on(freedom, d);

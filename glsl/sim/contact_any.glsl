@@ -1,36 +1,41 @@
-// contact_any.glsl - out of any number of solids of any shape.
+// contact_any.glsl - contact with any number of colliders of any shape.
 //
-// Of spheres and capsules out of the one it is deepest in, then of the one it is deepest in there: many that overlap, as one
-// body is made of them, are left by the shortest way out of all. A vertex that was in some may be as deep in any as it was
-// in the deepest, less what it is to come out in a substep.
+// A vertex leaves the sphere or capsule in which it is deepest, then the one in which it is deepest
+// after that. Overlapping colliders, of which a body may be made, are thus left by the shortest way
+// out of all of them. A vertex that started inside colliders may be as deep in any as it was in the
+// deepest, less the distance by which it comes out in a substep.
 #define ROUNDS 6u
-#define AGAIN 1e-6 // m: deep enough in another one to go on
+#define AGAIN 1e-6 // Minimum depth in another collider at which the search goes on, m
 
 uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
 
-// One loop for both words: a software rasteriser goes once through what is in one that nobody enters.
+// Loop over the bits of both words in one loop, because a software rasteriser executes even an empty
+// loop once.
 #define EACH_BIT(bits)                                                                                       \
     for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
 
 #include "sim/contact_find.glsl"
 
-// What is far from all that it is need not be looked at: also not after a push as long as the way.
+// Return whether the ball around collider k is near enough to `end` that the collider can be met,
+// even after a push of length `way`.
 bool is_around(uint k, vec3 end, float way)
 {
     vec4 ball = BALL(k);
     return length(end - ball.xyz) <= ball.w + 2.0 * way;
 }
 
-// Out of the deepest of those that have not pushed yet though they keep it, else of all. `solids` becomes those around;
-// `is_out` if it is known that none is left to be pushed by.
+// Push a displacement out of the deepest collider, and return the number of pushes. Colliders in
+// `owed` hold the vertex and have not pushed yet. They come first. `solids` is reduced to the
+// colliders nearby. `is_out` is set if no collider can push the vertex again.
 uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, float enough_depth, vec3 head_moved,
                    vec2 granted, inout outcome made, inout uvec2 met, out bool is_out)
 {
     vec3  end  = start + made.d - head_moved, normal, surface;
     float most = -FARTHEST, was_most = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
     uint  whose = 0u;
-    vec4  deepest = vec4(vec3(0.0), -FARTHEST), second = deepest; // xyz: normal; w: depth
-    float third = -FARTHEST, clears = FARTHEST;                   // depth of others; by how far none is gone through
+    vec4  deepest = vec4(vec3(0.0), -FARTHEST), second = deepest; // xyz: normal. w: depth.
+    // Maximum depth in all other colliders, and the distance by which the way misses all spheres.
+    float third = -FARTHEST, clears = FARTHEST;
     uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
     is_out = false;
     if (solids == uvec2(0u)) return 0u;
@@ -38,7 +43,7 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     left &= ~look_at_cached(i, solids, owed, end, way, most, was_most, depth, from, around);
     bool  cached = from != uvec2(0u), all_cached = left == uvec2(0u);
     uvec2 at = first_of(left), after;
-    // Which is the next one is read while this one is looked at.
+    // Read the next member while this one is tested.
     for (uint member = member_at(own(members), at), next; at.y != 0u; at = after, member = next) {
         left[at.x] &= ~at.y;
         after       = first_of(left);
@@ -47,7 +52,8 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
         bool  first = (owed[at.x] & at.y) != 0u, whole = (member & HAIR_MEMBER_LONG) != 0u;
         float deep  = 0.0;
         normal      = vec3(0.0);
-        if (!whole) { // A sphere that is farther away than the vertex comes is not gone through.
+        // A sphere farther away than the way of the vertex cannot be passed through.
+        if (!whole) {
             vec4  then = sphere_at(k, share_then), now = sphere_at(k, share_now);
             float away = length(end - now.xyz);
             was        = then.w - length(start - then.xyz);
@@ -93,7 +99,8 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     if ((owed & solids) != uvec2(0u)) return 1u;
     if (all_cached) {
         is_out = is_out_of_cached(solids, start + made.d - head_moved, length(made.d - head_moved), granted.x);
-    } else if (!HAS_CACHE) { // Farther away, as from any ball, by at least what of the way is along the normal.
+    // A push increases the distance from a ball by at least its component along the normal.
+    } else if (!HAS_CACHE) {
         vec3  pushed = made.d - before;
         float far    = length(pushed);
         is_out       = max(was_most - granted.y, max(second.w - dot(pushed, second.xyz), third + far) - AGAIN) <= granted.x &&
@@ -108,7 +115,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
     uvec2 owed = kept, tried;
     uint  pushed = 1u;
     bool  is_out;
-    // In a loop, so that a compiler need not make so much of it twice.
+    // A loop keeps a compiler from generating this code twice.
     for (uint n = 0u; n < ROUNDS && pushed > 0u && (n == 0u || has_rounds()); ++n) {
         vec3 end = start + made.d - head_moved;
         tried    = enough(i, start, end);
@@ -136,7 +143,8 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
             }
         }
 #endif
-        bool led = tried != enough(i, start, start + made.d - head_moved); // To others.
+        // The pushes led to other colliders.
+        bool led = tried != enough(i, start, start + made.d - head_moved);
         solids   = led ? own(reachable) : around;
         if (!led && (is_out || bitCount(solids.x) + bitCount(solids.y) < 2)) break;
     }

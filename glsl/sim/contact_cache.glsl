@@ -1,8 +1,11 @@
-// contact_cache.glsl - the spheres that are close to a vertex, at hand: it looks at them several times in a substep, and
-// would wait for memory each time, with no other guide to go on with. Spheres that overlap hide each other, so that few are close.
+// contact_cache.glsl - a cache of the spheres that are close to a vertex. A vertex tests these
+// spheres several times in a substep. With few guides, no other guide runs while it waits for
+// memory. Overlapping spheres cover each other, so that few remain close.
 #include "sim/contact_lists.glsl"
 
-#ifndef HAIR_FEW_GUIDES // Of many, more are under way at once without: registers are few.
+// Many guides hide the latency of memory better without the cache, because the cache takes
+// registers.
+#ifndef HAIR_FEW_GUIDES
 #define HAS_CACHE false
 
 void  cache_close(uint i) {}
@@ -18,10 +21,10 @@ uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inou
 
 #define HAS_CACHE true
 #define CACHED 4u
-uvec2 cached_bit[CACHED]; // of the list; of none none
+uvec2 cached_bit[CACHED]; // Bit of each cached sphere in the list, or no bit
 
-// Where they are when the step starts and ends, how they spin and their share of friction: of a subgroup read once, when a
-// list is made.
+// Places of the spheres at the start and end of the step, their spins, and their factors of
+// friction. A subgroup reads them once, when a list is made.
 #ifdef HAIR_SUBGROUP
 PARKED(vec4, cached_start[CACHED]);
 PARKED(vec4, cached_end[CACHED]);
@@ -47,7 +50,8 @@ void cache(uint a, uint k)
 #endif
 }
 
-// The first of them, in the order of the list, up to one that is no sphere.
+// Cache the first close spheres in the order of the list. Stop at the first collider that is no
+// sphere.
 void cache_close(uint i)
 {
     uvec2 left = own(close);
@@ -69,9 +73,11 @@ void cache_close(uint i)
     }
 }
 
-// In a substep: where they are, with the margin; how they have moved, and how far; how they spin, and their share of friction;
-// and how deep the vertex was in them.
+// The cached spheres in this substep. `cached_now` is the sphere at the end, with the margin.
+// `cached_way` is its displacement, and w the length of that. `cached_spin` is its rotation, and w
+// its factor of friction.
 vec4  cached_now[CACHED], cached_way[CACHED], cached_spin[CACHED];
+// Depth of the vertex in each cached sphere at the start of the substep.
 float cached_was[CACHED];
 
 void advance_cached(vec3 start)
@@ -86,10 +92,13 @@ void advance_cached(vec3 start)
     }
 }
 
-// The deepest of those looked at: from its middle to the vertex, and how far; how it moved, and its radius; how it spins.
+// The deepest sphere tested. `deepest_out` is the vector from its centre to the vertex, and w its
+// length. `deepest_way` is the displacement of the sphere, and w its radius. `deepest_spin` is as
+// in `cached_spin`.
 vec4 deepest_out, deepest_way, deepest_spin;
 
-// As leave_deepest() looks at others; returns which it has looked at. None if the vertex may go right through one.
+// Cached variant of the search in leave_deepest(). Return a bit mask of the members tested. Return
+// no bits if the vertex may pass through a sphere.
 uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
                      inout float depth, inout uvec2 from, inout uvec2 around)
 {
@@ -127,7 +136,7 @@ void touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float 
     friction = deepest_spin.w;
 }
 
-// Whether those looked at leave nothing to get out of: to look at them again would find none that is deep enough.
+// Return whether no cached sphere would push the vertex at `end` any more.
 bool is_out_of_cached(uvec2 solids, vec3 end, float way, float granted)
 {
     bool is_out = true;

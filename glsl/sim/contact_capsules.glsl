@@ -1,11 +1,13 @@
-// contact_capsules.glsl - solids as capsules, or what is around them, at the moments of a substep.
+// contact_capsules.glsl - colliders as capsules, or as their bounding capsules, at times of a
+// substep.
 #include "sim/solids.glsl"
 
-float share_then, share_now; // of the step that is done at the substep's start and end
+// Fractions of the step that are done at the start and end of the substep.
+float share_then, share_now;
 
-struct capsule { // a solid at one moment, with the margin
+struct capsule { // A collider at one moment, with the margin
     vec3  start, axis;
-    float radius, square; // of the axis, m^2
+    float radius, square; // `square` is the squared length of the axis, m^2
 };
 
 capsule solid_at(uint k, float share)
@@ -26,11 +28,12 @@ vec3 from_axis(vec3 position, capsule solid)
     return position - solid.start - nearest_share(position, solid) * solid.axis;
 }
 
-// How far it moves in the substep, at most.
+// Return an upper bound of how far collider k moves in the substep.
 float moves_of(uint k) { return SOLID_SPIN(k).w * (share_now - share_then); }
 
-// At the start and at the end of the substep: solid_then, solid_now. Threads that have a guide together work out each moment
-// once, each for another solid: what share_solid() shares is seen after SOLIDS_MEET, and as solid_then() in the next substep.
+// solid_then() and solid_now() return a capsule at the start and end of the substep. Where several
+// threads share a guide, each thread computes other capsules, once per moment. A capsule written by
+// share_solid() is visible after SOLIDS_MEET, and in the next substep by solid_then().
 #if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
 #define SOLIDS_MEET
 void    begin_solids() {}
@@ -39,10 +42,13 @@ void    share_solid(uint k, capsule now) {}
 capsule solid_then(uint k) { return solid_at(k, share_then); }
 capsule solid_now(uint k) { return solid_at(k, share_now); }
 #else
-#define SOLIDS_MEET MEET_TO_VOTE // as find_solids does before it looks at them
+// find_solids() votes before it reads the capsules.
+#define SOLIDS_MEET MEET_TO_VOTE
 #define MOMENTS uint(2 * HAIR_FEW_SOLIDS)
-shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GUIDES]; // of each guide the two, in turn
-uint moment; // where that of the substep's end is
+// Capsules of each guide at two moments, in alternating halves.
+shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GUIDES];
+// Index of the first capsule at the end of the substep.
+uint moment;
 
 void share_solid(uint k, capsule now)
 {
@@ -50,7 +56,7 @@ void share_solid(uint k, capsule now)
     shared_axis[moment + k]  = vec4(now.axis, now.square);
 }
 
-// What the first substep begins with.
+// Write the capsules that the first substep starts from.
 void begin_solids()
 {
     moment = MOMENTS * guide_of_group;

@@ -1,7 +1,8 @@
-// contact_few.glsl - solids that are in the step's parameters, HAIR_FEW_SOLIDS at most: which a guide can touch, and out
-// of them, one after the other.
+// contact_few.glsl - contact with at most HAIR_FEW_SOLIDS colliders, which the step's parameters
+// hold. Find the colliders that a guide can touch, and push vertices out of them one after the
+// other.
 
-// `bit` of those of some solids, and the number of its one, k.
+// Loop over the set bits of a mask. `bit` is the current bit, and k its index.
 #define EACH_BIT(bits)                                                                                       \
     for (uint left = bits, bit = left & -left, k = uint(findLSB(bit)); bit != 0u;                            \
          left &= ~bit, bit = left & -left, k = uint(findLSB(bit)))
@@ -15,14 +16,16 @@ uint bodies()
 #endif
 }
 
-// The solids that the guide can touch in this substep, of them those that a vertex can: others are not looked at
-// again. A vertex is taken to be moved by the fitting of lengths no more than 2 cm farther than it would go freely.
+// Find the colliders that the guide can touch in this substep, and for each vertex those that it
+// can touch. Later tests use only these. Fitting lengths is assumed to move a vertex at most 2 cm
+// farther than its free motion.
 void find_solids(vec3 head_moved)
 {
     if (!SOLIDS) return;
     uint  near    = 0u;
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
-    if (root_is_free || TIED) longest = 2.0 * FARTHEST; // What the scalp does not hold, or not alone, may be anywhere.
+    // A guide with a free root or with pins may be anywhere.
+    if (root_is_free || TIED) longest = 2.0 * FARTHEST;
     sunk = 0.0;
     for (uint k = lane; k < params.solids; k += lanes) {
         capsule now = solid_at(k, share_now);
@@ -53,17 +56,20 @@ void find_solids(vec3 head_moved)
     }
 }
 
-// Out of one solid after the other, capsules first. Out of a second one may lead into the first: then once more.
+// Push a vertex out of one collider after the other, capsules first. A push out of a second
+// collider may lead into the first. Then all are tested once more.
 void get_out(uint i, vec3 start, uint solids, uint kept, vec3 head_moved, inout outcome made, inout uint met)
 {
     vec2 granted  = granted_to(i);
     uint contacts = 2u;
-    for (uint n = 0u; n < 2u && contacts > 1u; ++n) { // In a loop, so that a compiler need not make so much of it twice.
+    // A loop keeps a compiler from generating this code twice.
+    for (uint n = 0u; n < 2u && contacts > 1u; ++n) {
         vec3 normal, surface;
         contacts = 0u;
         EACH_BIT(solids & ~bodies()) {
             float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
-            if (depth > 0.0 || (kept & bit) != 0u) { // What its surface does matters only then.
+            // The displacement of the surface matters only in contact.
+            if (depth > 0.0 || (kept & bit) != 0u) {
                 surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                 met |= bit;

@@ -1,4 +1,5 @@
-// contact_find.glsl - of any number of solids those that a vertex can touch in a substep.
+// contact_find.glsl - a search for the colliders that a vertex can touch in a substep, among any
+// number.
 #include "sim/contact_cache.glsl"
 
 void find_root()
@@ -14,7 +15,8 @@ void find_root()
     sunk = most_of(sunk);
 }
 
-// Whether what a vertex has listed will do for a way: nothing is touched on it, or no more than what is close.
+// Return whether the lists of vertex i are still valid for a way of length `far` around `middle`.
+// Either nothing is touched on the way, or the listed colliders near the vertex suffice.
 bool has_listed(uint i, vec3 middle, float far)
 {
     float off = length(middle - own(listed_near).xyz) + 0.5 * far;
@@ -50,7 +52,7 @@ void find_solids(vec3 head_moved)
 #endif
 }
 
-// Of them those that are enough for a way.
+// Return the colliders that are enough to test on the way from `start` to `end`.
 uvec2 enough(uint i, vec3 start, vec3 end)
 {
     vec4  near = own(listed_near);

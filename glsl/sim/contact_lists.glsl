@@ -1,46 +1,56 @@
-// contact_lists.glsl - any number of solids of any shape: which a vertex can touch, by the list of the cell it is in.
+// contact_lists.glsl - lists of the colliders that a vertex can touch, among any number of any
+// shape. A vertex reads the list of its cell in the grid.
 //
-// A list is gone through once for as many substeps as it serves: until the vertex goes where it could touch what is not in
-// the list. Of what it can touch, what it can touch near where it was then is enough as long as it stays there.
-OWN(uint, members);    // the first of its cell's, of which the bits are
-OWN(vec4, listed_near); // xyz: where it was then, halfway; w: how far about there `close` is enough
+// A vertex goes through its cell's list once, and keeps the result over several substeps. The
+// result is valid until the vertex goes where it could touch other colliders. While it stays near
+// the place where the list was made, the shorter list `close` is enough.
+OWN(uint, members);    // Index of the first member of the cell. Bit 0 refers to it.
+// xyz: place where the lists were made. w: radius around it in which `close` is enough.
+OWN(vec4, listed_near);
 OWN(uvec2, close);
-OWN(float, clear);      // how far about there nothing is touched
+// Radius around that place in which nothing is touched.
+OWN(float, clear);
 #ifdef HAIR_BODIES
-OWN(uvec2, walked); // of reachable: no spheres or capsules
+// Bits of reachable colliders that are neither spheres nor capsules.
+OWN(uvec2, walked);
 #endif
 bool has_lists = false;
 
-// A vertex is taken to be moved by the fitting of lengths no more than this farther than it would go freely. Of a way
-// longer than the lists are made for its end counts.
+// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion.
 #define FIT 0.02    // m
+// Minimum radius in which `close` is enough.
 #define ABOUT 0.001 // m
 
-// So many members of a list are read at once: a thread of a GPU waits for each as long as for all of them. Of many guides
-// others go on meanwhile.
+// Number of members of a list that are read at once. A thread of a GPU waits for one read as long
+// as for all of them. With many guides, other guides run while one waits.
 #if defined(HAIR_SUBGROUP) && defined(HAIR_FEW_GUIDES)
 #define AT_ONCE 4u
 #else
 #define AT_ONCE 1u
 #endif
 
+// Return the middle of the way to `position`, or a later place if the lists do not cover half of
+// the way.
 vec3 halfway(vec3 position, vec3 way, float far)
 {
     return position - way * (min(0.5 * far, params.cells_give) / max(far, 1e-9));
 }
 
-// One of a list, by its bit; of no bit the first solid.
+// Return the member of a list for a bit, or 0 for no bit.
 uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
 
 uvec2 mask_of(uvec2 at) { return at.x == 0u ? uvec2(at.y, 0u) : uvec2(0u, at.y); }
 
-// A sphere at one moment, with the margin.
+// Return a sphere with the margin, at a fraction of the step.
 vec4 sphere_at(uint k, float share) { return mix(SOLID_START(k, 0), SOLID_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.margin); }
 
 struct sphere {
-    vec4  end, moves; // when the step ends; and from when a list is made
-    float far, away;  // how far it moves; and a place is from its middle in the end
-    float off;        // the place stays from it
+    // The sphere at the end of the step, and its displacement from the time when the list is made.
+    vec4  end, moves;
+    // Length of this displacement, and distance of a place from the centre at the end.
+    float far, away;
+    // Minimum distance of the place from the surface during this time.
+    float off;
 };
 
 sphere sphere_from(vec3 place, vec4 then, vec4 end)
@@ -54,14 +64,16 @@ float off_long(vec3 place, uint k, float reach)
 {
     vec4  ball = BALL(k);
     float off  = length(place - ball.xyz) - ball.w;
-    if (off >= reach) return off; // Of what is long there is more around.
+    // The ball around a long collider is much larger than the collider.
+    if (off >= reach) return off;
     capsule end = solid_at(k, 1.0);
     return length(from_axis(place, end)) - end.radius - (1.0 - share_then) * SOLID_SPIN(k).w;
 }
 
-// Which of two spheres is hidden: everywhere about a place, and all the time, less deep than the other: then nothing is to be
-// got out of it. From place to place the difference of depths changes by that of two directions (Dunkl and Williams 1964), and
-// by how both move.
+// Return whether sphere a, and whether sphere b, is covered by the other one. A covered sphere is
+// less deep than the other everywhere around a place, during the whole time. It then pushes nothing
+// out. The gradient of the difference of depths is the difference of two unit vectors, whose bound
+// is from Dunkl and Williams (1964). The motion of both spheres adds to the bound.
 bvec2 hidden(sphere a, sphere b, float about)
 {
     vec4  between = b.end - a.end, apart = b.moves - a.moves;
@@ -71,8 +83,9 @@ bvec2 hidden(sphere a, sphere b, float about)
     return greaterThan(vec2(-less, less), rate * far + length(apart.xyz) + abs(apart.w));
 }
 
-// Which of those that are near a place are close to it, in the order of their list. Spheres that overlap, of which a body may be
-// made, hide each other: most of them by one that is next to them in the list, or by the deepest.
+// Return which near colliders are close to a place, in the order of their list. Overlapping
+// spheres, of which a body may be made, cover each other. Most of them are covered by their
+// neighbour in the list, or by the deepest sphere.
 uvec2 find_close(vec3 place, uint first, uvec2 near, float about, float reach)
 {
     sphere last  = sphere(vec4(0.0, 0.0, 0.0, -FARTHEST), vec4(0.0), 0.0, 0.0, 0.0), deepest = last;
@@ -87,7 +100,8 @@ uvec2 find_close(vec3 place, uint first, uvec2 near, float about, float reach)
         if (long_) off = off_long(place, k, reach);
         close |= off < about ? mask : uvec2(0u);
         if (off < about && !long_) {
-            bvec2 less = hidden(last, ball, about); // deep
+            // x: `last` is covered by `ball`. y: `ball` is covered by `last`.
+            bvec2 less = hidden(last, ball, about);
             if (less.x) close &= ~by_last;
             if (less.y || hidden(deepest, ball, about).y) close &= ~mask;
             last    = ball;
@@ -101,7 +115,8 @@ uvec2 find_close(vec3 place, uint first, uvec2 near, float about, float reach)
     return close;
 }
 
-// Of the solids around, for the rest of the step: most of a list are off by what is around them.
+// List the colliders near vertex i for the rest of the step. The balls around colliders exclude
+// most members of the cell.
 void list_solids(uint i, vec3 middle, float far)
 {
     uvec2 list  = cell_members(middle), all = uvec2(0u), near = uvec2(0u), others = uvec2(0u);
@@ -115,7 +130,8 @@ void list_solids(uint i, vec3 middle, float far)
         for (uint a = 0u; a < AT_ONCE; ++a) {
             member[a] = next[a];
             ball[a]   = BALL(next[a] & HAIR_MEMBER_NUMBER);
-            next[a]   = cell_entry(min(list.x + first + AT_ONCE + a, end - 1u)); // Is read while this one is looked at.
+            // The next member is read while this one is tested.
+            next[a]   = cell_entry(min(list.x + first + AT_ONCE + a, end - 1u));
         }
         for (uint a = 0u; a < AT_ONCE; ++a) {
             uint  n = first + a, bit = 1u << (n & 31u);

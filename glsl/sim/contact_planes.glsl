@@ -1,17 +1,20 @@
-// contact_planes.glsl - planes by which solids hold a vertex of the mixed scheme, two at most.
-#define PARALLEL 0.98 // Cosine of the angle between planes that count as one
+// contact_planes.glsl - the planes by which colliders hold a vertex of the mixed scheme, two at
+// most.
+// Minimum cosine of the angle between planes that count as one.
+#define PARALLEL 0.98
 
 struct outcome {
-    vec3  d;            // displacement out of the solids
-    vec4  plane, other; // normal of each, or 0, and the displacement along it on the plane
-    vec3  surface;      // displacement of the surface that was left last
-    float friction;     // of that surface
+    vec3  d;            // displacement out of the colliders
+    // Planes that hold the vertex. xyz: unit normal, or 0. w: displacement along it on the plane.
+    vec4  plane, other;
+    vec3  surface;      // displacement of the surface of the last collider left
+    float friction;     // factor of friction of this surface
 };
 
 outcome untouched(vec3 want) { return outcome(want, vec4(0.0), vec4(0.0), vec3(0.0), 0.0); }
 
-// Push a displacement out of one solid by the depth. The planes are those of the last two solids that face
-// different ways.
+// Push a displacement out of one collider by the depth. `plane` and `other` become the planes of
+// the last two colliders whose normals differ.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {
     made.d += depth * normal;

@@ -1,7 +1,8 @@
-// contact_try.glsl - the displacements of a guide that solids allow.
+// contact_try.glsl - the displacements of a guide that colliders allow.
 #include "sim/contact.glsl"
 
-#define KEEP_FROM 4u // Steps after which contacts are only added, so that the steps come to an end.
+// Number of steps after which contacts are only added, so that the iteration ends.
+#define KEEP_FROM 4u
 
 void meet_solids(uint i, vec3 head_moved, bool keep)
 {
@@ -11,7 +12,7 @@ void meet_solids(uint i, vec3 head_moved, bool keep)
     own(slip)  = made.slip;
 }
 
-// Find the displacements that solids allow.
+// Find the displacements that colliders allow.
 void try_wanted(vec3 head_moved, bool keep)
 {
     EACH(guide_count) {
