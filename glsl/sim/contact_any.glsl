@@ -9,8 +9,8 @@
 
 uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
 
-// Loop over the bits of both words in one loop, because a software rasteriser executes even an empty
-// loop once.
+// Loop over the bits of both words in one loop, because a software rasteriser executes even an
+// empty loop once.
 #define EACH_BIT(bits)                                                                                       \
     for (uvec2 left = bits, at = first_of(left); at.y != 0u; left[at.x] &= ~at.y, at = first_of(left))
 

@@ -1,4 +1,5 @@
-// crowd.glsl - the grid of the crowd, and where a guide vertex is in it: see lib/sim/crowd.h.
+// crowd.glsl - the hair-hair grid, and the place of a guide vertex in it. lib/sim/crowd.h explains
+// the grid.
 #include "shared.h"
 #include "rotation.glsl"
 #include "workgroup.glsl"
@@ -16,19 +17,21 @@ uint  thread() { return hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
 uvec3 nodes() { return uvec3(params.nodes_x, params.nodes_y, params.nodes_z); }
 
 #ifdef HAIR_FLUID
-#define NODE_NUMBERS 4u // mass and momentum
+#define NODE_NUMBERS 4u // Numbers per node: mass and momentum
 #else
 #define NODE_NUMBERS uint(HAIR_CROWD_NODE_NUMBERS)
 #endif
 
-uvec3 lowest; // of the eight nodes around the vertex
-vec3  part;    // of the way to the next, per axis
+uvec3 lowest; // Lowest of the eight nodes around the vertex
+vec3  part;    // Fraction of the way to the next node, per axis
 
-// By the bits, for comparisons with NaN may be compiled away. What is not finite, or nowhere near, is no part of the
-// crowd: others must not feel it, and its guide goes back to its rest pose.
+// Return whether v is finite and plausible. The comparison is by bits, because compilers may remove
+// comparisons with NaN. A vertex that is not finite or is too far away stays out of the grid. Other
+// hair must not feel it, and its guide returns to its rest pose.
 bool is_sound(vec3 v) { return (floatBitsToUint(dot(v, v)) & 0x7fffffffu) < floatBitsToUint(1e8); }
 
-// A vertex whose past is known no better has its displacement.
+// Return the displacement per substep of vertex i. A vertex without a known rate has only its last
+// displacement.
 vec3 rate_of(uint i)
 {
     return state[i].position.w < 2.0 ? state[i].displacement.xyz : history[i].rate.xyz;
@@ -36,23 +39,26 @@ vec3 rate_of(uint i)
 
 bool counts(uint i) { return is_sound(state[i].position.xyz) && is_sound(rate_of(i)); }
 
-// Return the velocity relative to the head's origin, along the grid's axes, over HAIR_CROWD_SPEED, in [-1, 1].
+// Return the velocity relative to the head's origin, along the grid's axes, divided by
+// HAIR_CROWD_SPEED, in [-1, 1].
 vec3 speed_of(uint i)
 {
     vec3 relative = rotate(quat_conjugate(params.rotation), rate_of(i) - params.moved.xyz);
     return clamp(relative * (params.moved.w / HAIR_CROWD_SPEED), vec3(-1.0), vec3(1.0));
 }
 
-// Return the position in the middle of the block, in cells from node 0. A constant force over a block has the angular
-// impulse of its lever there, so that forces without a torque at these positions keep angular momentum.
+// Return the position in the middle of the block of substeps, in cells from node 0. A constant
+// force over a block has its mean lever arm there. Forces without a torque at these positions
+// therefore keep angular momentum.
 vec3 spot_of(uint i, vec3 speed)
 {
     vec3 from = rotate(quat_conjugate(params.rotation), state[i].position.xyz) - params.lower.xyz;
     return from / params.lower.w + params.ahead * speed;
 }
 
-// Hair that is attached to the head stays within the grid. Beyond it there is no crowd, and the fluid's air ends half a
-// cell outside of its outermost nodes.
+// Return whether a place is inside the grid. Hair that is attached to the head stays inside.
+// Outside there is no interaction between hairs. The fluid's box ends half a cell outside its
+// outermost nodes.
 #ifdef HAIR_FLUID
 #define OVERHANG 0.5
 #else
@@ -69,7 +75,7 @@ void find_spot(vec3 at)
 
 uvec3 corner_of(uint k) { return uvec3(k & 1u, k >> 1u & 1u, k >> 2u); }
 
-// Return the first number of a node.
+// Return the index of the first number of a node.
 uint node_of(uvec3 corner)
 {
     uvec3 at = lowest + corner;

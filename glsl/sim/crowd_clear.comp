@@ -1,4 +1,4 @@
-// crowd_clear.comp - an empty grid. One thread per four numbers in it.
+// crowd_clear.comp - clear the hair-hair grid. One thread per four numbers.
 #version 450 core
 #include "shared.h"
 #include "workgroup.glsl"

@@ -1,14 +1,19 @@
-// crowd_gather.comp - what the crowd does to a guide vertex i: it draws its velocity v towards the rigid motion of the
-// hair around, and where there is more hair than its space holds, that presses like a gas of constant temperature:
+// crowd_gather.comp - the acceleration of a guide vertex i by the hair around it. Cohesion pulls
+// its velocity v towards the rigid motion of this hair. Hair denser than its space holds presses
+// like a gas of constant temperature:
 //
-//   a = cohesion sum_n w_in g_n (u_n(x_i) - v_i) + 6 volume / cell^2 sum_n w_in max(1 - limit_n / V_n, 0) (x_i - c_n)
+//   a = cohesion sum_n w_in g_n (u_n(x_i) - v_i)
+//       + 6 volume / cell^2 sum_n w_in max(1 - limit_n / V_n, 0) (x_i - c_n)
 //
-// over the nodes n around, of weights w, with u_n the rigid motion of all hair at the node and c_n its centre of mass: see
-// crowd_rigid.glsl. With the masses and the weights of a node u_n has the momentum and the angular momentum of the
-// velocities it is of, and what leads straight away from the centre has neither: so no term takes any from all hair
-// together. g_n is 0 where a strand is by itself, and 1 from two on. In hair of density d that changes little over a cell
-// pressure is -volume grad(d - limit) / d, for the mean of w_in (x_n - x_i)^2 is a sixth of the cell's square.
-// One thread per guide vertex.
+// The sums are over the nodes n around, of weights w. u_n is the rigid motion of all hair at the
+// node, c_n its centre of mass, and V_n its volume. crowd_rigid.glsl computes u_n. With the masses
+// and weights of a node, u_n has the momentum and the angular momentum of the velocities in it. A
+// force away from the centre has neither. All hair together therefore keeps its momentum and
+// angular momentum.
+//
+// g_n is 0 where a strand is alone, and 1 from two strands on. In hair of density d that changes
+// little over a cell, the pressure term is -volume grad(d - limit) / d. This holds because the mean
+// of w_in (x_n - x_i)^2 is a sixth of the squared cell size. One thread per guide vertex.
 #version 450 core
 #include "sim/crowd.glsl"
 #include "sim/crowd_rigid.glsl"
@@ -22,14 +27,16 @@ sums sums_at(uint at)
                 numbers_at(at + HAIR_CROWD_PRODUCTS));
 }
 
-// By the mass of strands at the node, which is their number if they are alike: Q = sum_s m_s^2 / m^2 is one by it.
+// Return g of a node. With the masses m_s of strands at the node and their sum m, Q = sum_s m_s^2 /
+// m^2 is 1/N for N equal strands.
 float company_at(uint node)
 {
     float mass = float(crowd[node]), alike = float(crowd[node + HAIR_CROWD_ALIKE]) / (params.per_strand * mass * mass);
     return clamp(2.0 * (1.0 - alike), 0.0, 1.0);
 }
 
-// A software rasteriser runs both sides of a branch, but no loop without rounds.
+// Return the pull of cohesion on the velocity v. A loop of no rounds replaces a branch, because a
+// software rasteriser executes both sides of a branch.
 vec3 drawn_at(vec3 v)
 {
     vec3 drawn = vec3(0.0);
@@ -52,7 +59,8 @@ vec3 pressed()
         vec3  s      = shares_of(corner);
         uint  node   = node_of(corner);
         if (crowd[node] <= 0) continue;
-        float volume = float(crowd[node + HAIR_CROWD_VOLUME]); // Rounding may leave less than 0.
+        // Rounding may leave a negative volume.
+        float volume = float(crowd[node + HAIR_CROWD_VOLUME]);
         float over   = 1.0 - min(limit[node / NODE_NUMBERS] / max(volume, 1.0), 1.0);
         vec3  centre = numbers_at(node + HAIR_CROWD_MOMENT) / float(crowd[node]);
         sum += s.x * s.y * s.z * over * (part - vec3(corner) - centre);

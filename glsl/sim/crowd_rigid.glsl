@@ -1,23 +1,26 @@
-// crowd_rigid.glsl - the rigid motion that has the momentum and the angular momentum of what is around a node, by the
-// node's weights (the velocity damping of Müller et al. 2007, of each node). To be drawn to it takes neither.
+// crowd_rigid.glsl - the rigid motion of the hair around a node. It has the momentum and the
+// angular momentum of this hair, by the node's weights. A pull towards it changes neither. This is
+// the velocity damping of Mueller et al. (2007), applied per node.
 
-struct sums { // about the node
+struct sums { // Sums about the node
     float mass;
     vec3  momentum, moment, angular;
-    vec3  squares, products; // of positions: xx, yy, zz; yz, zx, xy
+    // Sums of mass times products of coordinates: xx, yy, zz, and yz, zx, xy.
+    vec3  squares, products;
 };
 
 struct motion {
-    vec3 centre; // from the node, in cells
-    vec3 speed;  // of the centre
-    vec3 turn;   // angular velocity
+    vec3 centre; // Centre of mass from the node, in cells
+    vec3 speed;  // Velocity of the centre
+    vec3 turn;   // Angular velocity
 };
 
-// Return the inertia by mass, cells^2, that is added about each axis. A straight strand has none about its own. Sums of
-// floats are off by 1e-7, and the grid's by a unit for each vertex: neither is to make much angular velocity.
+// Return the inertia per mass that is added about each axis, in cells^2. A straight strand has none
+// about its own axis. Sums of floats have errors of 1e-7, and the grid's sums have errors of one
+// unit per vertex. The added inertia keeps these errors from making a large angular velocity.
 float least_inertia(float units) { return 1e-5 + 16.0 / units; }
 
-// Solve I w = l by I = L D L^T. No pivot is below the least inertia but by rounding.
+// Solve I w = l by I = L D L^T. Pivots are at least `least`, even with rounding.
 vec3 solve_inertia(vec3 diagonal, vec3 products, vec3 l, float least)
 {
     float xy = -products.z, xz = -products.y, yz = -products.x;

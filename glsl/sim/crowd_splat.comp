@@ -1,6 +1,6 @@
-// crowd_splat.comp - a guide vertex's mass, momentum and volume given to the eight nodes around it: of each exactly
-// what it has, the last node getting what rounding left. Its moments follow. The fluid's grid has mass and momentum only,
-// and ends. One thread per guide vertex.
+// crowd_splat.comp - add a guide vertex's mass, momentum and volume to the eight nodes around it.
+// The parts add up exactly, because the last node receives the remainder of rounding. Cohesion also
+// needs moments. The fluid's grid has mass and momentum only. One thread per guide vertex.
 #version 450 core
 #include "sim/crowd.glsl"
 
@@ -14,9 +14,9 @@ void add(uint at, ivec3 v)
 }
 
 #ifndef HAIR_FLUID
-vec4 own_below, own_above; // mass of the guide at the four nodes below, and above
+vec4 own_below, own_above; // Mass of the guide at the four lower and the four upper nodes
 
-// Add vertex j of the guide. False: it is out of reach of all eight nodes.
+// Add vertex j of the guide. Return false if the vertex is out of reach of all eight nodes.
 bool add_own(uint j)
 {
     if (!counts(j)) return false;
@@ -28,7 +28,7 @@ bool add_own(uint j)
     return all(greaterThan(lower + upper, vec3(0.0)));
 }
 
-// The vertices around i that reach the nodes one after the other.
+// Add the vertices before and after i, as far as they reach the nodes.
 void find_own(uint i)
 {
     own_below = own_above = vec4(0.0);
@@ -37,7 +37,8 @@ void find_own(uint i)
     for (j = i + 1u; j < share[i].end && add_own(j); ++j) {}
 }
 
-// Values that cohesion takes of each node. A software rasteriser runs both sides of a branch, but no loop without rounds.
+// Add the values that cohesion needs of each node. A loop of no rounds replaces a branch, because a
+// software rasteriser executes both sides of a branch.
 void add_motion(uint i, vec3 speed)
 {
     for (uint n = 0u, end = params.cohesion > 0.0 ? 1u : 0u; n < end; ++n) find_own(i);

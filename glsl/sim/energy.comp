@@ -1,10 +1,13 @@
-// energy.comp - the mechanical energy of guides after a step in which nothing does work on them, and whether it grows.
+// energy.comp - the mechanical energy of guides after a step in which nothing does work on them,
+// and whether it grows.
 //
-// With damping c and kinetic energy T the energy E of a guide falls by 2 c T a second, and by more in contact. Half of
-// that is added up as loss: E + loss may not grow. So a guide is found out as well that gains what damping takes from it.
+// With damping c and kinetic energy T, the energy E of a guide falls by 2 c T per second, and by
+// more in contact. The pass adds half of this up as loss. E + loss must not grow. The test thus
+// also finds a guide that gains exactly what damping removes.
 //
-// Velocities of some methods are those of the middle of a substep. E of an oscillation at w then swings by w h / 2 of it.
-// Therefore the greatest values of windows of time are compared, which an oscillation leaves alike. A thread goes over the
+// The velocities of some methods are those of the middle of a substep. With these, the E of an
+// oscillation of angular frequency w varies by the fraction w h / 2. The pass therefore compares
+// maxima over windows of time, which an oscillation does not change. A thread loops over the
 // vertices of a guide.
 #version 450 core
 #include "buffers.glsl"
@@ -13,18 +16,20 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 #define NONE 1e37
-#define GROWTH 0.25       // of the kinetic energy, that windows may differ by
-#define LENGTH_GRAIN 3e-4 // relative error of lengths that solvers leave; gravity makes energy of it
-#define TURN_GRAIN 1e-5   // rad, that rounding of positions and frames makes of the turn at a vertex
+#define GROWTH 0.25       // Fraction of the kinetic energy by which windows may differ
+// Relative error of lengths that solvers leave. Gravity turns the error into energy.
+#define LENGTH_GRAIN 3e-4
+// Error of the turn at a vertex by rounding of positions and frames, rad.
+#define TURN_GRAIN 1e-5
 
 layout(std430, binding = HAIR_BIND_ENERGY) restrict buffer energy_buffer { hair_energy energy[]; };
 layout(std140, binding = HAIR_BIND_ENERGY_PARAMS) uniform energy_params_buffer { hair_energy_params watch; };
 
-float grain; // of the energy of the guide
+float grain; // Uncertainty of the guide's energy
 
 vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
 
-// Add the energy of a vertex that nothing holds.
+// Add the energy of a vertex that is not held.
 void add_vertex(uint i, vec3 root, bool has_rate, inout vec4 sum)
 {
     float over_mass = rod[i].segment.y;
@@ -39,7 +44,8 @@ void add_vertex(uint i, vec3 root, bool has_rate, inout vec4 sum)
 }
 
 #ifdef HAIR_MIXED
-// Return how far the turn from the frame before to that of segment i is from rest, and its energy in w: see mixed.glsl.
+// Return the difference of the hinge's turn from rest, between the frames of segments i-1 and i. w
+// is its energy. mixed.glsl has the equations.
 vec4 bend_of(uint i, vec4 before)
 {
     vec4  q = quat_multiply(quat_conjugate(before), material[i]), strain = rod[i].strain;
@@ -49,7 +55,8 @@ vec4 bend_of(uint i, vec4 before)
     return vec4(off, 0.5 * strain.w * (dot(off, params.ratio.xyz * off) + params.ratio.z * real * real));
 }
 #else
-// Return the difference of the directions at vertex i, and its energy in w: see bending.glsl.
+// Return the difference of the directions at vertex i. w is its energy. bending.glsl has the
+// equations.
 vec4 bend_of(uint i, vec3 before)
 {
     vec3 off = normalize(state[i + 1u].position.xyz - state[i].position.xyz) - before;
@@ -71,7 +78,7 @@ void add_bending(uint g, uint first, uint count, inout vec4 sum)
     }
 }
 
-// Return what is watched from now on. `total`: the energy; `kinetic`: of it.
+// Return the updated window of a guide. `total` is its energy, and `kinetic` the kinetic part.
 vec4 next_window(vec4 window, float total, float kinetic)
 {
     if (watch.begins != 0u) window = vec4(NONE, -NONE, 0.0, 0.0);
@@ -93,7 +100,8 @@ void main()
     vec3 root  = state[first].position.xyz;
     vec4 sum   = vec4(0.0);
     grain      = 0.0;
-    if (rod[first].segment.y > 0.0) root = vec3(0.0); // A free one falls.
+    // A free root falls, so that gravity's energy is relative to the head's origin.
+    if (rod[first].segment.y > 0.0) root = vec3(0.0);
     bool has_rate = state[first].position.w >= 2.0;
     for (uint i = first; i < first + count; ++i) add_vertex(i, root, has_rate, sum);
     add_bending(g, first, count, sum);

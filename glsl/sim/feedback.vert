@@ -1,8 +1,12 @@
-// feedback.vert - the solver of redblack.comp without compute shaders, as Tariq 2010 has it for Direct3D 10: every phase is a
-// draw of all vertices as points, captured into another buffer, from which the next phase reads. One shader, compiled once
-// for each HAIR_PHASE: 0 integration, 1 angular forces, 2 and 3 red and black distance constraints, 4 and 5 angular ones,
-// 6 collisions, 7 the end of the substep, which is the first of the parameters. While constraints run, what is kept
-// beside a vertex's position is where it was before.
+// feedback.vert - the solver of redblack.comp without compute shaders, as in Tariq 2010 for
+// Direct3D 10. Every phase draws all vertices as points. Transform feedback captures them into
+// another buffer, which the next phase reads. The shader is compiled once per HAIR_PHASE:
+//
+//   0 integration, 1 angular forces, 2 and 3 red and black distance constraints,
+//   4 and 5 angular constraints, 6 collisions, 7 end of the substep
+//
+// The substep is the first one in the parameters. During the constraints, the value kept beside a
+// vertex's position is its position before the substep.
 #version 450 core
 #include "shared.h"
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
@@ -13,11 +17,12 @@ layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params 
 layout(binding = HAIR_UNIT_STATE) uniform samplerBuffer state_texture; // hair_state
 layout(binding = HAIR_UNIT_REST) uniform samplerBuffer rest_texture;   // hair_rest
 layout(binding = HAIR_UNIT_GUIDE) uniform usamplerBuffer guide_texture; // hair_guide
-layout(binding = HAIR_UNIT_OWNER) uniform usamplerBuffer owner_texture; // guide of each vertex
+// Index of the guide of each vertex.
+layout(binding = HAIR_UNIT_OWNER) uniform usamplerBuffer owner_texture;
 
 out vec4 moved[2]; // hair_state
 
-uint first, count; // of the guide's vertices
+uint first, count; // first vertex of the guide, and number of its vertices
 
 vec3 vertex(uint i) { return texelFetch(state_texture, 2 * int(first + i)).xyz; }
 vec3 beside(uint i) { return texelFetch(state_texture, 2 * int(first + i) + 1).xyz; }
@@ -30,7 +35,7 @@ vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
     return position + (target - position) * (k / (1.0 + k));
 }
 
-// Where the link (a, b) has its end i, as relax_link of constraints.glsl.
+// Return vertex i, an end of the link (a, b), after relax_link() of constraints.glsl.
 vec3 relaxed(uint i, uint a, uint b, float rest_length, float stiffness)
 {
     vec3  link = vertex(b) - vertex(a);
@@ -75,7 +80,7 @@ vec3 bend_to_rest(uint i, vec4 head)
     return vertex(i) + moved;
 }
 
-// Those that are too far do nothing.
+// Push vertex i out of all colliders. A collider that is too far away does nothing.
 vec3 collide(uint i, float share)
 {
     vec3 position = vertex(i);
@@ -84,7 +89,8 @@ vec3 collide(uint i, float share)
     return position;
 }
 
-// By the bits: comparisons with NaN may be compiled away.
+// Return whether v is finite. The test is by bits, because compilers may remove comparisons with
+// NaN.
 bool is_finite(vec3 v) { return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u))); }
 
 bool is_broken(vec3 head)
@@ -118,7 +124,8 @@ void main()
 #elif HAIR_PHASE == 6
     x = collide(i, params.substep[0].displacement.w);
 #else
-    bool broken = is_broken(head); // The whole strand goes back to its rest pose.
+    // The whole strand returns to its rest pose.
+    bool broken = is_broken(head);
     kept        = broken ? (dot(head, head) < 1e8 ? head : vec3(0.0)) : x - kept + head;
     x           = broken ? target : x;
 #endif

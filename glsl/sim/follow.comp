@@ -1,22 +1,28 @@
-// follow.comp - dynamic follow-the-leader (Müller et al. 2012): all substeps of a step for every guide, one pass each.
+// follow.comp - dynamic follow-the-leader (Mueller et al. 2012). A dispatch does all substeps of a
+// step for every guide, each in one pass.
 //
-// Each segment is drawn after the one before it, so that lengths are exact. It carries all beyond it, of inertia I
-// and centre of mass C about its first vertex, as a rigid body. With d the inertial displacements of its vertices,
-// D the displacement of its first one and u = h^2 g + d_0 - D what acts on all beyond it, its direction becomes
+// Each segment is drawn after the one before it, so that lengths are exact. A segment carries all
+// vertices beyond it as a rigid body of inertia I and centre of mass C about its first vertex. Let
+// l be its length, d_0 and d_1 the inertial displacements of its vertices, and D the displacement
+// of its first vertex. u = h^2 g + d_0 - D is the displacement that acts on all vertices beyond.
+// The direction t of the segment becomes
 //
 //   t' ~ t + (d_1 - d_0) / l + h^2 Q a / I + (c u - (u . Q r) Q p) / I,   C = c r + p, p across r
 //
-// where r is its rest direction and Q the rotation of the segment before it from the rest pose. The stiffness K and
-// the rest shape, which bears part of gravity, are in a (lib/sim/follow.c). To normalise t' is to take the pull
-// to the direction of rest implicitly, so that any stiffness is stable. A segment feels only those before it: its
-// oscillation cannot feed theirs, and the shape at rest follows from the root on, whatever was before.
+// r is the rest direction, and Q the rotation of the segment before it from the rest pose. a
+// contains the stiffness K and the rest shape, which bears part of gravity (lib/sim/follow.c).
+// Normalising t' makes the pull to the rest direction implicit, so that any stiffness is stable. A
+// segment is affected only by the segments before it. Its oscillation cannot feed theirs. The shape
+// at rest follows from the root on, whatever came before.
 //
-// A solid keeps a vertex above the plane of its contact: the direction is turned until the vertex lies on it, where
-// friction holds it if it can. The planes of a substep are the first guess of the next.
+// A collider keeps a vertex above the plane of its contact. The direction is turned until the
+// vertex lies on the plane, where friction holds the vertex if it can. The planes of a substep are
+// the first guess of the next one.
 //
-// Not handled: what moves the tip does not move the root. A segment carries all beyond it, though a solid
-// may bear it: a strand whose root is beside a box slides off its top, while one whose root is above it
-// stays. Twist follows the rest shape. Bending is that of a round section.
+// Not handled: Motion of the tip does not move the root. A segment carries all vertices beyond it,
+// although a collider may support them. A strand whose root is beside a box therefore slides off
+// its top. A strand whose root is above the box stays. Twist follows the rest shape. Bending is
+// that of a round section.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
@@ -39,13 +45,15 @@ layout(local_size_x = GROUP_THREADS) in;
 #endif
 #include "sim/follow_state.glsl"
 
-#define CONTACT_ROUNDS 3u // of pushing vertices out of solids and drawing the strand again
+// Number of rounds that push vertices out of colliders and draw the strand again.
+#define CONTACT_ROUNDS 3u
 
-OWN(vec3, pushed); // by solids, in the last look at them
+OWN(vec3, pushed); // Displacement by colliders in the last round
 
 #include "sim/follow_draw.glsl"
 
-// Find the planes that solids keep vertices above. False: none touches any.
+// Find the planes above which colliders keep vertices. Return false if no vertex touches a
+// collider.
 bool meet_solids(vec3 head_moved)
 {
     bool touches = false;
@@ -61,7 +69,8 @@ bool meet_solids(vec3 head_moved)
         }
     }
     EACH(guide_count) {
-        bool glides = own(touch).w == GLIDES; // The plane is then across the push by both solids.
+        // The plane is then normal to the push of both colliders together.
+        bool glides = own(touch).w == GLIDES;
         PUT(handed, own(wanted));
         PUT(edge, glides ? direction_or(own(pushed), vec3(0.0, 1.0, 0.0)) : own(touch).xyz);
     }

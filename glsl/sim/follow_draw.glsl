@@ -1,11 +1,11 @@
-// follow_draw.glsl - a strand drawn after its root, segment by segment: see follow.comp.
+// follow_draw.glsl - draw a strand after its root, segment by segment, as follow.comp explains.
 bool is_direction(vec3 to, float len)
 {
     float l = length(to);
     return bits_of(l) < 0x7f800000u && l > 1e-3 * len;
 }
 
-// Compute where vertices go by inertia, air, the pull to the rest pose and the hair around.
+// Compute where vertices go by inertia, wind, the pull to the rest pose and the hair around them.
 void predict()
 {
     float h   = params.gravity.w;
@@ -38,7 +38,8 @@ void predict()
     MEET;
 }
 
-// Keep a vertex that goes to d above its plane: where contact has put it, or else straight above.
+// Keep a vertex that goes to d above its plane. Contact has moved it to a place on the plane, or
+// else it is moved along the normal.
 vec3 kept_above(uint k, vec3 d, bool met)
 {
     vec3  normal = GET_AT(edge, k), on = GET_AT(handed, k);
@@ -47,7 +48,8 @@ vec3 kept_above(uint k, vec3 d, bool met)
     return met ? on : d + depth * normal;
 }
 
-// Return the direction near `way` in which vertex k, at its length from its leader, is not below its plane.
+// Return the direction near `way` in which vertex k, at its length from its leader, is not below
+// its plane.
 vec3 direction_above(uint k, vec3 leader, vec3 between, vec3 way, float len, bool met)
 {
     vec3 normal = GET_AT(edge, k), d = leader + len * way - between, to = between + kept_above(k, d, met) - leader;
@@ -72,7 +74,8 @@ void draw_strand_after_root(bool met)
         hair_rod f       = rod[guide_first + k];
         float    len     = f.segment.x;
         vec3     between = GET_AT(place, k + 1u) - GET_AT(place, k), way = rotate(turn, f.factor_euler.xyz);
-        if (dot(f.strain.xyz, f.strain.xyz) == 0.0) { // Nothing holds its angle.
+        // Nothing determines the segment's angle.
+        if (dot(f.strain.xyz, f.strain.xyz) == 0.0) {
             turn = quat_multiply(quat_between(way, normalize(between)), turn);
             way  = normalize(between);
         }

@@ -1,8 +1,9 @@
-// follow_state.glsl - a guide of follow.comp between substeps: loaded, accepted, stored.
-#define IS_PLANE 2.0 // w of a plane in material[], which no quaternion has that a reset or a teleport leaves
+// follow_state.glsl - load, accept and store a guide of follow.comp.
+// Value of w of a plane in material[]. No quaternion that a reset or a teleport leaves has this w.
+#define IS_PLANE 2.0
 #include "sim/load_vertex.glsl"
 
-OWN(vec3, plane); // of the contact at the end of the last substep: normal; 0: none
+OWN(vec3, plane); // Normal of the contact at the end of the last substep, or 0
 
 void load()
 {
@@ -28,7 +29,8 @@ void store()
     }
 }
 
-// Accept `moved`. A strand that is not finite, or beyond any hair, goes back to its rest pose, and along with the head.
+// Accept `moved`. A strand that is not finite, or is farther away than any hair, returns to its
+// rest pose and moves with the head.
 void finish(vec3 head_moved)
 {
     bool  lost    = false;

@@ -1,6 +1,7 @@
-// guide_list.glsl - the guides that the first program of two leaves to the second.
+// guide_list.glsl - the list of guides that the first of two programs leaves to the second.
 
-// Return where the length of a list is, after the work groups of an indirect dispatch.
+// Return the index of a list's length in health[]. The work groups of an indirect dispatch come
+// before it.
 uint length_of_list(uint list) { return uint(HAIR_HEALTH_COUNT) + uint(HAIR_HEALTH_LIST) * list + 3u; }
 
 void clear_list(uint list)
@@ -8,7 +9,8 @@ void clear_list(uint list)
     for (uint k = 0u; k < uint(HAIR_HEALTH_LIST); ++k) health[length_of_list(list) - k] = 0u;
 }
 
-// Add a guide to the list of this dispatch, and the work group that it needs. Direct dispatches ignore the groups.
+// Add a guide to the list of this dispatch, and count the work groups that the list needs. Direct
+// dispatches ignore the groups.
 void add_to_list(uint number)
 {
     uint at     = length_of_list(params.list), n = atomicAdd(health[at], 1u);

@@ -1,12 +1,13 @@
-// implicit.glsl - A q = r for r in moved[], in place. A has five diagonals and was made ready on the CPU, for the
-// solver's own method and for implicit Euler.
+// implicit.glsl - solve A q = r in place, for r in moved[]. A has five diagonals. The CPU prepares
+// it for the solver's own method and for implicit Euler.
 
-// Elimination and substitution by A = L D L^T: two recurrences over the strand.
+// Eliminate and substitute by A = L D L^T, with two recurrences over the strand.
 void substitute(bool euler)
 {
     MEET;
     ONCE {
-        vec3 one = vec3(0.0), two = vec3(0.0); // what the rows one and two above hand down
+        // Sums to subtract from the next row and from the one after it.
+        vec3 one = vec3(0.0), two = vec3(0.0);
         for (uint k = 0u; k < guide_count; ++k) {
             vec4 f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
             vec3 value = GET_AT(moved, k) - one;
@@ -33,9 +34,10 @@ void solve_implicit(bool euler) { substitute(euler); }
 
 #else
 
-// Parallel cyclic reduction of pairs of vertices, the matrix's part of it done (lib/sim/reduce.c): 0 where a pair has no
-// other at that distance. Implicit Euler is rare, and substitutes; so does who has no reduction, since threads have the
-// guides mostly.
+// Solve by parallel cyclic reduction of pairs of vertices. The CPU has reduced the matrix already
+// (lib/sim/reduce.c). Its factors are 0 where a pair has no other pair at that distance. Implicit
+// Euler is rare, and substitutes. Guides without a reduction substitute too, because they mostly
+// have one thread each.
 void solve_implicit(bool euler)
 {
 #ifndef HAIR_FIRST
@@ -53,7 +55,8 @@ void solve_implicit(bool euler)
         vec4 m    = reduction[row_of];
         uint up = pair - reach, down = pair + reach;
         lend(r);
-        r = m.x * lent_by(up) + r; // One after the other, so that each is one instruction.
+        // Separate statements compile to one instruction each.
+        r = m.x * lent_by(up) + r;
         r = m.y * lent_by(up + 1u) + r;
         r = m.z * lent_by(down) + r;
         r = m.w * lent_by(down + 1u) + r;

@@ -1,8 +1,9 @@
-// leader.glsl - follow the leader: what always finds lengths, though not by the laws of motion.
+// leader.glsl - follow-the-leader. It always restores lengths, but not by the laws of motion.
 #define HEAVY_ROUNDS 6u
 #define TIED_ROUNDS 8u
 
-// Vertex k at its length from the one it follows, in the direction that it has from there.
+// Place vertex k at its length from its leader, in its present direction from there. If that
+// direction is undefined, use the last one.
 void draw_along(uint k, uint leader, float len, inout vec3 last)
 {
     vec3  moved_leader = GET_AT(moved, leader), between = GET_AT(place, k) - GET_AT(place, leader);
@@ -14,8 +15,8 @@ void draw_along(uint k, uint leader, float len, inout vec3 last)
 
 float length_of(uint k) { return rod[guide_first + k].segment.x; }
 
-// From one vertex on, whose place is right already, to another: each segment drawn after the one before it (Müller et
-// al. 2012).
+// Draw the vertices from `from` to `to`, each after the one before it (Mueller et al. 2012). `from`
+// is already at its place.
 void draw_on(uint from, uint to, float more, inout vec3 last)
 {
     for (uint k = from + 1u; k <= to; ++k) draw_along(k, k - 1u, more * length_of(k - 1u), last);
@@ -28,8 +29,8 @@ void draw_back(uint from, uint to, float more, inout vec3 last)
 
 #ifdef HAIR_TIED
 
-// Both ends are where they are held: drawn after them in turn (Aristidou and Lasenby 2011); what then is left to the
-// far one is shared out along the span.
+// Draw a span between two held vertices from both ends in turn (Aristidou and Lasenby 2011).
+// Distribute the remaining error of the far end along the span.
 void draw_span(vec4 span, inout vec3 last)
 {
     uint  from = uint(span.x), to = uint(span.y);
@@ -66,8 +67,8 @@ void draw_strand()
 
 #else
 
-// A tip that outweighs its strand is not to be thrown about by it: first the strand is drawn after both ends in turn
-// (Aristidou and Lasenby 2011).
+// Draw the strand. A strand must not throw a tip that outweighs it about. The strand of such a tip
+// is first drawn from both ends in turn (Aristidou and Lasenby 2011).
 void draw_strand()
 {
     uint tip  = guide_count - 1u, rounds = heavy ? HEAVY_ROUNDS : 0u;
@@ -82,7 +83,7 @@ void draw_strand()
 
 #endif
 
-// What of `moved` solids allow, drawn so.
+// Draw the strand towards `moved`, as colliders allow it, and take the result as `wanted`.
 void follow_leader()
 {
     EACH(guide_count) {

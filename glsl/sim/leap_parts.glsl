@@ -1,29 +1,32 @@
-// leap_parts.glsl - a substep of SHAKE, whole or in parts: see parts.glsl.
+// leap_parts.glsl - a substep of SHAKE, as a whole or in parts. parts.glsl explains the parts.
 
 #define MIN_PART (1.0 / 32.0)
 
-// llvmpipe leaves all loops after so many rounds: see lib/sim/programs.c. A thread goes round for each vertex. A
-// work group goes round once, and more often in a reduction.
+// Maximum number of loop rounds. llvmpipe leaves all loops after a fixed number of rounds, which
+// lib/sim/programs.c has. A thread goes round once per vertex. A work group goes round once, and
+// more often in a reduction.
 #ifdef HAIR_THREAD_PER_GUIDE
 #define MAX_LOOPS (params.part_rounds / uint(MOST))
 #else
 #define MAX_LOOPS (params.part_rounds / 3u)
 #endif
-#define LOOPS_OF_LOOK (SOLIDS ? params.solids + 10u + 12u * uint(bitCount(params.bodies)) : 0u) // at few solids
-#define LOOPS_OF_PART (15u + 2u * LOOPS_OF_LOOK) // beside those of each step of lengths
+// Rounds of one test against few colliders.
+#define LOOPS_OF_LOOK (SOLIDS ? params.solids + 10u + 12u * uint(bitCount(params.bodies)) : 0u)
+// Rounds of a part, without those of each step of lengths.
+#define LOOPS_OF_PART (15u + 2u * LOOPS_OF_LOOK)
 #define LOOPS_OF_STEP (9u + LOOPS_OF_LOOK)
 #define LOOPS_OF_ATTEMPT (LOOPS_OF_PART + 3u * LOOPS_OF_STEP)
 
-bool touching; // a solid, in the last attempt
+bool touching; // The last attempt touched a collider.
 
-// Return whether the rest of the substep may be done in parts of that size.
+// Return whether the rest of the substep may be done in parts of this size.
 bool may_split(float smaller)
 {
     return !touching && smaller >= MIN_PART &&
            rounds_spent + LOOPS_OF_ATTEMPT * uint((1.0 - done) / smaller) < MAX_LOOPS;
 }
 
-// Return whether a segment turns too far, and smaller parts are left.
+// Return whether a segment turns too far and smaller parts are possible.
 bool turns_far(int method)
 {
     float min_cosine = leap_part < 1.0 || (known > 0.0 && known < 1.0) ? MIN_PART_COSINE : MIN_COSINE;
@@ -38,10 +41,12 @@ bool turns_far(int method)
     return IS_SHAKE(method) && found.x && may_split(0.5 * leap_part);
 }
 
-// Each change of length shifts the energy of short waves a little. A longer part is tried after 512 quiet substeps.
+// Increment of the count of quiet substeps. Each change of a part's length shifts the energy of
+// short waves a little. A longer part is therefore tried only after 512 quiet substeps.
 #define QUIET_STEP (1.0 / 512.0)
 
-// Place head and root where a part that begins at `done` ends, and choose the leap over it. `size`: of that leap.
+// Place head and root at the end of a part that begins at `done`, and choose its leap. `size` is
+// the fraction of the substep that the leap covers.
 void place_part(float size, float end, vec3 head_moved)
 {
     vec4  to   = dot(head_at_start, head_at_end) < 0.0 ? -head_at_end : head_at_end;
@@ -62,7 +67,8 @@ void begin_part()
     share_then = share_now;
 }
 
-// Do a substep in parts as long as the last one, twice as long after quiet substeps, or shorter where it must be.
+// Do a substep in parts as long as the last one. Parts become twice as long after quiet substeps,
+// and shorter where necessary.
 void do_substep(vec3 head_moved)
 {
     float size = known > 0.0 ? known_part() : 1.0, quiet = 0.0;

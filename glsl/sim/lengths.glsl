@@ -1,10 +1,12 @@
-// lengths.glsl - rest lengths, exactly: Newton's method on all lengths of a strand at once, each step a tridiagonal
-// system (Han and Harada 2013), contact within it. The corrections of vertex i, wanted by the segments on both its
-// sides, pass its contact: that makes its inverse mass an operator.
+// lengths.glsl - exact rest lengths by Newton's method on all lengths of a strand at once. Each
+// step solves a tridiagonal system (Han and Harada 2013) that includes contact. Vertex i is
+// corrected by the segments on both its sides. Each correction passes its contact, which makes the
+// inverse mass of the vertex an operator.
 //
-// Where bending is taken implicitly what keeps the lengths moves the strand by A^-1 = (M + b^2 K)^-1, as all forces
-// do: by M^-1 alone the shape at rest would depend on the substep, and a stiff strand with a kink would flail. The
-// first steps correct them so, the others, of what is left, by M^-1, which is exact sooner.
+// With implicit bending, the forces that keep lengths move the strand by A^-1 = (M + b^2 K)^-1, as
+// all forces do. With M^-1 alone, the shape at rest would depend on the substep, and a stiff strand
+// with a kink would flail. The first steps use A^-1. The others correct the remaining error by
+// M^-1, which converges faster.
 #include "sim/contact_try.glsl"
 #include "sim/past.glsl"
 #ifdef HAIR_TIED
@@ -12,17 +14,20 @@
 #endif
 #include "sim/leader.glsl"
 
-OWN(float, hinge_along); // what bending, taken for a spring along the strand, has against what is wanted of it
+// Resistance of bending to the wanted change of length, with bending as a spring along the strand.
+OWN(float, hinge_along);
 
 #ifndef KEEPS_RATES
-#define STIFFLY 0u // None is that stiff.
+#define STIFFLY 0u // No bending is implicit.
 #else
-#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u) // steps by A^-1: the bias at rest is a tenth with each
+// Number of steps by A^-1. Each of them reduces the bias at rest to a tenth.
+#define STIFFLY (HAIR_SOLVER == SHAKE ? 3u : 1u)
 #endif
 #define MOST_STEPS 8u
 
-// The inverse of J A^-1 J^T out of that of J M^-1 J^T: add b^2 times what K does along the strand, a tridiagonal
-// product. Of a straight strand that is the inverse, of another nearly (as of fluids, Cahouet and Chabard 1988).
+// Turn the solution with J M^-1 J^T into that with J A^-1 J^T. Add b^2 times the effect of K along
+// the strand, a tridiagonal product. The sum is exact for a straight strand, and nearly so for
+// others (as for fluids, Cahouet and Chabard 1988).
 void stiffen_solution(float b)
 {
     uint segments = guide_count - 1u;
@@ -37,7 +42,7 @@ void stiffen_solution(float b)
     MEET;
 }
 
-// By A^-1 of the forces in moved[].
+// Move vertices by A^-1 times the forces in moved[].
 void move_stiffly()
 {
     solve_implicit(false);
@@ -47,8 +52,10 @@ void move_stiffly()
     }
 }
 
-// Of vertex i and the segments p and q beside it, with S its inverse mass as an operator: p.S q and so on. Of a leap, whose
-// forces are those of the start, what is lacking at first is made up for along the segments there.
+// Do one Newton step on the lengths. The entries of the matrix are p.S q, with the directions p and
+// q of the segments beside vertex i and its inverse mass S as an operator. The forces of a leap are
+// those of the start. The first step of a leap therefore corrects along the directions at the
+// start.
 void correct_lengths(int method, uint n)
 {
     bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && IS_BACK(method);
@@ -59,7 +66,8 @@ void correct_lengths(int method, uint n)
     }
     EACH(guide_count) {
         vec3 before = BEFORE_VEC3(edge), along_before = before, along = GET(edge);
-        if (HAIR_SOLVER == SHAKE) { // Which alone has other directions.
+        // Only SHAKE corrects along other directions.
+        if (HAIR_SOLVER == SHAKE) {
             vec3 first   = BEFORE_VEC3(lever);
             along_before = of_start ? first : before;
             along        = of_start ? GET(lever) : along;
@@ -67,7 +75,8 @@ void correct_lengths(int method, uint n)
         vec3 by_own    = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), GET(edge)) : GET(edge));
         vec3 by_before = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), before) : before);
         own(row)       = vec4(i > 0u ? -dot(by_own, along_before) : 0.0, dot(by_own, along), 0.0, -own(excess));
-        PUT(handed, vec3(dot(by_before, along_before), -dot(by_before, along), -own(excess) / own(rest_length))); // To the neighbours.
+        // Hand the terms of this vertex to the rows of the neighbours.
+        PUT(handed, vec3(dot(by_before, along_before), -dot(by_before, along), -own(excess) / own(rest_length)));
     }
     MEET;
     EACH(segments) {
@@ -79,7 +88,8 @@ void correct_lengths(int method, uint n)
 #ifdef HAIR_TIED
         own(row).y *= 1.0 + own(gives);
 #endif
-        if (own(row).y == 0.0) own(row) = vec4(0.0, 1.0, 0.0, 0.0); // Both ends are held.
+        // Both ends are held.
+        if (own(row).y == 0.0) own(row) = vec4(0.0, 1.0, 0.0, 0.0);
     }
     solve_rows(segments);
     if (stiffly) stiffen_solution(2.0 / 3.0 * params.gravity.w);
@@ -99,18 +109,21 @@ void correct_lengths(int method, uint n)
     if (stiffly) move_stiffly();
 }
 
-// Or, by the last of the methods, from root to tip. False: some length is broken even so.
+// Fit the lengths by Newton steps, or by follow-the-leader if `method` is the last one. Return
+// false if a length is still broken.
 bool fit_lengths(int method, float tolerance, vec3 head_moved)
 {
     for (uint n = 0u;; ++n) {
         length_steps = n;
         try_wanted(head_moved, n >= KEEP_FROM);
-        if (IS_LEADER(method)) { // What that draws into solids is turned out of them, once.
+        // Vertices that are drawn into colliders are pushed out once.
+        if (IS_LEADER(method)) {
             follow_leader();
             if (n == (SOLIDS ? 1u : 0u)) return true;
         } else {
             measure(tolerance);
-            // One step at least: errors let pass would gather over substeps, and leave at once with a jerk.
+            // Do at least one step. Skipped errors would add up over substeps, and then leave at
+            // once with a jerk.
             if ((n > 0u && !loose) || n == MOST_STEPS || !has_rounds()) return !broken;
             correct_lengths(method, n);
         }

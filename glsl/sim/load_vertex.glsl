@@ -1,11 +1,11 @@
-// load_vertex.glsl - what every solver of rods loads of a vertex.
+// load_vertex.glsl - load the part of a vertex that all solvers of rods need.
 
-// Set vertex i from its state and its numbers. The displacement is rescaled to the length of this step's
-// substeps. `pulled` means that the pose at rest pulls.
+// Set vertex i from its state and its constants. The displacement is rescaled to the length of this
+// step's substeps. `pulled` means that the rest pose pulls.
 void load_vertex(uint i, hair_state was, vec4 segment, bool pulled)
 {
     segment *= i < guide_count ? 1.0 : 0.0;
-    // A root that is held is where the scalp has it, wherever it was when it was not.
+    // A held root is where the scalp places it, wherever it was while it was free.
     bool moves = segment.y > 0.0 || (TIED && i > 0u && i < guide_count);
     PUT(place, moves ? was.position.xyz - root_then : vec3(0.0));
     own(displacement) = was.displacement.xyz * params.rescale;
