@@ -1,26 +1,34 @@
-// mapping.glsl - one text for three ways to spread a guide over threads: a work group per guide and a thread per
-// vertex; the same of a guide that fits into a subgroup (HAIR_SUBGROUP), whose threads read each other's registers; or,
-// with HAIR_THREAD_PER_GUIDE, a thread per guide that goes over its vertices.
+// mapping.glsl - macros that spread a guide over threads in one of three ways. Without a flag, a
+// work group has a guide, and a thread has a vertex. With HAIR_SUBGROUP, a guide that fits into a
+// subgroup uses shuffles instead of shared memory. With HAIR_THREAD_PER_GUIDE, a thread loops over
+// the vertices of its guide.
 //
-//   EACH(n)  for the vertices i below n, in any order. A subgroup goes over those beyond as well: nothing of them is
-//            looked at
-//   OWN      what only its vertex sees: a register, or an array; own(name)
-//   PARKED   the same, seldom looked at: of a subgroup in shared memory, for it has more under way at once the fewer
-//            registers it takes; parked(name)
-//   SHARED   what its neighbours see too: seen(name), BEFORE(name). Of vectors SHARED_VEC3: GET(name), PUT(name, v),
-//            BEFORE_VEC3(name), AFTER_VEC3(name), beyond the ends anything. All threads are there together: neither
-//            within a condition that differs between vertices, nor in an EACH that writes it
+//   EACH(n)   Loop over the vertices i below n, in any order. A subgroup also executes the body for
+//             the other vertices, whose results are not used.
+//   OWN       A value that only its vertex reads: a register, or an array. Accessed by own(name).
+//   PARKED    A value as in OWN that is rarely used. A subgroup keeps it in shared memory, because
+//             a GPU runs more subgroups at once the fewer registers each takes. Accessed by
+//             parked(name).
+//   SHARED    A value that neighbours read too, by seen(name) and BEFORE(name). SHARED_VEC3 is for
+//             vectors: GET(name), PUT(name, v), BEFORE_VEC3(name) and AFTER_VEC3(name). Beyond the
+//             ends the value is undefined. All threads must execute these together. They must not
+//             be in a condition that differs between vertices, or in an EACH that writes the value.
 //   MEET_TO_VOTE
-//            before a vote, after which shared memory is read that others have written
-//   MEET     between two EACH of which one writes, for another vertex, what the other reads; any_of and all_bits, what
-//            any of the guide's threads has, sum_of and most_of do that too; bits_of_lanes, all_bits of bits that a thread
-//            has only where i % lanes is its own number
-//   ONCE     what goes over the whole guide, as recurrences do, by GET_AT(name, k) and PUT_AT(name, k, v); after it
-//            RENEW(name) what it has put, since a vertex's own is kept in registers too
-//   lend     makes a vector seen by all threads of a work group or subgroup, as lent_by(thread), which goes round
+//             A barrier before a vote. After the vote, shared memory written by others is visible.
+//   MEET      A barrier between two EACH, where the first writes values of other vertices that the
+//             second reads. Votes and sums are barriers too. any_of and all_bits combine the values
+//             of the guide's threads, and sum_of and most_of give their sum and maximum.
+//             bits_of_lanes is all_bits of bits that a thread has only where i % lanes is its
+//             number.
+//   ONCE      A block that handles the whole guide, as recurrences do, by GET_AT(name, k) and
+//             PUT_AT(name, k, v). RENEW(name) must follow, because a vertex's own value is kept in
+//             registers too.
+//   lend      Broadcast a vector to all threads of a work group or subgroup. lent_by(thread) reads
+//             the vector of a thread, whose number wraps around.
 #include "workgroup.glsl"
 
-// What a program leaves out. Constants, for software rasterisers run both sides of a branch.
+// Features of a program as constants. Constants remove code, while software rasterisers execute
+// both sides of a branch.
 #ifdef HAIR_SOLIDS
 #define SOLIDS true
 #else
@@ -32,7 +40,8 @@
 #define TIED false
 #endif
 
-// Programs that many guides go through first have few registers to a guide. The program of SHAKE has enough.
+// Programs that many guides go through first have few registers per guide. The program of SHAKE has
+// enough.
 #ifdef HAIR_FIRST
 #if HAIR_SOLVER != 0
 #define SHARES_GROUPS
@@ -41,8 +50,9 @@
 
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 
-// Of so many guides a work group has several, since it takes as long to launch whatever it has. What they vote on they agree on:
-// barriers of subgroups NVIDIA makes barriers of the whole GPU, which take 0.1 ms of a step of 102,400 guides.
+// With many guides, a work group has several of them, because a launch takes equally long for any
+// size. Votes alone keep the threads of a guide together. NVIDIA implements barriers of subgroups
+// as barriers of the whole GPU, which take longer.
 #ifdef SHARES_GROUPS
 #define GROUP_GUIDES uint(HAIR_FIRST_GUIDES)
 #define guide_of_group gl_SubgroupID
@@ -65,7 +75,7 @@
 #define seen(name) name
 #define GET(name) name
 #define PUT(name, v) name = v
-// Of 32 threads shuffles go round: of the number of a thread five bits count.
+// Shuffles among 32 threads wrap around, because only five bits of a thread's number count.
 #define BEFORE(name) subgroupShuffle(name, lane - 1u)
 #define BEFORE_VEC3(name) BEFORE(name)
 #define AFTER_VEC3(name) subgroupShuffle(name, lane + 1u)
@@ -92,7 +102,8 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 #define guide_of_group 0u
 #define MEET_TO_VOTE synchronise()
 
-// Vertices, and one more, which AFTER_VEC3 may read. And Mesa takes 16 s to unroll a loop over an array of 32.
+// Size of arrays: the vertices, and one more that AFTER_VEC3 may read. Mesa takes very long to
+// unroll a loop over an array of 32.
 #define MOST (HAIR_GUIDE_THREADS + 1)
 
 #define GET_AT(name, k) name[k]
@@ -105,7 +116,7 @@ vec3  lent_by(uint thread) { return subgroupShuffle(lent, thread); }
 #ifdef HAIR_THREAD_PER_GUIDE
 
 #define GUIDES_IN_GROUP uint(GROUP_THREADS)
-#define GROUP_THREADS 8 // the width of software rasterisers, for which this mapping is
+#define GROUP_THREADS 8 // Width of software rasterisers, which use this mapping
 #define EACH(n) for (uint i = 0u; i < (n); ++i)
 #define ONCE
 #define SHARED(T, name) T name[MOST]
@@ -135,7 +146,8 @@ float most_of(float v) { return v; }
 #define ONCE if (lane == 0u)
 #define SHARED(T, name) shared T name[MOST]
 #define SHARED_VEC3(name) shared vec3 name[MOST]
-struct { vec3 place, moved, edge, lever, handed; } mine; // what is shared of the thread's own vertex
+// Shared values of the thread's own vertex.
+struct { vec3 place, moved, edge, lever, handed; } mine;
 #define GET(name) mine.name
 #define PUT(name, v) name[i] = mine.name = v
 #define RENEW(name) EACH(guide_count) { mine.name = name[i]; }
@@ -147,8 +159,10 @@ struct { vec3 place, moved, edge, lever, handed; } mine; // what is shared of th
 #define lane gl_LocalInvocationID.x
 #define lanes uint(HAIR_GUIDE_THREADS)
 
-shared uvec2 gathered[3]; // Taken in turn, so that one can be cleared while another is read.
-shared float lent[6 * MOST]; // Two in turn, likewise; component after component: vectors would not fit into 32 KB.
+shared uvec2 gathered[3]; // Used in turn, so that one can be cleared while another is read
+// Two buffers, used in turn. Components are stored one after the other, because vectors would not
+// fit into 32 KB.
+shared float lent[6 * MOST];
 uint gathering, lending;
 
 uint hair_guide_number()

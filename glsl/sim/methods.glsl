@@ -1,10 +1,13 @@
-// methods.glsl - the methods of a substep, and what they keep of a guide's past.
-#define SHAKE 0  // leapfrog: Verlet's second order, damping exact; lengths corrected along the edges of the start
+// methods.glsl - the methods of a substep, and their state of a guide's past.
+// Leapfrog, or Verlet: second order, with exact damping. Lengths are corrected along the edges of
+// the start.
+#define SHAKE 0
 #define BACK 1   // BDF2: second order, stable at any stiffness
-#define EULER 2  // implicit Euler: first order, more stable still
-#define LEADER 3 // the same, then follow the leader
+#define EULER 2  // Implicit Euler: first order, more stable still
+#define LEADER 3 // Implicit Euler, then follow-the-leader
 
-// These tests are constants where a program never has the method: software rasterisers run both sides of a branch.
+// Tests for a method. They are constants where a program never has the method, because software
+// rasterisers execute both sides of a branch.
 #define IS_SHAKE(method) (HAIR_SOLVER == SHAKE && (method) == SHAKE)
 #define IS_BACK(method) (HAS_BACK && (method) == BACK)
 #define IS_LEADER(method) ((method) == LEADER)
@@ -17,18 +20,22 @@
 #if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
 #define KEEPS_RATES
 #define HAS_BACK true
-OWN(vec3, rate);        // h v at the end of the last substep; the displacement while known < 2
-PARKED(vec3, rate_before); // and of the one before
-OWN(float, touched);    // 1: something, at the end of the last substep
+// h v at the end of the last substep, or the displacement while known < 2.
+OWN(vec3, rate);
+// h v at the end of the substep before.
+PARKED(vec3, rate_before);
+OWN(float, touched);    // 1 if the vertex touched a collider at the end of the last substep
 #ifndef HAIR_MIXED
-OWN(float, tension);    // of segment i, the force that keeps its length, over line density: m^2/s^2
+// Tension of segment i that keeps its length, divided by the line density, m^2/s^2.
+OWN(float, tension);
 
-#define GUESSED 0.5      // of the tension that was, at least: see guessed_part
-#define SLOW 0.3         // w h up to which all of it is,
-#define FAST 1.0         // and from which on no more
-#define STILL 0.05       // m/s from the root: what moves no faster is,
-#define MOVING 0.2       // and what is no longer
-#define MOST_GUESSED 0.5 // of the distance to a neighbour, which that may move a vertex
+#define GUESSED 0.5      // Minimum fraction of the last tension that guessed_part() returns
+#define SLOW 0.3         // w h up to which the whole tension is guessed
+#define FAST 1.0         // w h from which on the fraction GUESSED is guessed
+#define STILL 0.05       // Speed relative to the root at which a vertex counts as still, m/s
+#define MOVING 0.2       // Speed from which on the vertex counts as moving, m/s
+// Maximum displacement by the guessed tension, as a fraction of the distance to a neighbour.
+#define MOST_GUESSED 0.5
 #define FIND_TENSION(part) own(tension) -= (part) * own(solution) / of_force
 #define KEEPS_TENSION
 #endif
@@ -37,9 +44,10 @@ OWN(float, tension);    // of segment i, the force that keeps its length, over l
 #define FIND_TENSION(part)
 #endif
 #ifdef HAIR_STIFF
-int own_method; // of the guide
+int own_method; // Method of the guide
 #else
 const int own_method = HAIR_SOLVER;
 #endif
-float of_force; // what a force does in the substep, displacement times mass: s^2
+// Displacement times mass by a force in the substep, divided by the force, s^2.
+float of_force;
 #include "sim/parts.glsl"

@@ -1,7 +1,9 @@
-// mixed.comp - guides that are curved at rest, fine, or heavy at the tip: all substeps of a step for every guide.
+// mixed.comp - the mixed scheme for guides that are curved at rest, fine, or heavy at the tip. A
+// dispatch does all substeps of a step for every guide.
 //
-// A substep by BDF2 that fails is done again in parts. Follow-the-leader does the parts that cannot be solved. A guide that is
-// not finite even so goes back to its rest pose. Each of these is counted in health[].
+// A substep by BDF2 that fails is done again in parts. Follow-the-leader does the parts that cannot
+// be solved. A guide that is not finite even then returns to its rest pose. Each of these events is
+// counted in health[].
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require

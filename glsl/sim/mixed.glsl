@@ -1,8 +1,8 @@
 // mixed.glsl - rods by the turns of their segments and the forces in them. Derivation:
 //
-// Vertices i = 0..n-1, segments j = 0..n-2 of frames q_j, whose y axes are the unit tangents t_j. f_j is the
-// force in segment j, theta_j a small turn of the segment about the world's axes. Everything is divided by
-// the line density.
+// Vertices i = 0..n-1, segments j = 0..n-2 of frames q_j, whose y axes are the unit tangents t_j.
+// f_j is the force in segment j, theta_j a small turn of the segment about the world's axes.
+// Everything is divided by the line density.
 //
 // Time. Implicit Euler (b = 1) and BDF2 (b = 2/3) both move vertex i over a substep h by
 //
@@ -12,56 +12,63 @@
 //
 // Energy of the hinge at vertex i between the frames a = q_(i-1) and b = q_i:
 //
-//   E = k/2 (u - u0) . R (u - u0) + k R_z/2 (2 w - 2 w0)^2,   (s, w) = conj(a) b with w >= 0,   u = 2 s
+//   E = k/2 (u - u0) . R (u - u0) + k R_z/2 (2 w - 2 w0)^2,   (s, w) = conj(a) b, w >= 0,   u = 2 s
 //
-// The second term makes the energy grow with the turn from the rest shape up to half a turn. By the first
-// alone, a hinge that is bent by most of half a turn at rest is soft, and its energy jumps where the turn
-// passes half a turn. The moment in the world and the second derivative by the turns of both segments are
+// The second term makes the energy grow with the turn from the rest shape up to half a turn. With
+// only the first term, a hinge that is bent by nearly half a turn at rest is soft, and its energy
+// jumps where the turn passes half a turn. The moment in the world and the second derivative by the
+// turns of both segments are
 //
 //   g = k R (u - u0),   e = k R_z (2 w - 2 w0),   M_i = a (w g + s x g - e s) a*
 //   H_aa = H_bb = C - (g.s + e w)/2 1,   H_ab = -H_bb + [M_i]x / 2
 //   C = k R_z 1 + sum_k k (R_k - R_z) j_k j_k^T,   j_k = a (w e_k + s x e_k) a*
 //
-// The term [M]x / 2 is what couples bending and twist of a strand that is curved. Without it the one Newton
-// step of a substep diverges: twist has no inertia.
+// The term [M]x / 2 couples bending and twist of a curved strand. Without this term, the one Newton
+// step of a substep diverges, because twist has no inertia.
 //
-// Balance. Segment j of length l_j turns no further, and connects its vertices, where both residuals vanish:
+// Balance. Segment j of length l_j turns no further, and connects its vertices, where both
+// residuals vanish:
 //
 //   r_j = M_(j+1) - M_j + l_j t_j x f_j
 //   e_j = l_j t_j - (x_(j+1)' - x_j')
 //
-// Newton's method on both is a symmetric system of tridiagonal 6 x 6 blocks: see mixed_solve.glsl.
-// Positions are sums of l_j t_j, so that lengths are exact whatever is left of e_j.
+// Newton's method on both is a symmetric system of tridiagonal 6 x 6 blocks. mixed_solve.glsl
+// solves it. Positions are sums of l_j t_j, so that lengths are exact whatever is left of e_j.
 //
-// Sources: M. Bergou et al., Discrete Elastic Rods, 2008 (the energy); T. Kugelstadt and E. Schoemer,
-// Position and Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct Position-Based Solver for
-// Stiff Rods, 2018 (turns and forces as unknowns). Both are unknowns of one implicit substep here.
-#define MAX_TURN 0.5 // rad: a Newton step that turns a segment by more is not trusted.
-#define CALM (1.0 / 16.0) // Gain of `known` in a substep that its prediction served.
-#define MAX_CALM 2.5      // From here on turns are extrapolated linearly.
+// Sources: M. Bergou et al., Discrete Elastic Rods, 2008, has the energy. T. Kugelstadt and E.
+// Schoemer, Position and Orientation Based Cosserat Rods, 2016, and C. Deul et al., Direct
+// Position-Based Solver for Stiff Rods, 2018, have turns and forces as unknowns. Both are unknowns
+// of one implicit substep here.
+// Turn of a segment above which a Newton step is not trusted, rad.
+#define MAX_TURN 0.5
+// Increment of `known` in a substep whose prediction sufficed.
+#define CALM (1.0 / 16.0)
+#define MAX_CALM 2.5      // Value of `known` from which turns are extrapolated linearly
 
-OWN(vec4, strain);     // xyz: rest strain u0; w: stiffness k
-OWN(float, rest_real); // 2 w0
-SHARED(vec4, section); // frame of segment i at the start of the substep
-SHARED(vec4, tried);   // the frame that is tried
-OWN(vec4, turn);       // from the one to the other
-OWN(vec3, turned);     // Rodrigues vector of that in the last substep
-OWN(vec3, turned_before); // the same in the substep before
-OWN(vec3, force);      // in segment i at the start; `handed` has the force that is tried
-OWN(vec3, reached);    // displacement of vertex i if segments exerted no forces
-OWN(float, mobility);  // of vertex i: W_i without drag and contact
+OWN(vec4, strain);     // xyz: rest strain u0. w: stiffness k.
+OWN(float, rest_real); // 2 w0 of the hinge
+SHARED(vec4, section); // Frame of segment i at the start of the substep
+SHARED(vec4, tried);   // Frame that is tried
+OWN(vec4, turn);       // Rotation from `section` to `tried`
+OWN(vec3, turned);     // Rodrigues vector of this rotation in the last substep
+OWN(vec3, turned_before); // Rodrigues vector in the substep before
+// Force in segment i at the start of the substep. `handed` has the force that is tried.
+OWN(vec3, force);
+OWN(vec3, reached);    // Displacement of vertex i if segments exerted no forces
+OWN(float, mobility);  // W_i of vertex i without drag and contact
 #ifdef HAIR_WIND
-OWN(vec3, flow);      // unit vector along the strand at vertex i, which drag distinguishes
-OWN(vec2, mobilities); // fractions of `mobility` across and along it
+// Unit vector along the strand at vertex i, which distinguishes the directions of drag.
+OWN(vec3, flow);
+OWN(vec2, mobilities); // Fractions of `mobility` across and along the strand
 #endif
 
-bool touching;        // Some vertex can touch a solid in this substep.
+bool touching;        // Some vertex can touch a collider in this substep.
 bool root_is_clamped; // The hinge at the root has a stiffness.
 
 vec4 turn_by(vec3 v) { return normalize(vec4(0.5 * v, 1.0)); }
 vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
 
-// Return what turning by q adds to v. A small turn loses no digits.
+// Return the change of v when q turns it. A small turn loses no digits.
 vec3 change_by(vec4 q, vec3 v)
 {
     vec3 c = cross(q.xyz, v);
@@ -104,7 +111,7 @@ void move_freely(uint i, int method, vec3 before)
     own(reached)  = own(slack) > 0.0 ? on + q / massive : held_move(i);
 }
 
-// Predict the turns of the segments, and turn the forces in them along. `afresh` assumes none.
+// Predict the turns of the segments, and turn the forces in them along. `afresh` predicts none.
 void predict_turns(bool afresh)
 {
     EACH(guide_count) {
@@ -117,7 +124,7 @@ void predict_turns(bool afresh)
     MEET;
 }
 
-// Find what vertices would do by the forces that are tried, if no solid were in the way.
+// Find the displacements by the forces that are tried, as if there were no colliders.
 void find_wanted()
 {
     EACH(guide_count) {

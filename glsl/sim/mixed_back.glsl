@@ -1,15 +1,15 @@
-// mixed_back.glsl - the substitution that follows the elimination of mixed_solve.glsl, from the middle to
-// the ends.
+// mixed_back.glsl - the substitution that follows the elimination of mixed_solve.glsl, from the
+// middle to the ends.
 //
-// Row j has the neighbour n across vertex i. X is the inverse of the block of its turn, and F that of its
-// force:
+// Row j has the neighbour n across vertex i. X is the inverse of the block of its turn, and F is
+// the inverse of the block of its force:
 //
 //   theta_j -= X (B theta_n + Y W f_n),   f_j -= Y^T X (B theta_n + Y W f_n) - F W f_n
 
 #ifdef ROWS_IN_REGISTERS
 
-// Every thread makes the matrix of its own row first, all at once. What is left to be done in turn is to
-// multiply by it.
+// Substitute rows by the matrix of each row. All threads make the matrices of their own rows at
+// once. Only products with the matrices remain to be done in turn.
 void substitute_rows(bool exact, bool up, uint rows, uint most, uint last)
 {
     uint      vertex = up ? lane + 1u : lane, next = up ? lane + 1u : lane - 1u;

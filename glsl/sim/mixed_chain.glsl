@@ -1,9 +1,10 @@
 // mixed_chain.glsl - displacements of vertices by the turns of the segments between them.
 OWN(vec3, chain);          // Displacement of vertex i by the turns of segments
-OWN(vec3, reaction);       // Reaction of solids on vertex i at the end of the last substep. m/s^2
-OWN(vec3, reaction_found); // Reaction that the last Newton step found. m/s^2
+// Reaction of colliders on vertex i at the end of the last substep, m/s^2.
+OWN(vec3, reaction);
+OWN(vec3, reaction_found); // Reaction that the last Newton step found, m/s^2
 
-// Replace `chain` of every vertex by `start` and the sum of all before it.
+// Replace `chain` of every vertex by `start` and the sum of all values before it.
 void sum_along(vec3 start)
 {
 #ifdef HAIR_THREAD_PER_GUIDE
@@ -16,7 +17,7 @@ void sum_along(vec3 start)
     vec3 sum = lane + 1u < guide_count ? chain : vec3(0.0);
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
         lend(sum);
-        vec3 more = lent_by(lane - reach); // Read by all threads, as shuffles want it.
+        vec3 more = lent_by(lane - reach); // All threads must take part in a shuffle.
         sum += lane >= reach ? more : vec3(0.0);
     }
     lend(sum);
@@ -25,8 +26,8 @@ void sum_along(vec3 start)
 #endif
 }
 
-// Return the displacement of a free root that leaves the guide the momentum which external forces give it.
-// Forces of segments cancel, and would leave the rounding of stiff ones.
+// Return the displacement of a free root. It leaves the guide the momentum that external forces
+// give it. Forces of segments cancel, and would leave the rounding of stiff ones.
 vec3 free_root_moved()
 {
     vec3  momentum = vec3(0.0);
@@ -39,7 +40,7 @@ vec3 free_root_moved()
     return vec3(sum_of(momentum.x), sum_of(momentum.y), sum_of(momentum.z)) / sum_of(mass);
 }
 
-// Find the displacements of vertices by the turns of segments. Return that of the root.
+// Find the displacements of vertices by the turns of segments. Return the root's displacement.
 vec3 find_chain()
 {
     EACH(guide_count) {
@@ -60,7 +61,7 @@ vec3 find_chain()
 }
 
 #ifdef HAIR_TIED
-// Share out along each span what its held end lacks.
+// Distribute the remaining errors of held vertices along their spans.
 void close_spans()
 {
     EACH(guide_count) { PUT(lever, own(slack) == 0.0 ? held_move(i) - GET(moved) : vec3(0.0)); }
@@ -76,7 +77,7 @@ void close_spans()
 }
 #endif
 
-// Sum up displacements, and places after them, out of the turns.
+// Find displacements as sums over the turned segments, and places from the displacements.
 void place_vertices()
 {
     vec3 start = find_chain(), root_place = GET_AT(place, 0u);

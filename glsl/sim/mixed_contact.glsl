@@ -1,37 +1,43 @@
-// mixed_contact.glsl - contact and friction of the mixed scheme, as springs that are part of Newton's system.
+// mixed_contact.glsl - contact and friction of the mixed scheme, as springs that are part of
+// Newton's system.
 //
-// In a Newton step the tangent planes of solids take the place of solids. They touch the solids where the
-// chain of segments is. The displacements without contact would give other planes in each step: they follow
-// from the forces of stiff segments, which are wild until they are solved for.
+// In a Newton step, the tangent planes of colliders take the place of the colliders. They touch the
+// colliders at the chain of segments. The displacements without contact would give other planes in
+// each step. These follow from the forces of stiff segments, which are wild until they are solved
+// for.
 //
-// A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a segment
-// holds inside a solid has no place to go. Rigid planes would answer by forces without bound, which throw
-// the strand about later.
+// A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a
+// segment holds inside a collider has no place to go. Rigid planes would answer with unbounded
+// forces, which throw the strand about later.
 //
-// A vertex hangs on its surface by a spring that gives way where it pulls by more than friction bears
-// (P. Cundall and O. Strack, A Discrete Numerical Model for Granular Assemblies, 1979). Its stiffness is GRIP
-// times the inertia of the vertex in a substep. So a vertex that sticks still moves a little with forces,
-// and all forces between such vertices are determined. The spring begins with the force of the last substep:
-// nothing creeps. With F that force and d the way over the surface, all as displacements, it takes
+// A spring holds a vertex on its surface. It yields where it pulls by more than friction bears (P.
+// Cundall and O. Strack, A Discrete Numerical Model for Granular Assemblies, 1979). Its stiffness
+// is GRIP times the inertia of the vertex in a substep. A vertex that sticks therefore still moves
+// a little with forces, and all forces between such vertices are determined. The spring begins with
+// the force of the last substep, so that nothing creeps. With this force F and the way d over the
+// surface, both as displacements, the spring takes
 //
 //   g = (F + GRIP d) / (1 + GRIP), at most friction times the pressure.
 //
-// The pressure is that of the last substep, which keeps Newton's system symmetric. A Newton step replaces it
-// where it finds a much larger or smaller one. Along a chain over a round body it builds up as fast as
-// Picard's iteration of T' = friction T.
+// The pressure is taken from the last substep, which keeps Newton's system symmetric. A Newton step
+// replaces the pressure where it finds a much larger or smaller one. Along a chain over a round
+// body, the pressure builds up as fast as Picard's iteration of T' = friction T.
 #define PUSH 1000.0
 #define GRIP 3.0
-#define OFF_PLANE 0.25      // Distance from its plane at which a pressed vertex still stays, in segments
+// Distance from its plane at which a pressed vertex still stays, in segments.
+#define OFF_PLANE 0.25
 #define PRESSURE_CHANGE 0.5 // Relative change of pressure that replaces it
 #define PRESSED_UNTIL 4u    // Number of Newton steps that replace pressures
-#define PLANES_UNTIL 4u     // Number of Newton steps that find planes. Later ones keep them, and converge.
+// Number of Newton steps that find planes. Later steps keep the planes, and converge.
+#define PLANES_UNTIL 4u
 
 OWN(vec4, plane);          // Planes of vertex i, as `outcome` has them
 OWN(vec4, other_plane);
 OWN(vec3, surface);        // Displacement of the surface at vertex i
 OWN(float, surface_friction);
-OWN(symmetric, freedom);   // Derivative of the displacement by the one that is wanted
-OWN(vec3, pressing);       // Reaction that friction is measured by. m/s^2
+// Derivative of the displacement by the wanted displacement.
+OWN(symmetric, freedom);
+OWN(vec3, pressing);       // Reaction that friction is measured by, m/s^2
 
 void find_planes_of(uint i, vec3 head_moved)
 {
@@ -45,7 +51,7 @@ void find_planes_of(uint i, vec3 head_moved)
     own(surface_friction) = made.friction;
 }
 
-// Find the planes of solids where the chain is.
+// Find the planes of colliders where the chain is.
 void find_planes(vec3 head_moved)
 {
     EACH(guide_count) {
@@ -66,8 +72,8 @@ void renew_pressure(bool all)
     }
 }
 
-// Return how far two planes push a vertex along their normals, by how far it is beyond each. `normals` is
-// the product of both normals. Where `may_pull`, a push may be negative.
+// Return how far two planes push a vertex along their normals, by how far it is beyond each.
+// `normals` is the product of both normals. A push may be negative if `may_pull` is set.
 vec2 pushes_of(float normals, vec2 beyond, bool are_two, bool may_pull)
 {
     const float s = 1.0 + 1.0 / PUSH;
@@ -78,7 +84,8 @@ vec2 pushes_of(float normals, vec2 beyond, bool are_two, bool may_pull)
     return max(by, 0.0);
 }
 
-// Return the part of a displacement that one plane takes away, or two do. Stiffer springs make it a projection.
+// Return the part of a displacement that one or two planes take away. Stiffer springs make the part
+// a projection.
 symmetric taken_by(vec3 n, vec3 m, bool both)
 {
     const float s = 1.0 + 1.0 / PUSH;
@@ -88,8 +95,9 @@ symmetric taken_by(vec3 n, vec3 m, bool both)
     return times(s / (s * s - c * c), across);
 }
 
-// Find what planes make of the displacement that vertex i wants. In the `first` Newton step that follows from
-// forces which were not solved for yet: only the chain tells what presses and sticks.
+// Find the displacement that planes leave of the wanted one at vertex i. In the `first` Newton
+// step, the wanted displacement follows from forces that are not solved for yet. Only the chain
+// tells whether the vertex presses and sticks.
 void hold_vertex(uint i, bool first)
 {
     vec3  n = own(plane).xyz, m = own(other_plane).xyz, d = own(wanted);
@@ -138,7 +146,7 @@ void hold_vertices(bool first)
     }
 }
 
-// Find in a Newton step which displacements solids allow.
+// Find the displacements that colliders allow in a Newton step.
 void meet_solids(uint n, bool leads, vec3 head_moved)
 {
     if (SOLIDS && touching) {

@@ -1,7 +1,8 @@
-// mixed_frames.glsl - frames that are not along their segments: found, and turned.
-#define ASTRAY 1e-4 // One less the cosine of the angle to its segment from which a frame is turned.
+// mixed_frames.glsl - a test for frames that are not along their segments, and their correction.
+// Value of 1 - cos(angle between a frame and its segment) from which the frame is turned.
+#define ASTRAY 1e-4
 
-// Return whether frames are unit and along their segments.
+// Return whether frames are unit quaternions and along their segments.
 bool are_aligned()
 {
     bool astray = false;
@@ -14,7 +15,8 @@ bool are_aligned()
     return !any_of(bvec2(astray, false)).x;
 }
 
-// Turn frames onto their segments by the least rotation. Another method leaves them astray.
+// Turn frames onto their segments by the least rotation. Other methods leave frames that are not
+// along them.
 void align_frames()
 {
     EACH(guide_count) {

@@ -1,4 +1,4 @@
-// mixed_meet.glsl - both ends of an elimination add up what they carry to the middle.
+// mixed_meet.glsl - the sum of the terms that both ends of an elimination carry to the middle.
 carried nothing_carried()
 {
     return carried(multiple_of_one(0.0), multiple_of_one(0.0), mat3(0.0), vec3(0.0), vec3(0.0));
@@ -25,7 +25,8 @@ vec3 add_other(uint other, vec3 v)
 
 void add_other_end(bool up, inout carried s)
 {
-    uint other = up ? 31u : 0u; // A thread of the other half, all of which have the same.
+    // Any thread of the other half will do, because all of them have the same values.
+    uint other = up ? 31u : 0u;
     s.turn    = symmetric(add_other(other, s.turn.diagonal), add_other(other, s.turn.beside));
     s.force   = symmetric(add_other(other, s.force.diagonal), add_other(other, s.force.beside));
     s.between = mat3(add_other(other, s.between[0]), add_other(other, s.between[1]), add_other(other, s.between[2]));

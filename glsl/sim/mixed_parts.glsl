@@ -1,12 +1,12 @@
-// mixed_parts.glsl - a substep of the mixed scheme in parts: as a whole, or where that fails in quarters,
-// and so on.
+// mixed_parts.glsl - a substep of the mixed scheme as a whole, or where that fails in quarters, and
+// so on.
 //
-// A whip or an impact may turn a segment by more in a substep than Newton's method can follow. Parts keep
-// the momentum, which follow-the-leader does not. The first part after a change of length is one of implicit
-// Euler, as is the next substep.
+// A whip or an impact may turn a segment in a substep by more than Newton's method can follow. Parts
+// keep the momentum, which follow-the-leader does not. Implicit Euler does the first part after a
+// change of length, and the next substep.
 #define SMALLEST_PART (1.0 / 64.0)
 
-// Take over the frames and forces that the substep ended with.
+// Accept the frames and forces that the substep ended with.
 void accept_turns(bool led)
 {
     MEET;
@@ -21,7 +21,7 @@ void accept_turns(bool led)
     MEET;
 }
 
-// Rescale the past to motion in parts that are so many times as long.
+// Rescale the past to motion in parts that are `ratio` times as long.
 void rescale_past(float ratio)
 {
     EACH(guide_count) {
@@ -31,7 +31,7 @@ void rescale_past(float ratio)
     known = 1.0;
 }
 
-// Place head and root where the part of the substep from one fraction of it to another begins and ends.
+// Place head and root for a part of the substep, between two fractions of it.
 void place_part(float from, float to, vec3 head_moved)
 {
     float fraction_from = mix(fraction_at_start, fraction_at_end, from);
@@ -55,7 +55,8 @@ void place_part(float from, float to, vec3 head_moved)
 void attempt_all(vec3 head_moved)
 {
     float done = 0.0, part = 1.0;
-    bool  leads = false; // Nothing else is left for the part.
+    // Only follow-the-leader is left for the part.
+    bool  leads = false;
     guarded       = false;
     rounds_in_all = 0u;
     part_length   = params.gravity.w;
@@ -72,17 +73,19 @@ void attempt_all(vec3 head_moved)
             continue;
         }
         if (!fits) count_in(HAIR_HEALTH_FOLLOW);
-        // Contact may make anything of wrong forces.
+        // Wrong forces make the result of contact meaningless.
         if (!fits && (touching || any_of(bvec2(!finite, false)).x)) {
             leads = true;
             continue;
         }
-        if (!leads) place_vertices(); // The next substep goes on with what is left of e_j.
+        // The next substep continues with the rest of e_j.
+        if (!leads) place_vertices();
         accept_turns(leads);
         accept(fits ? method : LEADER, false, moves);
         done += part;
         if (done < 1.0) {
-            if (!fits || leads) { // There is no more to be had of parts.
+            // Smaller parts would not help.
+            if (!fits || leads) {
                 rescale_past((1.0 - done) / part);
                 part = 1.0 - done;
             }

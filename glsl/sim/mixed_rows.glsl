@@ -1,11 +1,11 @@
-// mixed_rows.glsl - the rows of Newton's system of a guide, one for each segment and vertex, as vectors by
-// name.
+// mixed_rows.glsl - the rows of Newton's system of a guide, one for each segment and vertex, as
+// named vectors.
 //
-//   FIELD(name, n)        declares the vector n of all rows
-//   ROW(name, k)          reads it of row k: all threads together, in no condition that differs between them
-//   PUT_ROW(name, k, v)   writes it
+//   FIELD(name, n)        declares the vector n of all rows.
+//   ROW(name, k)          reads it in row k. All threads must execute this together.
+//   PUT_ROW(name, k, v)   writes it in row k.
 //
-// A guide that fits into a subgroup has them in registers, of which threads read each other's.
+// A guide that fits into a subgroup has the rows in registers, which its threads read by shuffles.
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 #define ROWS_IN_REGISTERS
 #define ROWS_MEET
@@ -23,27 +23,32 @@
 #define FIELD(name, n) shared vec3 name[HAIR_GUIDE_THREADS + 1]
 #define ROW(name, k) name[k]
 #define PUT_ROW(name, k, v) name[k] = v
-#else // A work group has no memory for so many rows.
+#else // A work group has too little shared memory for such rows.
 #define ROWS_MEET memoryBarrierBuffer(), synchronise()
 #define FIELD(name, n) const uint name = uint(n)
 #define ROW(name, k) bend[3u * params.vertices + HAIR_MIXED_ROW_VECTORS * (guide_first + (k)) + name].xyz
 #define PUT_ROW(name, k, v) ROW(name, k) = v
 #endif
 
-// A symmetric matrix is its diagonal, and yz, zx, xy.
-FIELD(hinge_diagonal, 0);    // Second derivative of the hinge's energy at vertex k by one segment's turn
+// A symmetric matrix is stored as its diagonal and the elements yz, zx, xy.
+// Second derivative of the hinge's energy at vertex k by the turn of one segment.
+FIELD(hinge_diagonal, 0);
 FIELD(hinge_beside, 1);
-FIELD(hinge_moment, 2);      // Its moment
-FIELD(mobility_diagonal, 3); // W of vertex k. Without solids and wind only x, for W is a multiple of one.
+FIELD(hinge_moment, 2);      // Moment of the hinge
+// W of vertex k. Without colliders and wind only x is used, because W is a multiple of one.
+FIELD(mobility_diagonal, 3);
 FIELD(mobility_beside, 4);
-FIELD(turn_diagonal, 5);     // Block of the turn of segment k; then its inverse after elimination
+// Block of the turn of segment k, and its inverse after elimination.
+FIELD(turn_diagonal, 5);
 FIELD(turn_beside, 6);
-FIELD(force_diagonal, 7);    // At first its length along its tangent; then the inverse of its force's block
+// Length of segment k along its tangent, and the inverse of its force's block after elimination.
+FIELD(force_diagonal, 7);
 FIELD(force_beside, 8);
-FIELD(between_x, 9);         // Columns of the block between turn and force, times that
+// Columns of Y, the block between turn and force times the inverse of the force's block.
+FIELD(between_x, 9);
 FIELD(between_y, 10);
 FIELD(between_z, 11);
-FIELD(right_turn, 12);       // Residuals; then the solution
+FIELD(right_turn, 12);       // Residuals, and the solution after the solve
 FIELD(right_force, 13);
 
 struct symmetric {
@@ -69,20 +74,20 @@ vec3 times(symmetric s, vec3 v)
     return s.diagonal * v + s.beside.zxy * v.yzx + s.beside.yzx * v.zxy;
 }
 
-// v v^T
+// Return v v^T.
 symmetric outer(vec3 v) { return symmetric(v * v, v.yzx * v.zxy); }
 
-// v w^T + w v^T
+// Return v w^T + w v^T.
 symmetric twice_mixed(vec3 v, vec3 w) { return symmetric(2.0 * v * w, v.yzx * w.zxy + v.zxy * w.yzx); }
 
-// a b^T, where that is known to be symmetric
+// Return a b^T, which must be symmetric.
 symmetric times_transposed(mat3 a, mat3 b)
 {
     return symmetric(a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
                      a[0].yzx * b[0].zxy + a[1].yzx * b[1].zxy + a[2].yzx * b[2].zxy);
 }
 
-// a^T b, likewise
+// Return a^T b, which must be symmetric.
 symmetric transposed_times(mat3 a, mat3 b)
 {
     return symmetric(vec3(dot(a[0], b[0]), dot(a[1], b[1]), dot(a[2], b[2])),

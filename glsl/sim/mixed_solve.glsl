@@ -1,14 +1,15 @@
-// mixed_solve.glsl - Newton's system of a guide, solved by block elimination (L D L^T, blocks of 6 x 6).
-// With the hinge of segment j to the next one, B = H_ab and W the mobility of the vertex between, the rows
-// are
+// mixed_solve.glsl - Newton's system of a guide, solved by block elimination (L D L^T, blocks of 6
+// x 6). With the hinge of segment j to the next one, B = H_ab and W the mobility of the vertex
+// between, the rows are
 //
 //   |  P_j   Q_j | theta_j   | B 0 |                          Q_j = -l [t]x at first
-//   | Q_j^T -R_j |  f_j    + | 0 W | (theta, f)_(j+1) + the same of j-1, transposed = (r, e)_j
+//   | Q_j^T -R_j |  f_j    + | 0 W | (theta, f)_(j+1) + (transposed terms of j-1) = (r, e)_j
 //
-// The force of a block is eliminated first, with Y = Q R^-1. P + Y Q^T is stiffness with inertia, and must
-// be positive. A work group eliminates from both ends at once and meets in the middle. Two threads do that,
-// or in a subgroup half of the threads each, all of which do the same.
-struct carried { // What elimination subtracts from the next row.
+// The force of a block is eliminated first, with Y = Q R^-1. P + Y Q^T is stiffness with inertia,
+// and must be positive. A work group eliminates from both ends at once and meets in the middle. Two
+// threads do the work. In a subgroup, each half of the threads does the work of one of them
+// redundantly.
+struct carried { // Terms that elimination subtracts from the next row.
     symmetric turn, force;
     mat3 between;
     vec3 right_turn, right_force;
@@ -21,13 +22,14 @@ struct carried { // What elimination subtracts from the next row.
 #elif defined(ROWS_IN_REGISTERS)
 #define BOTH_ENDS true
 #define ELIMINATES true
-#define GOES_UP(middle) (lane <= (middle)) // A row is in the registers of a thread that eliminates it.
+// A row is in the registers of a thread that eliminates it.
+#define GOES_UP(middle) (lane <= (middle))
 #else
 #define BOTH_ENDS true
 #define ELIMINATES (lane < 2u)
 #define GOES_UP(middle) (lane == 0u)
 #endif
-bool convex; // whether all blocks of turns were positive
+bool convex; // All blocks of turns were positive.
 
 #ifdef MOBILITY_IS_MATRIX
 #define MOBILITY symmetric
@@ -44,7 +46,8 @@ symmetric mobility_of(MOBILITY w) { return multiple_of_one(w); }
 vec3 times(float w, vec3 v) { return w * v; }
 #endif
 
-// The block between the turns of two segments, the row of the one nearer to the root first if `up`.
+// Return the block between the turns of two segments. If `up`, its rows belong to the segment
+// nearer to the root.
 mat3 hinge_between(symmetric c, vec3 moment, bool exact, bool up)
 {
     float half_exact = exact ? up ? 0.5 : -0.5 : 0.0;
@@ -53,14 +56,15 @@ mat3 hinge_between(symmetric c, vec3 moment, bool exact, bool up)
 
 symmetric hinge_at(uint i) { return symmetric(ROW(hinge_diagonal, i), ROW(hinge_beside, i)); }
 
-// Eliminate row j, and replace what is carried to it by what it carries on across vertex i. `counts`: else
-// nothing is done.
+// Eliminate row j. Replace the terms carried to it by those that it carries on across vertex i.
+// Nothing changes unless `counts` is set.
 void eliminate_row(uint j, uint i, bool exact, bool up, bool counts, inout carried s)
 {
     vec3 t = ROW(force_diagonal, j);
     vec3 right = ROW(right_turn, j) - s.right_turn, right_f = ROW(right_force, j) - s.right_force;
     symmetric p = minus(symmetric(ROW(turn_diagonal, j), ROW(turn_beside, j)), s.turn);
-    MOBILITY  w_other = MOBILITY_AT(up ? j : j + 1u), w = MOBILITY_AT(i); // Of both its ends.
+    // Mobilities at both ends of the segment.
+    MOBILITY  w_other = MOBILITY_AT(up ? j : j + 1u), w = MOBILITY_AT(i);
     symmetric r = plus(plus(mobility_of(w_other), mobility_of(w)), s.force), c = hinge_at(i);
     vec3      moment = ROW(hinge_moment, i);
     mat3      q = -crossing(t) - s.between, b = hinge_between(c, moment, exact, up);
@@ -92,7 +96,7 @@ void eliminate_row(uint j, uint i, bool exact, bool up, bool counts, inout carri
 #include "sim/mixed_meet.glsl"
 #include "sim/mixed_back.glsl"
 
-// Solve the rows. The solution is in right_turn and right_force.
+// Solve the rows. The solution is written to right_turn and right_force.
 void solve_system(bool exact)
 {
     uint segments = guide_count - 1u, last = segments - 1u, middle = BOTH_ENDS ? segments / 2u : last;
@@ -100,7 +104,8 @@ void solve_system(bool exact)
     uint rows     = up ? middle : last - middle, most = BOTH_ENDS ? max(middle, last - middle) : middle;
     convex        = true;
     carried s     = nothing_carried();
-    for (uint n = 0u; n <= most; ++n) { // The loop includes the middle row: programs are half as long.
+    // The loop includes the middle row, which makes programs half as long.
+    for (uint n = 0u; n <= most; ++n) {
         bool meets = n == most;
         uint j     = meets ? middle : up ? n : last - min(n, last);
         if (meets) add_other_end(up, s);

@@ -1,25 +1,29 @@
-// mixed_step.glsl - a substep of the mixed scheme: Newton's method on turns and forces, contact within it.
+// mixed_step.glsl - a substep of the mixed scheme, by Newton's method on turns and forces. Contact
+// is part of it.
 //
-// One step of Newton's method with the exact second derivatives is enough in usual motion. Where a block is
-// not positive, or a segment would turn far, Gauss and Newton's convex derivatives take its place, and no
-// segment turns by more than MAX_TURN.
-#define CLOSE_TURN 0.03 // rad: a Newton step this small leaves about its square.
-#define MAX_ROUNDS 10u  // Number of Newton steps of an attempt. Those that are not trusted count too.
+// One step of Newton's method with the exact second derivatives is enough in usual motion. Gauss
+// and Newton's convex derivatives replace these if a block is not positive, or if a segment would
+// turn far. Then no segment turns by more than MAX_TURN.
+// Turn of a Newton step below which the remaining error is about its square, rad.
+#define CLOSE_TURN 0.03
+// Number of Newton steps of an attempt. Steps that are not trusted count too.
+#define MAX_ROUNDS 10u
 #define FEWEST_ROUNDS 4u // Number of Newton steps that every attempt may take
-#ifdef HAIR_THREAD_PER_GUIDE // A software rasteriser leaves loops that go round too often: see lib/sim/rounds.c.
+// A software rasteriser leaves loops that go round too often. See lib/sim/rounds.c.
+#ifdef HAIR_THREAD_PER_GUIDE
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS_BY_THREAD(HAIR_GUIDE_THREADS)
 #else
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS
 #endif
-#define LOOSE_FROM 3u   // Number of Newton steps after which errors of length may be larger, by the factor
-#define LOOSER 10.0     // LOOSER. The next substep goes on with what is left.
+#define LOOSE_FROM 3u   // Number of Newton steps after which larger errors of length are accepted
+#define LOOSER 10.0     // Factor of these errors. The next substep continues with the rest.
 
 bool guarded;       // A Newton step was not trusted in this substep.
 uint rounds_in_all; // Number of Newton steps in this substep
-uint most_turn;     // Greatest turn of this thread's segments, squared, as bits
-bool finite;        // The last attempt, failed or not, came to something finite.
+uint most_turn;     // Greatest squared turn of this thread's segments, as bits
+bool finite;        // The result of the last attempt is finite, even if the attempt failed.
 
-// Find which solids each vertex can touch in this substep.
+// Find the colliders that each vertex can touch in this substep.
 void find_reachable(bool leads, vec3 head_moved)
 {
     EACH(guide_count) { own(reaction_found) = own(reaction); }
@@ -36,7 +40,8 @@ void find_reachable(bool leads, vec3 head_moved)
     touching = any_of(bvec2(any, false)).x || TIED;
 }
 
-// Go along the solution, turning no segment by more than MAX_TURN. `far`: the whole of it would.
+// Apply the solution, and turn no segment by more than MAX_TURN. `far` means that the whole
+// solution would.
 void apply_solution(bool far)
 {
     float part = 1.0;
@@ -59,8 +64,8 @@ void apply_solution(bool far)
     MEET;
 }
 
-// Return whether the solution turns a segment too far or is not finite, and whether it turns one by more than
-// CLOSE_TURN.
+// Return whether the solution is not finite or turns a segment too far, and whether it turns one by
+// more than CLOSE_TURN.
 bvec2 judge_solution()
 {
     uint most = 0u;
@@ -73,9 +78,9 @@ bvec2 judge_solution()
     return any_of(bvec2(far, most > floatBitsToUint(CLOSE_TURN * CLOSE_TURN)));
 }
 
-// Return whether the substep by `method` succeeds: BDF2, implicit Euler, or follow-the-leader, which always
-// does. Where it succeeds, or has come to something finite, place_vertices() is next; not after
-// follow-the-leader.
+// Do the substep by `method`: BDF2, implicit Euler, or follow-the-leader. Return whether it
+// succeeds. Follow-the-leader always does. Unless `method` is follow-the-leader, place_vertices()
+// must follow if the attempt succeeds, or if its result is finite.
 bool attempt(int method, vec3 head_moved)
 {
     bool  leads = IS_LEADER(method), exact = true, done = false, fits = false;
@@ -87,7 +92,8 @@ bool attempt(int method, vec3 head_moved)
         if (!leads) find_wanted();
         meet_solids(n, leads, head_moved);
         MEET;
-        if (leads) { // What is led into a solid is turned out of it, once.
+        // Vertices that are drawn into colliders are pushed out once.
+        if (leads) {
             follow_leader();
             if (n == (SOLIDS ? 1u : 0u)) return true;
             continue;
@@ -107,5 +113,6 @@ bool attempt(int method, vec3 head_moved)
         if (done && !touching) break;
     }
     finite = most_turn < 0x7f800000u;
-    return !judged.x && (!TIED || fits); // What does not fit would be stretched between what is held.
+    // A solution that does not fit would stretch the strand between held vertices.
+    return !judged.x && (!TIED || fits);
 }

@@ -1,6 +1,9 @@
-// mixed_system.glsl - the rows of Newton's system of a guide: one for each segment, with the hinge to the next.
+// mixed_system.glsl - the rows of Newton's system of a guide, one for each segment, with the hinge
+// to the next one.
 #define TWIST_HELD 1e-5 // See twist_hold().
-#define HELD 1e-3 // Fraction of the mobility that a contact leaves across it, for a block between two to have an inverse.
+// Fraction of the mobility that a contact leaves across it. A block between two contacts then has
+// an inverse.
+#define HELD 1e-3
 #if defined(HAIR_SOLIDS) || defined(HAIR_WIND) || defined(HAIR_TIED)
 #define MOBILITY_IS_MATRIX
 #endif
@@ -11,7 +14,8 @@ void put_hinge(uint i, bool exact, vec4 a)
     if (r.w < 0.0) r = -r;
     float k      = i + 1u < guide_count ? own(strain).w : 0.0;
     vec3  s      = r.xyz, g = k * params.ratio.xyz * (2.0 * s - own(strain).xyz);
-    float even   = k * params.ratio.z; // Of a round section that is its stiffness about both axes.
+    // For a round section, `even` is the stiffness about both axes.
+    float even   = k * params.ratio.z;
     float opens  = even * (2.0 * r.w - own(rest_real));
     symmetric c  = multiple_of_one(even - (exact ? 0.5 * (dot(g, s) + opens * r.w) : 0.0));
     c = plus(c, times(k * params.ratio.y - even, outer(rotate(a, vec3(-s.z, r.w, s.x)))));
@@ -37,7 +41,7 @@ void put_mobility(uint i)
 #endif
         w *= own(mobility);
     }
-    // Two neighbours that are held would leave the force between them nothing to act on.
+    // Two held neighbours would leave the force between them nothing to act on.
     if (TIED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
     symmetric half_w = half_of(w);
     PUT_ROW(mobility_diagonal, i, half_w.diagonal);
@@ -47,20 +51,22 @@ void put_mobility(uint i)
 #endif
 }
 
-// Return the stiffness that keeps an increment of twist finite where too little else does: of a strand without a clamp, which
-// turns about its own axis freely, and of one without stiffness, beside what inertia makes of the other turns.
+// Return the stiffness that keeps an increment of twist finite. It is needed where too little else
+// resists twist. A strand without a clamp turns about its own axis freely. A strand may also have
+// no stiffness. The result is relative to the stiffness that inertia gives to other turns.
 float twist_hold(float l, float twist)
 {
     float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (SOLIDS || TIED ? 0.5 / HELD : 1.0);
     return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
-// Return the relative error that contact may leave in a segment's length. A segment that turns in a substep may
-// have more of it. An error that comes again in each substep would make a strand at rest tremble.
+// Return the relative error that contact may leave in a segment's length. A segment that turns in a
+// substep may have a larger error. An error that recurs in each substep would make a strand at rest
+// tremble.
 float length_error(vec4 turn) { return clamp(0.04 * length(turn.xyz), 1e-5, 2e-4); }
 
-// Write all rows, by the exact second derivatives or only by their part that is always convex. Return whether
-// the error of a segment's length is more than `looser` times the one that it may have.
+// Write all rows, by the exact second derivatives or only by their part that is always convex.
+// Return whether the length error of a segment exceeds `looser` times the allowed error.
 bool put_rows(bool exact, float looser)
 {
     bool loose = false;

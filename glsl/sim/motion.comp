@@ -1,15 +1,16 @@
-// motion.comp - how fast guides move relative to the head, and how much they are stretched, after the last substep.
+// motion.comp - the speed of guides relative to the head, and their stretch, after the last
+// substep.
 //
-// A thread goes over the vertices of a guide. A guide is restless that moves although damping has had the time to calm it:
-// see lib/sim/health.c.
+// A thread loops over the vertices of a guide. A guide is restless if it moves although damping has
+// had the time to calm it. lib/sim/health.c explains this.
 #version 450 core
 #include "shared.h"
 #include "workgroup.glsl"
 #include "rotation.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-#define RESTLESS_SPEED 0.02 // m/s: 20 times what hair at rest may move by.
-#define OVERSTRETCHED 0.01  // TOO_LONG of rod.glsl
+#define RESTLESS_SPEED 0.02 // Speed of a restless guide, m/s: 20 times the maximum of hair at rest
+#define OVERSTRETCHED 0.01  // Relative error of length, as TOO_LONG of rod.glsl
 
 layout(std430, binding = HAIR_BIND_GUIDE) readonly restrict buffer guide_buffer { hair_guide guide[]; };
 layout(std430, binding = HAIR_BIND_REST) readonly restrict buffer rest_buffer { hair_rest rest[]; };
@@ -17,12 +18,14 @@ layout(std430, binding = HAIR_BIND_STATE) readonly restrict buffer state_buffer 
 layout(std430, binding = HAIR_BIND_FOUND) restrict buffer found_buffer { uint found[]; };
 layout(std140, binding = HAIR_BIND_MOTION_PARAMS) uniform motion_params_buffer { hair_motion_params params; };
 
-// Return the displacement of a vertex relative to a point of the head that was at its place before the last substep.
+// Return the displacement of a vertex relative to a point of the head that was at its place before
+// the last substep.
 vec3 motion_of(hair_state vertex)
 {
     vec3 own    = vertex.displacement.xyz - params.moved.xyz;
     vec3 before = vertex.position.xyz - own, t = 2.0 * cross(params.turn.xyz, before);
-    return own - (params.turn.w * t + cross(params.turn.xyz, t)); // A head at rest takes no digits away.
+    // This form loses no digits if the head is at rest.
+    return own - (params.turn.w * t + cross(params.turn.xyz, t));
 }
 
 void main()
@@ -38,7 +41,7 @@ void main()
         stretch = max(stretch, abs(l / rest[i].position.w - 1.0));
     }
     float speed = params.moved.w * motion;
-    // Bits of floats that are not negative are in the order of the floats.
+    // Non-negative floats have the same order as their bits.
     atomicMax(found[HAIR_FOUND_FASTEST], floatBitsToUint(speed));
     atomicMax(found[HAIR_FOUND_STRETCH], floatBitsToUint(stretch));
     if (stretch > OVERSTRETCHED) atomicAdd(found[HAIR_FOUND_OVERSTRETCHED], 1u);

@@ -1,17 +1,19 @@
 // parts.glsl - leaps of SHAKE over a substep, or over parts of one.
 //
-// A part of half the time is tried if lengths fail or a segment turns too far, and so on. A leap of length h after one of
-// length g moves the velocity on by (g + h) / 2, which keeps leapfrog's second order. Displacements are stored as over a
-// whole substep.
+// If lengths fail or a segment turns too far, a part of half the time is tried, and so on. A leap
+// of length h after one of length g advances the velocity by (g + h) / 2, which keeps leapfrog's
+// second order. Displacements are stored as over a whole substep.
 
-// Extent to which the past is known. 0: nothing, the strand is at rest. 1: its displacement. 2: rates too. Above 1 SHAKE
-// waits, and BDF2 leaps. Below 1: the displacement, by a leap over a part of the substep; see known_part().
+// Extent to which the past is known. At 0 nothing is known, and the strand is at rest. At 1 its
+// displacement is known. At 2 its rates are known too. Above 1 SHAKE waits, and below 2 BDF2 leaps.
+// Below 1 the displacement is that of a leap over a part of the substep, as known_part() explains.
 float known;
 
-uint  length_steps; // of Newton's method, on the lengths of the last attempt
+// Number of Newton steps on the lengths in the last attempt.
+uint  length_steps;
 
-// Contact and ties may leave lengths broken in parts of any size. So guides that touch something, or have ties, or look up
-// solids in lists, take whole substeps.
+// Contact and pins may leave lengths broken in parts of any size. Guides that touch a collider,
+// have pins, or look up colliders in lists therefore take whole substeps.
 #if HAIR_SOLVER == SHAKE && !defined(HAIR_ANY) && !defined(HAIR_TIED)
 #if defined(HAIR_FIRST) || defined(HAIR_LISTED)
 #define WATCHES_TURNS
@@ -22,16 +24,18 @@ uint  length_steps; // of Newton's method, on the lengths of the last attempt
 #endif
 
 #ifdef SPLITS
-float leap_part;    // fraction of the substep, a power of two
-float part_keep;    // params.keep and params.kick of it
+float leap_part;    // Fraction of the substep, a power of two
+// Values of params.keep and params.kick for the part.
+float part_keep;
 float part_kick;
-float done;         // fraction of the substep
-uint  rounds_spent; // loops over the strand in the substep
+float done;         // Fraction of the substep that is done
+uint  rounds_spent; // Loops over the strand in the substep
 
-// Return the last part of a substep. `known` is that, and up to as much again for the quiet substeps since.
+// Return the last part of a substep. `known` is this part, plus up to as much again that counts the
+// quiet substeps since.
 float known_part() { return known < 1.0 ? uintBitsToFloat(floatBitsToUint(known) & 0x7f800000u) : 1.0; }
 
-// Return the length by which forces act, in leaps. The first leap is half a step.
+// Return the time for which forces act, in leaps. The first leap is half a step.
 float leap_span() { return known == 0.0 ? 0.5 : 0.5 + 0.5 * known_part() / leap_part; }
 #else
 #define leap_part 1.0
@@ -41,18 +45,24 @@ float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half
 #endif
 
 #ifdef WATCHES_TURNS
-// Leapfrog keeps the energy of a segment that turns evenly. A whip gains or loses energy where the turn changes within a
-// substep. In a whip, parts are kept until a whole substep turns no segment farther than a part may.
-#define MIN_COSINE 0.955     // of the angle by which a segment may turn in a substep, 0.3
-#define MIN_PART_COSINE 0.995 // and in a part, 0.1
-#define MAX_TURN_CHANGE 0.05 // of the angle, from one leap to the next
+// Leapfrog keeps the energy of a segment that turns evenly. A whip gains or loses energy where the
+// turn changes within a substep. A whip keeps its parts until a whole substep turns no segment
+// farther than a part may.
+// Cosine of the angle by which a segment may turn in a substep, 0.3 rad.
+#define MIN_COSINE 0.955
+// Cosine of the angle by which a segment may turn in a part, 0.1 rad.
+#define MIN_PART_COSINE 0.995
+#define MAX_TURN_CHANGE 0.05 // Maximum change of the turn from one leap to the next, rad
 
 #if defined(HAIR_THREAD_PER_GUIDE) || (defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32)
 #define PUT_SPREAD
 #define KEEP_SPREAD
 #define SPREAD_BEFORE (leap_part * (AFTER_VEC3(displacement) - own(displacement)))
-#else // Threads of a work group do not see a neighbour's displacement. find_edges() meets between these two.
-OWN(vec3, spread_before); // of a segment's ends, by the last leap
+// Threads of a work group do not see a neighbour's displacement. find_edges() has a barrier between
+// the two macros.
+#else
+// Difference of the displacements of a segment's ends in the last leap.
+OWN(vec3, spread_before);
 #define PUT_SPREAD PUT(handed, leap_part * own(displacement))
 #define KEEP_SPREAD EACH(guide_count - 1u) { own(spread_before) = AFTER_VEC3(handed) - GET(handed); }
 #define SPREAD_BEFORE own(spread_before)
@@ -61,7 +71,8 @@ OWN(vec3, spread_before); // of a segment's ends, by the last leap
 // Return whether a segment turns too far for leapfrog, or not as in the leap before.
 bool turns_at(uint i, float min_cosine)
 {
-    vec3  middle = GET(edge) + GET(lever); // of the segment's directions before and after
+    // Sum of the segment's directions before and after.
+    vec3  middle = GET(edge) + GET(lever);
     vec3  change = AFTER_VEC3(moved) - GET(moved) - SPREAD_BEFORE;
     float along  = dot(change, middle) / max(dot(middle, middle), 1e-9);
     float across = length(change - along * middle);

@@ -1,15 +1,19 @@
-// past.glsl - what is kept of how a guide moved, beside its last displacement, and what an impact makes of that.
+// past.glsl - the past of a guide's motion beside its last displacement, and the effect of an
+// impact on it.
 //
-// A method of two steps goes on with a jump that it finds in places as no jump of velocities does: a strand that strikes
-// something would be thrown back with up to 5/4 of what it lost, wherever in the substep it struck. So an impact at any
-// vertex ends the past of the whole strand, and the next substep is a leap: on as it moved, as SHAKE does, with the forces
-// of the start, but what bending does by the system of BDF2 (Newmark's method, beta = 4/9). It also does what is left of
+// A two-step method continues a jump of positions as if it were motion. A strand that strikes a
+// collider would rebound with up to 5/4 of the velocity that it lost, at whatever time in the
+// substep it struck. An impact at any vertex therefore ends the past of the whole strand, and the
+// next substep is a leap. A leap continues the motion as SHAKE does, with the forces of the start.
+// Bending goes through the system of BDF2 (Newmark's method, beta = 4/9). The leap also completes
 // the impact.
 
-#define STRUCK 0.1 // m/s: a contact that takes more than this away is an impact
-#define LEAPS_NEXT 1.5 // what is known after one
+// Change of velocity by a contact from which it is an impact, m/s.
+#define STRUCK 0.1
+#define LEAPS_NEXT 1.5 // Value of `known` after an impact
+// Factor of the displacement by colliders that pressed() returns.
 #define PRESSED 2.5
-#define MOST_PRESSED 0.02 // m
+#define MOST_PRESSED 0.02 // Maximum displacement that pressed() returns, m
 
 #ifdef KEEPS_RATES
 bool is_struck(uint i, vec3 d)
@@ -19,16 +23,19 @@ bool is_struck(uint i, vec3 d)
            length(lost - pass_on(own(touch), lost)) > STRUCK * SUBSTEP;
 }
 
-// Rates after a substep by `method`, with the displacement d of which so much is kept.
+// Update the rates after a substep by `method` with the displacement d. `kept` is the part of d
+// that the velocity keeps.
 void keep_rates(uint i, int method, vec3 d, vec3 kept)
 {
-    vec3 last = own(displacement), before = own(rate); // Which may be what was not finite.
+    // These values may be not finite.
+    vec3 last = own(displacement), before = own(rate);
     bool leapt = LEAPS(method);
     own(rate)        = IS_BACK(method) ? 1.5 * d - 0.5 * last : kept;
     parked(rate_before) = IS_LEADER(method) ? kept : leapt ? 0.5 * (d + last) : before;
     if (!SOLIDS) return;
-    // What comes to touch has no past across the surface, and what sticks none at all. What slides on has all of it: only
-    // so a curved surface turns it by as much as other forces do, and not by 9/4 of that.
+    // A vertex that begins to touch loses its past across the surface. A vertex that sticks loses
+    // all of its past. A vertex that continues to slide keeps it. Only then does a curved surface
+    // turn the motion by as much as other forces do, and not by 9/4 of that.
     bool touches = own(touch).w != FREE, comes = touches && (leapt || own(touched) == 0.0), sticks = own(touch).w == STICKS;
     vec3 rate_on = d + pass_on(own(touch), own(rate) - d), before_on = d + pass_on(own(touch), parked(rate_before) - d);
     own(rate)        = sticks ? d : comes ? rate_on : own(rate);
@@ -37,10 +44,14 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
 }
 #endif
 
-// What of the displacement by solids goes by A^-1 in the first step: of what strikes. By M^-1 alone a strand would be kinked there, its
-// neighbours would feel it by bending only a substep later. Bending resists, so that contact does more in the end than it does
-// now, alone 1 / (m A^-1_ii) times as much: 2.4 inside the benchmark's strand at 1/300 s. What is wanted goes deeper by as much
-// as contact does by M^-1 to come out again; so not among many small solids, where that leads into others.
+// Return the part of the displacement by colliders that goes through A^-1 in the first step. It is
+// not 0 where the vertex strikes a collider. With M^-1 alone the strand would be kinked there. Its
+// neighbours would feel the impact by bending only a substep later.
+//
+// Bending resists the push, so that contact must push more in the end than it does at first. The
+// factor of a single contact is 1 / (m A^-1_ii), for which PRESSED stands. M^-1 times the same push
+// is taken from the wanted displacement, which then lies deeper by as much as contact pushes it out
+// again. Among many small colliders this would lead into others, and the result is 0.
 vec3 pressed(uint i, int method)
 {
 #if defined(HAIR_SOLIDS) && defined(KEEPS_RATES) && !defined(HAIR_ANY)
