@@ -1,9 +1,9 @@
 // angular.glsl - the angular force of redblack. The force pulls each segment to its rest angle with
 // the previous segment.
 //
-// Let e be the direction of segment i-2, r that of its rest pose under the head, q the least
-// rotation from r to e, and a the rest link of segment i-1 under the head. The potential of vertex
-// i is
+// Let e be the direction of segment i-2, r its rest direction under the head, and q the least
+// rotation from r to e. Let a be the rest link of segment i-1 under the head. The potential of
+// vertex i is
 //
 //   E = (1 + e.r) / 2 * k/2 |d|^2,   d = x_(i-1) + q a - x_i
 //
@@ -18,7 +18,7 @@ struct angular_moves {
 // Compute the moves of the vertices x0, x1, x2 = i-2, i-1, i. `link` and `next` are the rest links
 // between them, in groom space. k is the squared frequency times the squared substep. All moves of
 // a strand are made at once, and are stable at any k. Their sum has the norm 3 k w / (1 + 3/2 k w)
-// < 2, where w is the squared norm of the derivative of d.
+// < 2. The symbol w is the squared norm of the derivative of d.
 angular_moves angular_force(vec4 head, vec3 x0, vec3 x1, vec3 x2, vec3 link, vec3 next, float k)
 {
     float l = length(link), ratio = length(next) / l, weight = 1.0 + (1.0 + ratio) * (1.0 + ratio) + ratio * ratio;

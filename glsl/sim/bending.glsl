@@ -1,6 +1,6 @@
-// bending.glsl - bending forces of round strands that are straight at rest. The energy of the
-// vertex between segments of directions t_a and t_b is k/2 |t_b - t_a|^2, where k is the bending
-// stiffness divided by the length at the vertex. No frame is needed.
+// bending.glsl - bending forces of round strands that are straight at rest. The vertex between
+// segments of directions t_a and t_b has the energy k/2 |t_b - t_a|^2. k is the bending stiffness
+// divided by the length at the vertex. No frame is needed.
 OWN(vec4, strain); // w: k
 
 // Compute the bending forces, and store each segment's force in `handed` for its vertices.

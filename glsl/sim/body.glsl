@@ -44,10 +44,10 @@ float depth_of_place(uint k, vec3 place)
     return BODY_POSITION(k, 0).w + params.margin - body_distance(BODY_SIZE(k), form_of(k), at, gradient);
 }
 
-// Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. Where the
-// vertex may have passed through the collider, sphere tracing in the collider's own space finds
-// where it enters. Each step of the tracing is as long as the distance to the surface. The vertex
-// stops at the entry.
+// Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. If the vertex
+// may have passed through the collider, sphere tracing in the collider's own space finds the entry.
+// Each step of the tracing is as long as the distance to the surface. The vertex stops at the
+// entry.
 float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
 {
     vec4  turn_then = body_turn(k, share_then), turn_after = body_turn(k, share_now);

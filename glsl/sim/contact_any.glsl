@@ -2,8 +2,8 @@
 //
 // A vertex leaves the sphere or capsule in which it is deepest, then the one in which it is deepest
 // after that. Overlapping colliders, of which a body may be made, are thus left by the shortest way
-// out of all of them. A vertex that started inside colliders may be as deep in any as it was in the
-// deepest, less the distance by which it comes out in a substep.
+// out of all of them. A vertex may start inside colliders. It may then stay as deep in any as it
+// was in the deepest, less the distance by which it comes out in a substep.
 #define ROUNDS 6u
 #define AGAIN 1e-6 // Minimum depth in another collider at which the search goes on, m
 

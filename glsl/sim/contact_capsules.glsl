@@ -31,8 +31,8 @@ vec3 from_axis(vec3 position, capsule solid)
 // Return an upper bound of how far collider k moves in the substep.
 float moves_of(uint k) { return SOLID_SPIN(k).w * (share_now - share_then); }
 
-// solid_then() and solid_now() return a capsule at the start and end of the substep. Where several
-// threads share a guide, each thread computes other capsules, once per moment. A capsule written by
+// solid_then() and solid_now() return a capsule at the start and end of the substep. If a guide has
+// several threads, each of them computes other capsules, once per moment. A capsule written by
 // share_solid() is visible after SOLIDS_MEET, and in the next substep by solid_then().
 #if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
 #define SOLIDS_MEET

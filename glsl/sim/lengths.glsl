@@ -53,9 +53,9 @@ void move_stiffly()
 }
 
 // Do one Newton step on the lengths. The entries of the matrix are p.S q, with the directions p and
-// q of the segments beside vertex i and its inverse mass S as an operator. The forces of a leap are
-// those of the start. The first step of a leap therefore corrects along the directions at the
-// start.
+// q of the segments beside vertex i. S is the inverse mass of the vertex as an operator. The forces
+// of a leap are those of the start. The first step of a leap therefore corrects along the
+// directions at the start.
 void correct_lengths(int method, uint n)
 {
     bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && IS_BACK(method);

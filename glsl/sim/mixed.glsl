@@ -15,9 +15,9 @@
 //   E = k/2 (u - u0) . R (u - u0) + k R_z/2 (2 w - 2 w0)^2,   (s, w) = conj(a) b, w >= 0,   u = 2 s
 //
 // The second term makes the energy grow with the turn from the rest shape up to half a turn. With
-// only the first term, a hinge that is bent by nearly half a turn at rest is soft, and its energy
-// jumps where the turn passes half a turn. The moment in the world and the second derivative by the
-// turns of both segments are
+// only the first term, a hinge that is bent by nearly half a turn at rest would be soft. Its energy
+// would jump where the turn passes half a turn. The moment in the world and the second derivative
+// by the turns of both segments are
 //
 //   g = k R (u - u0),   e = k R_z (2 w - 2 w0),   M_i = a (w g + s x g - e s) a*
 //   H_aa = H_bb = C - (g.s + e w)/2 1,   H_ab = -H_bb + [M_i]x / 2

@@ -1,9 +1,9 @@
 // mixed_parts.glsl - a substep of the mixed scheme as a whole, or where that fails in quarters, and
 // so on.
 //
-// A whip or an impact may turn a segment in a substep by more than Newton's method can follow. Parts
-// keep the momentum, which follow-the-leader does not. Implicit Euler does the first part after a
-// change of length, and the next substep.
+// A whip or an impact may turn a segment in a substep by more than Newton's method can follow.
+// Parts keep the momentum, which follow-the-leader does not. Implicit Euler does the first part
+// after a change of length, and the next substep too.
 #define SMALLEST_PART (1.0 / 64.0)
 
 // Accept the frames and forces that the substep ended with.

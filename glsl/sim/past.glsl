@@ -2,11 +2,11 @@
 // impact on it.
 //
 // A two-step method continues a jump of positions as if it were motion. A strand that strikes a
-// collider would rebound with up to 5/4 of the velocity that it lost, at whatever time in the
-// substep it struck. An impact at any vertex therefore ends the past of the whole strand, and the
-// next substep is a leap. A leap continues the motion as SHAKE does, with the forces of the start.
-// Bending goes through the system of BDF2 (Newmark's method, beta = 4/9). The leap also completes
-// the impact.
+// collider would rebound with up to 5/4 of the velocity that it lost. The time of the impact within
+// the substep does not matter. An impact at any vertex therefore ends the past of the whole strand,
+// and the next substep is a leap. A leap continues the motion as SHAKE does, with the forces of the
+// start. Bending goes through the system of BDF2 (Newmark's method, beta = 4/9). The leap also
+// completes the impact.
 
 // Change of velocity by a contact from which it is an impact, m/s.
 #define STRUCK 0.1

@@ -1,15 +1,16 @@
-// predict.glsl - where a substep would lead if lengths were free and no solid in the way. With v the velocity, c the
-// damping, u the wind, g the gravity, w the pull to the target t, f the bending force on the mass m:
+// predict.glsl - the displacement of a substep if lengths were free and there were no colliders. v
+// is the velocity, c the damping, u the wind, g gravity, w the pull to the target t, and f the
+// bending force on the mass m:
 //
 //   dv/dt = g + f/m + w^2 (t - x) - c (v - u) + a
 //
-// with a, where there is a crowd, what the hair around does, the same for a block of substeps; u is 0 where there is no
-// wind, and where there is, drag comes in as well: see drag.glsl.
-// All in displacements over a substep of length h. `wanted` is the answer.
+// a is the acceleration by the hair around, constant for a block of substeps, or 0 without
+// hair-hair interaction. u is 0 without wind. Wind also adds drag, which drag.glsl explains. All
+// quantities are displacements over a substep of length h. `wanted` is the result.
 #include "sim/implicit.glsl"
 #include "sim/methods.glsl"
 
-// The configuration whose bending acts, as a displacement from the start.
+// Return the configuration whose bending acts, as a displacement from the start.
 vec3 offset_of(uint i, int method, vec3 last)
 {
     if (IS_SHAKE(method) || LEAPS(method)) return vec3(0.0);
@@ -20,7 +21,7 @@ vec3 offset_of(uint i, int method, vec3 last)
 #include "sim/drag.glsl"
 #endif
 
-// SHAKE: d' = keep d + kick (g + f/m), forces of the start.
+// SHAKE: d' = keep d + kick (g + f/m), with the forces of the start.
 void leap(uint i, vec3 force, vec3 bending)
 {
     float span = leap_span();
@@ -32,7 +33,7 @@ void leap(uint i, vec3 force, vec3 bending)
 #endif
 }
 
-// What BDF2, a leap or implicit Euler begins with: h v.
+// Return h v from which BDF2, a leap or implicit Euler begins.
 vec3 rate_from(uint i, int method)
 {
 #ifdef KEEPS_RATES
@@ -43,11 +44,15 @@ vec3 rate_from(uint i, int method)
 #endif
 }
 
-// x' = x + e d + q, q = b h v' with b = 2/3, e = 1/3 (BDF2) or 1, 0 (Euler):
-// ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f), f of the end but for q.
-// BDF2 solves for q - (2/3) d, with f at x + d. The matrix K is that of a straight rod, and takes a bent one that turns for
-// stiffer than it is: so it acts on what is of second order alone, not on all that a substep turns.
-// A leap is x' = x + d + q, of the right side h^2 (m (g + c (u - v)) + f) with f of the start.
+// Set up the right side of BDF2, implicit Euler or a leap. x' = x + e d + q and q = b h v'. BDF2
+// has b = 2/3 and e = 1/3. Euler has b = 1 and e = 0:
+//
+//   ((1 + b c h + b^2 h^2 w^2) m + b^2 h^2 K) q = b h v m + b^2 h^2 (m (g + c u) + f)
+//
+// f is the force at the end of the substep without q. BDF2 solves for q - (2/3) d, with f at x + d.
+// The matrix K is that of a straight rod. For a bent rod that turns, K is stiffer than the rod. K
+// therefore acts only on a term of second order, and not on the whole turn of a substep. A leap is
+// x' = x + d + q. Its right side is h^2 (m (g + c (u - v)) + f), with f at the start.
 void step_back(uint i, int method, vec3 force, vec3 bending)
 {
     float h = params.gravity.w, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
@@ -65,12 +70,19 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 }
 
 #ifdef KEEPS_RATES
-// The tension that the last substep left, or part of it, along where segments will be if they go on as they moved:
-// fit_lengths finds the rest, along what that leads to. What swings crosswise at w is fed by the one way and damped by the
-// other. Half of each does not feed it up to w h of 3, and damps it by (w h)^4 / 100 in a substep; fit_lengths alone feeds
-// it from 1.6 on, and damps it by (w h)^4 / 5. All of it is right to a higher order, but feeds soonest, and what friction
-// holds creeps. So that is for what moves, and slowly swings: where tension's waves are as short as bending's, which is
-// implicit, they swing at tension / sqrt(stiffness).
+// Return the fraction of the last substep's tension that is applied in advance. pull_on() applies
+// the tension along the directions that segments will have if they continue their motion.
+// fit_lengths() finds the rest along the resulting directions.
+//
+// Tension applied in advance feeds transverse oscillations of frequency w. The tension from
+// fit_lengths() damps them. Half of each does not feed them up to w h = 3, and damps them by (w
+// h)^4 / 100 per substep. fit_lengths() alone feeds them from w h = 1.6 on, and damps them by (w
+// h)^4 / 5. The whole tension in advance is right to a higher order, but feeds them soonest, and
+// lets vertices creep that friction holds. It is therefore applied only to vertices that move and
+// oscillate slowly.
+//
+// The frequency is that of waves of tension as short as those of bending, tension /
+// sqrt(stiffness). Bending itself is implicit.
 float guessed_part(uint i)
 {
     float h = params.gravity.w, stiffness = own(strain).w * own(rest_length) * min(params.ratio.x, params.ratio.z);
@@ -85,14 +97,16 @@ void pull_on()
     EACH(guide_count - 1u) {
         vec3  to   = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
         float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
-        own(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * own(tension), -most, most); // Of an impact nothing.
+        // An impact leaves no tension.
+        own(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * own(tension), -most, most);
         PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
     }
     MEET;
 }
 #endif
 
-// Whether the way that a scalp clamps is kept as it is at rest: where there are registers for it, or too few anyway.
+// True if a program keeps the clamp's direction at rest in registers. Programs do so if registers
+// suffice, or if they are too few anyway.
 #if defined(HAIR_SUBGROUP) && (defined(HAIR_FIRST) || HAIR_SOLVER != BACK)
 #define KEEPS_CLAMP true
 #else
@@ -101,7 +115,8 @@ void pull_on()
 
 void predict(int method)
 {
-    bool at_end  = !IS_SHAKE(method) && !LEAPS(method); // is where forces are of
+    // Forces are those at the end of the substep.
+    bool at_end  = !IS_SHAKE(method) && !LEAPS(method);
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     clamp_way    = KEEPS_CLAMP ? rotate(turn, clamp_at_rest) : rotate(scalp, vec3(0.0, 1.0, 0.0));
@@ -119,7 +134,7 @@ void predict(int method)
 #endif
 
     EACH(guide_count) {
-        // Of what its inertia would weigh: see lib/sim/taut.c.
+        // Fraction of the vertex's inertia that has weight. See lib/sim/taut.c.
         float share  = heavy && i > 0u && i + 1u < guide_count
                            ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
 #ifdef HAIR_WIND

@@ -1,14 +1,17 @@
-// redblack.comp - the solver of Tariq 2010, "Hair": external and angular forces, Verlet integration, then
-// iterations of red/black distance, angular and collision constraints. One work group per guide, one thread per
-// vertex, the whole strand in shared memory, all substeps of a step.
+// redblack.comp - the solver of Tariq 2010, "Hair". It applies external and angular forces and
+// Verlet integration. It then iterates red/black distance, angular and collision constraints. A
+// work group has a guide, and a thread has a vertex. The whole strand is in shared memory. A
+// dispatch does all substeps of a step.
 //
-// Positions are from the head's origin, which moves by D over a substep: x' = x + keep d + g dt^2 - D. The
-// displacement d, in the world, is kept beside them (the velocity is d / dt).
+// Positions are relative to the head's origin, which moves by D over a substep: x' = x + keep d + g
+// dt^2 - D. The displacement d is in the world, and is kept beside the positions. The velocity is d
+// / dt.
 //
-// A force that pulls to a target with angular frequency w is taken implicitly, p = (p + (w dt)^2 target) / (1 +
-// (w dt)^2), so that no frequency is unstable at any substep.
+// A pull to a target with angular frequency w is implicit: p = (p + (w dt)^2 target) / (1 + (w
+// dt)^2). No frequency is therefore unstable at any substep.
 //
-// The angular force has a potential: see sim/angular.glsl. Not handled: convergence, friction, twist.
+// The angular force has a potential, which sim/angular.glsl explains. Not handled: convergence,
+// friction, twist.
 #version 450 core
 #include "buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
@@ -18,7 +21,8 @@ layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "sim/ride.glsl"
 
 shared uint broken;
-shared vec3 move_end[HAIR_GUIDE_THREADS], move_couple[HAIR_GUIDE_THREADS]; // angular_moves of each vertex
+// Angular_moves of each vertex.
+shared vec3 move_end[HAIR_GUIDE_THREADS], move_couple[HAIR_GUIDE_THREADS];
 
 vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
 {
@@ -26,7 +30,8 @@ vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
     return position + (target - position) * (k / (1.0 + k));
 }
 
-// By the bits: comparisons with NaN may be compiled away.
+// Return whether v is finite. The test is by bits, because compilers may remove comparisons with
+// NaN.
 bool is_finite(vec3 v)
 {
     return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u)));
@@ -49,7 +54,7 @@ void main()
     float     dt           = params.gravity.w;
     float     share        = float(i) / float(count - 1u);
     float     frequency    = mix(params.pull_root, params.pull_tip, share);
-    // Rest links before vertex i.
+    // Rest links before vertex i and before vertex i-1.
     vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz, next = at_rest.position.xyz - before;
     vec3 link   = before - rest[first + max(min(i, count - 1u), 2u) - 2u].position.xyz;
     if (i == 0u) broken = 0u;
@@ -110,8 +115,8 @@ void main()
 
         x            = vertex[i];
         displacement = x - start + head;
-        // A strand that is not finite, or far beyond any hair, goes back to its rest pose, and along with the head
-        // unless that was what went too far.
+        // A strand that is not finite, or is farther away than any hair, returns to its rest pose.
+        // It moves with the head unless the head's own motion is too large.
         if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 || dot(displacement, displacement) > 1e8))
             broken = 1u;
         synchronise();

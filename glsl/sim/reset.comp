@@ -1,4 +1,5 @@
-// reset.comp - every guide in its rest pose, at rest, under the head's pose now. One thread per guide vertex.
+// reset.comp - set every guide to its rest pose, at rest, under the head's current pose. One thread
+// per guide vertex.
 #version 450 core
 #include "buffers.glsl"
 #include "sim/ride.glsl"
@@ -14,7 +15,8 @@ void main()
     vec3 place = rest[i].position.xyz;
     vec4 turn  = params.rotation_now;
 #ifdef HAIR_SKINNED
-    uint low = 0u, high = params.guides; // The guide whose vertex it is.
+    // Find the guide of the vertex by bisection.
+    uint low = 0u, high = params.guides;
     while (high - low > 1u) {
         uint middle = (low + high) / 2u;
         if (guide[middle].first <= i) low = middle;

@@ -1,6 +1,7 @@
-// ride.comp - where the roots of guides go in this step, by the triangles that they sit on: shifted with their place
-// on it, and turned as it is turned. That is the rotation in the polar decomposition of what became of the triangle,
-// so that stretching and shearing turn nothing. One thread per guide.
+// ride.comp - the scalp motion of guide roots in this step, by the triangles to which they are
+// bound. A root moves with its closest point on its triangle, and turns with the triangle. The turn
+// is the rotation in the polar decomposition of the triangle's deformation. Stretching and shearing
+// therefore turn nothing. One thread per guide.
 #version 450 core
 #include "scalp.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -9,7 +10,7 @@ layout(std430, binding = HAIR_BIND_REST) readonly buffer rest_buffer { hair_rest
 
 // Two sides of a triangle in its own plane: (along, 0) and `other`.
 struct flat_triangle {
-    vec3  x, y, normal; // unit
+    vec3  x, y, normal; // Unit vectors
     float along;
     vec2  other;
     bool  sound;
@@ -29,13 +30,13 @@ flat_triangle flatten(vec3 a, vec3 b, vec3 c)
     return f;
 }
 
-// The rotation from one to the other: of the normal, and about it.
+// Return the rotation between two triangles: that of the normal, and then about the normal.
 vec4 turn_between(flat_triangle rest, flat_triangle now)
 {
-    // The matrix that takes the sides at rest to those now is ((p, q), (0, r)).
+    // The matrix ((p, q), (0, r)) maps the rest sides to the current sides.
     float p = now.along / rest.along, r = now.other.y / rest.other.y;
     float q = (now.other.x - p * rest.other.x) / rest.other.y;
-    vec2  turned = normalize(vec2(p + r, -q)); // cosine and sine
+    vec2  turned = normalize(vec2(p + r, -q)); // Cosine and sine
     vec3  to     = turned.x * now.x + turned.y * now.y;
     vec4  first  = quat_between(rest.normal, now.normal);
     vec3  from   = rotate(first, rest.x);
@@ -44,7 +45,8 @@ vec4 turn_between(flat_triangle rest, flat_triangle now)
     return normalize(quat_multiply(second, first));
 }
 
-// Where it is not finite, or nowhere near, things stay as they are; where a triangle has no plane, only turned so.
+// Return the scalp motion of root g. A result that is not finite, or is too far away, is replaced
+// by `before`. A triangle without a plane keeps the turn of `before`.
 ride find_ride(uint g, ride before)
 {
     hair_seat seat = seats[g];

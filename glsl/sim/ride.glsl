@@ -1,4 +1,5 @@
-// ride.glsl - where a skinned scalp has a guide's root, against where the head alone would have it. See hair_ride.
+// ride.glsl - the scalp motion of a guide's root, relative to the place that the head alone gives
+// the root. hair_ride stores it.
 #include "rotation.glsl"
 
 struct ride {
@@ -6,7 +7,8 @@ struct ride {
     vec4 turn;
 };
 
-// By the bits, for comparisons with NaN may be compiled away. Too far, too, is where no hair is.
+// Return whether v is finite and plausible. The comparison is by bits, because compilers may remove
+// comparisons with NaN.
 bool is_sound(vec4 v) { return (floatBitsToUint(dot(v, v)) & 0x7fffffffu) < floatBitsToUint(1e8); }
 
 ride ride_between(ride a, ride b, float share)
@@ -25,14 +27,16 @@ ride ride_of(uint guide_number, int which)
     return ride(texelFetch(ride_texture, at).xyz, texelFetch(ride_texture, at + HAIR_RIDES));
 }
 
-// At a share of the step; below 0, as only a dispatch's start may be, where the substep before it ended.
+// Return the scalp motion at a fraction of the step. A negative fraction, which only the start of a
+// dispatch may have, selects the end of the substep before the step.
 ride ride_at(uint guide_number, float share)
 {
     if (share < 0.0) return ride_of(guide_number, HAIR_RIDE_THEN);
     return ride_between(ride_of(guide_number, HAIR_RIDE_START), ride_of(guide_number, HAIR_RIDE_END), share);
 }
 
-// A place in the head at rest, carried along; and back.
+// Return the place that scalp motion gives to a place in the head at rest.
 vec3 carry(ride r, vec3 root, vec3 place) { return root + r.shift + rotate(r.turn, place - root); }
+// Return the place in the head at rest that scalp motion brings to `place`.
 vec3 carry_back(ride r, vec3 root, vec3 place) { return root + rotate(quat_conjugate(r.turn), place - root - r.shift); }
 #endif

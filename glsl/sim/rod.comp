@@ -1,9 +1,11 @@
-// rod.comp - the solvers of an inextensible rod: all substeps of a step for every guide.
+// rod.comp - the solvers of an inextensible rod. A dispatch does all substeps of a step for every
+// guide.
 //
-// HAIR_SOLVER names the method that is tried first; of guides whose bending SHAKE cannot bear at that substep BDF2, in
-// the programs that have HAIR_STIFF. A substep that it leaves stretched or not finite is done again by implicit Euler,
-// and that failing by follow-the-leader, which cannot; a guide that is not finite even so goes back to its rest pose.
-// Each such substep is counted in health[]. SHAKE takes a substep in parts where a whip turns segments: see parts.glsl.
+// HAIR_SOLVER names the method that is tried first. Programs with HAIR_STIFF try BDF2 for guides
+// whose bending makes SHAKE unstable at this substep. A substep that the method leaves stretched or
+// not finite is done again by implicit Euler, and then by follow-the-leader, which cannot fail. A
+// guide that is not finite even then returns to its rest pose. Each such substep is counted in
+// health[]. SHAKE takes a substep in parts where a whip turns segments, as parts.glsl explains.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
@@ -27,7 +29,7 @@ bool may_split(float smaller);
 bool turns_far(int method);
 #endif
 
-// The substep by `method`. False: it failed.
+// Do the substep by `method`. Return false if it failed.
 bool attempt(int method, vec3 head_moved)
 {
     predict(method);
@@ -40,12 +42,13 @@ bool attempt(int method, vec3 head_moved)
     return fits;
 }
 
-// The substep, or a part of it, by one method after the other, until one can.
+// Do the substep, or a part of it, by one method after the other, until one succeeds.
 void attempt_all(vec3 head_moved)
 {
     bool waits = own_method == SHAKE && known > 1.0;
     int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
-    for (;; ++method) { // As a condition the attempt takes a tenth longer by one compiler.
+    // One compiler makes slower code if the attempt is the loop's condition.
+    for (;; ++method) {
         vec3 moves = head_moved;
 #ifdef SPLITS
         moves *= min(leap_part, 1.0 - done);
@@ -57,12 +60,15 @@ void attempt_all(vec3 head_moved)
             --method;
             continue;
         }
-        place_part(1.0, 1.0, head_moved); // All that is left, by a method that does not leap.
+        // A method that does not leap does the whole rest.
+        place_part(1.0, 1.0, head_moved);
 #endif
 #ifdef KEEPS_RATES
-        EACH(guide_count) { own(tension) = 0.0; } // This one was led to nothing.
+        // The failed attempt led to wrong tensions.
+        EACH(guide_count) { own(tension) = 0.0; }
 #endif
-        if (IS_SHAKE(method)) ++method; // To Euler: BDF2 needs a past that SHAKE does not keep.
+        // Skip BDF2, which needs a past that SHAKE does not keep.
+        if (IS_SHAKE(method)) ++method;
         count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
     }
 #ifdef HAIR_TIED
@@ -74,8 +80,9 @@ void attempt_all(vec3 head_moved)
 #include "sim/substeps.glsl"
 #include "sim/guide_list.glsl"
 
-// Many guides go through two programs: one that knows no method but the solver's own, and for those that it leaves one that
-// knows all. So the first takes fewer registers, and instructions that a GPU has at hand.
+// Many guides go through two programs. The first knows only the solver's own method. The second
+// knows all methods, and does the guides that the first leaves. The first thus takes fewer
+// registers, and its instructions fit into a GPU's cache.
 void main()
 {
     uint first = hair_guide_number(), guides_at_once = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GUIDES_IN_GROUP;

@@ -1,4 +1,4 @@
-// rod_buffers.glsl - what the solvers of rods keep beside the state.
+// rod_buffers.glsl - the buffers of the solvers of rods, beside the state.
 layout(std430, binding = HAIR_BIND_ROD) readonly buffer rod_buffer { hair_rod rod[]; };
 layout(std430, binding = HAIR_BIND_HISTORY) buffer history_buffer { hair_history history[]; };
 layout(std430, binding = HAIR_BIND_MATERIAL) buffer material_buffer { vec4 material[]; };

@@ -1,4 +1,5 @@
-// scalp.comp - the scalp's positions out of what the host's buffer holds beside them. One thread per vertex.
+// scalp.comp - copy the scalp's positions out of the application's buffer, which may hold other
+// data between them. One thread per vertex.
 #version 450 core
 #include "scalp.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

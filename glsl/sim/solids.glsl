@@ -1,5 +1,5 @@
-// solids.glsl - where solids are read from: the step's parameters; or of any number of them a texture, by the grid that says
-// which can be met where (lib/collide/cells.h).
+// solids.glsl - access to colliders. A few colliders are in the step's parameters. Any number of
+// them are in a texture, and a grid lists which of them can be met where (lib/collide/cells.h).
 #ifdef HAIR_ANY
 layout(binding = HAIR_UNIT_CONTACT) uniform usamplerBuffer contact_texture;
 layout(binding = HAIR_UNIT_CELL) uniform usamplerBuffer cell_texture;
@@ -18,7 +18,7 @@ uint  cell_entry(uint i) { return texelFetch(cell_texture, int(i)).x; }
 #define BODY_SIZE(k) contact_part(k, 9u)
 #define BALL(k) contact_part(k, 12u)
 
-// The members of the cell around a place: the first, and the end.
+// Return the range of members of the cell around a place: the first, and the end.
 uvec2 cell_members(vec3 place)
 {
     uvec3 cells = uvec3(params.cells_x, params.cells_y, params.cells_z);

@@ -1,5 +1,5 @@
-// stir.comp - how far any guide vertex is from where it was, and how fast, seen from a head that does not move. A thread
-// goes over as many vertices as it takes.
+// stir.comp - the activity of guides. Find the maximum distance of any guide vertex from its
+// anchor, and the maximum speed, seen from a head that does not move. A thread loops over vertices.
 #version 450 core
 #include "shared.h"
 #include "workgroup.glsl"
@@ -10,7 +10,8 @@ layout(std430, binding = HAIR_BIND_ANCHOR) restrict buffer anchor_buffer { vec4 
 layout(std430, binding = HAIR_BIND_STIR) restrict buffer stir_buffer { uint stir[]; };
 layout(std140, binding = HAIR_BIND_STIR_PARAMS) uniform stir_params_buffer { hair_stir_params params; };
 
-shared uint most[2]; // Bits of floats that are not negative are in the order of the floats.
+// Distance and speed as bits. Non-negative floats have the same order as their bits.
+shared uint most[2];
 
 void main()
 {

@@ -1,4 +1,4 @@
-// stored.glsl - what there is of a guide between dispatches.
+// stored.glsl - load a guide from the buffers that keep it between dispatches, and store it.
 #include "sim/load_vertex.glsl"
 
 void load()
@@ -14,7 +14,8 @@ void load()
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
 #endif
     EACH(guide_count) {
-        // All that is read is asked for before any of it is looked at: a GPU waits for all of it as long as for one.
+        // Request all reads before any value is used, because a GPU waits for all of them as long
+        // as for one.
         uint       at       = guide_first + min(i, guide_count - 1u);
         hair_state was      = state[at];
         vec4       segment  = rod[at].segment;

@@ -1,5 +1,6 @@
 // substeps.glsl - the substeps of a step, one after the other, for one guide.
-// Where the scalp has the root after a share of the step, and how it is turned.
+
+// Place the root where the scalp has it after a fraction of the step, and set its rotation.
 void place_root(vec4 head, float share)
 {
     turn_now  = head;
@@ -13,18 +14,20 @@ void place_root(vec4 head, float share)
 }
 
 #if defined(HAIR_MIXED) || defined(SPLITS)
-// Rotation of the head, and fraction of the step that is done, when a substep starts and ends.
+// Rotation of the head when a substep starts and ends.
 vec4  head_at_start, head_at_end;
+// Fraction of the step that is done when a substep starts and ends.
 float fraction_at_start, fraction_at_end;
 #endif
 
-void attempt_all(vec3 head_moved); // Do a substep, by the method of the program.
+// Do a substep by the method of the program.
+void attempt_all(vec3 head_moved);
 
 #ifdef SPLITS
 #include "sim/leap_parts.glsl"
 #endif
 
-// All substeps. False: the solver's own method cannot, and nothing has been done.
+// Do all substeps. Return false if the solver's own method fails. Nothing is stored then.
 bool solve()
 {
     guide_first  = guide[guide_number].first;

@@ -1,25 +1,31 @@
-// tie.glsl - vertices that ties hold, to the head or to the world, as the scalp holds the root.
+// tie.glsl - vertices that pins hold to the head or to the world, as the scalp holds the root.
 //
-// A span is what lies between one held vertex and the next. Where they are farther apart than it is long it is given
-// the length that it lacks, evenly, and a thousandth more: of a strand that is quite straight no lengths can be found.
-// Of one that nearly is, each step finds what it can without going far: its lengths give way a little.
+// A span lies between one held vertex and the next. If these are farther apart than the span is
+// long, its segments are lengthened evenly. They then cover the distance and a thousandth more.
+// Lengths cannot be found in a quite straight strand. In a nearly straight strand, lengths give way
+// a little, so that each step finds what it can without a long way.
 layout(binding = HAIR_UNIT_TIE) uniform samplerBuffer tie_texture; // hair_held[]
-OWN(vec4, target); // of a tied vertex: hair_held.place
-OWN(float, gives); // of segment i: share by which its length gives way
-OWN(vec4, span);   // of segment i: hair_held.span of the tie that its span ends at; 0: none
-vec4 head_then, head_now; // how the head is turned
-bool taut;                // a span is longer than it can be
+OWN(vec4, target); // hair_held.place of a pinned vertex
+OWN(float, gives); // Fraction by which the length of segment i gives way
+// hair_held.span of the pin at which the span of segment i ends, or 0.
+OWN(vec4, span);
+// Rotation of the head at the start and end of the substep.
+vec4 head_then, head_now;
+bool taut;                // A span is stretched beyond its length.
 
 #define GIVEN 1.001
-#define NEARLY 0.98     // apart, by its length, from where on a span gives way,
-#define GIVES_WAY 0.01  // by this share of what a length has against change
+// Distance of the ends from which a span gives way, as a fraction of its length.
+#define NEARLY 0.98
+// Compliance added to a length, as a fraction of its own.
+#define GIVES_WAY 0.01
 
-// What rod[].factor.w says is the first tie beyond a vertex, counted from 1.
+// Return data of a pin by its number. rod[].factor.w has the number of the first pin after a
+// vertex, counted from 1.
 vec4 tie_place(float number) { return texelFetch(tie_texture, 2 * int(number) - 2); }
 vec4 tie_span(float number) { return texelFetch(tie_texture, 2 * int(number) - 1); }
 
-// Written whatever the vertex is, once: one driver loses what conditions write into an array that is not the first of
-// it.
+// Load the pin of vertex i. Writes are unconditional, because one driver loses conditional writes
+// to arrays other than the first.
 void load_tie(uint i)
 {
     uint  at   = guide_first + min(i, guide_count - 1u);
@@ -28,7 +34,8 @@ void load_tie(uint i)
     own(span)   = min(beyond, 1.0) * tie_span(max(beyond, 1.0));
 }
 
-// Evenly from where it is to where it is to be at the end of the step: in the head's frame, or in the world.
+// Return the displacement of held vertex i. The vertex moves evenly to its place at the end of the
+// step, in the head's frame or in the world.
 vec3 held_move(uint i)
 {
     if (i == 0u) return root_moved;
@@ -48,7 +55,7 @@ float given(vec4 span, vec3 apart)
     return span.z > 0.0 && bits_of(needed) < 0x7f800000u ? max(GIVEN * needed, 1.0) : 1.0;
 }
 
-// Of all segments, by where `moved` leads what is held.
+// Lengthen all segments for the distances of held vertices after `moved`.
 void give_length()
 {
     taut = false;

@@ -1,10 +1,11 @@
-// tridiagonal.glsl - a x_(i-1) + b x_i + c x_(i+1) = r for i < n, a of the first and c of the last being 0.
+// tridiagonal.glsl - solve a x_(i-1) + b x_i + c x_(i+1) = r for i < n. The first a and the last c
+// are 0.
 OWN(vec4, row); // a, b, c, r
 OWN(float, solution);
 
 #ifdef HAIR_THREAD_PER_GUIDE
 
-// Thomas: elimination downwards, substitution upwards.
+// Thomas algorithm: eliminate downwards, and substitute upwards.
 void solve_rows(uint n)
 {
     vec2 above = vec2(0.0); // c / b and r / b of the row above
@@ -22,15 +23,16 @@ void solve_rows(uint n)
 
 #else
 
-// A row a, 1, c, r freed of its neighbours.
+// Return row (a, 1, c, r) without its terms of the neighbours.
 vec3 reduced(vec3 mine, vec3 above, vec3 below)
 {
     float scale = 1.0 / (1.0 - mine.x * above.y - mine.y * below.x);
     return scale * vec3(-mine.x * above.x, -mine.y * below.y, mine.z - mine.x * above.z - mine.y * below.z);
 }
 
-// Parallel cyclic reduction (Hockney 1965): every row is freed of its neighbours at distance 1, 2, 4, ... Beyond the
-// ends are rows of nothing, and of what comes round there a and c are 0.
+// Solve by parallel cyclic reduction (Hockney 1965). Each round removes the neighbours of every row
+// at distance 1, 2, 4, and so on. Rows beyond the ends are empty. Rows read around the end have a
+// and c of 0.
 void solve_rows(uint n)
 {
     vec3 mine = lane < n ? row.xzw / row.y : vec3(0.0);

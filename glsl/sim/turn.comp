@@ -1,4 +1,5 @@
-// turn.comp - turn shape and motion of every guide about the head's origin. One thread per guide vertex.
+// turn.comp - turn the shape and motion of every guide about the head's origin. One thread per
+// guide vertex.
 #version 450 core
 #include "buffers.glsl"
 #include "rotation.glsl"
