@@ -1,4 +1,4 @@
-// buffers.glsl - the storage and uniform buffers of compute passes, at the slots of shared.h.
+// buffers.glsl - storage and uniform buffers of compute passes, at the slots of shared.h.
 #include "shared.h"
 #include "workgroup.glsl"
 

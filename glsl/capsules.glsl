@@ -1,10 +1,12 @@
-// capsules.glsl - solids of redblack, as capsules at one moment: what a vertex is pushed out of.
+// capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out of
+// them.
 
-struct capsule { // a solid at one moment
+struct capsule { // A collider at one moment.
     vec3  start, axis;
     float radius;
 };
 
+// Return the collider at a fraction `share` of the step, enlarged by `margin`.
 capsule solid_at(hair_capsule solid, float share, float margin)
 {
     vec4 a = mix(solid.start[0], solid.end[0], share);
@@ -12,6 +14,7 @@ capsule solid_at(hair_capsule solid, float share, float margin)
     return capsule(a.xyz, b.xyz - a.xyz, a.w + margin);
 }
 
+// Return the vector from the nearest point on the collider's axis to the position.
 vec3 from_axis(vec3 position, capsule solid)
 {
     vec3  arm   = position - solid.start;
@@ -19,7 +22,7 @@ vec3 from_axis(vec3 position, capsule solid)
     return arm - along * solid.axis;
 }
 
-// Out of a solid by the shortest way.
+// Return the position pushed out of a collider by the shortest path.
 vec3 push_out(vec3 position, capsule solid)
 {
     vec3  out_to = from_axis(position, solid);

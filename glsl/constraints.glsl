@@ -1,12 +1,14 @@
-// constraints.glsl - the constraints of a guide in shared memory: distance, angular, collision. One thread per
-// vertex; each function is one phase in which no two threads touch the same vertex. After Tariq 2010, "Hair".
+// constraints.glsl - distance, angular and collision constraints of a guide in shared memory, after
+// Tariq 2010, "Hair".
 //
-// Vertices 0 and 1 are pinned by the scalp and never moved.
+// A work group has one thread per vertex. Each function is one phase, in which no two threads touch
+// the same vertex. The scalp pins vertices 0 and 1, which never move.
 
 shared vec3 vertex[HAIR_GUIDE_THREADS];
 
-// Move the ends of the link (a, b) towards the distance `rest_length`, by the share `stiffness` of the error,
-// half each, or all of it by the free end (Tariq 2010, figure 10).
+// Move the ends of the link (a, b) towards the distance `rest_length` by the fraction `stiffness`
+// of the error. Each end moves half of it. A free end moves all of it where the other end is pinned
+// (Tariq 2010, figure 10).
 void relax_link(uint a, uint b, float rest_length, float stiffness)
 {
     vec3  link = vertex[b] - vertex[a];
@@ -18,14 +20,16 @@ void relax_link(uint a, uint b, float rest_length, float stiffness)
     vertex[b] -= share * correction;
 }
 
-// Red (phase 0) or black (phase 1) distance constraints: links (0,1), (2,3), … or (1,2), (3,4), …
+// Apply the red distance constraints in phase 0, to links (0,1), (2,3), ... Apply the black ones in
+// phase 1, to links (1,2), (3,4), ...
 void relax_distance(uint i, uint count, uint phase, uint first)
 {
     uint a = 2u * i + phase;
     if (a + 1u < count) relax_link(a, a + 1u, rest[first + a].position.w, 1.0);
 }
 
-// Angular constraints, as distances over two segments: links (0,2), (1,3), (4,6), … or (2,4), (3,5), (6,8), …
+// Apply angular constraints as distances over two segments. Phase 0 takes links (0,2), (1,3),
+// (4,6), ... Phase 1 takes links (2,4), (3,5), (6,8), ...
 void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
 {
     uint a = 4u * (i / 2u) + (i & 1u) + 2u * phase;
@@ -34,9 +38,11 @@ void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
 
 #include "capsules.glsl"
 
-#define COLLISION_REACH 0.05 // m: farther than this no vertex is taken to be moved by a substep's iterations
+// Assumed maximum movement of a vertex by a substep's iterations, m.
+#define COLLISION_REACH 0.05
 
-// One bit for each solid that the vertex can meet in this substep: the others need no look at every iteration.
+// Return one bit per collider that the vertex can touch in this substep, because iterations need
+// not test the others.
 uvec2 find_solids(vec3 position, float share)
 {
     uvec2 found = uvec2(0u);
@@ -47,6 +53,7 @@ uvec2 find_solids(vec3 position, float share)
     return found;
 }
 
+// Return the position pushed out of each of the given colliders in turn.
 vec3 collide(vec3 position, uvec2 solids, float share)
 {
     for (int word = 0; word < 2; ++word)

@@ -1,8 +1,15 @@
-// coverage.glsl - how much of a pixel a strand covers. strand_share: pixels across from its middle, half its width, what is made
-// of its direction: a square pixel seen along it is a trapezoid, of half so wide below and half so wide above.
+// coverage.glsl - how much of a pixel a strand covers.
+//
+// Seen along a strand, a square pixel projects to a trapezoid: a density that is constant in the
+// middle and falls linearly to 0 at both sides.
+//
+// strand_share.x: distance of the pixel from the strand's middle, pixels. y: half the strand's
+// width, pixels. z, w: half the widths of the trapezoid's base and top, which depend on the
+// strand's direction.
 layout(location = 7) noperspective in vec4 strand_share;
 
-// Of the projection of a square pixel onto a line: how much of it lies before x.
+// Return the fraction of a square pixel's projection onto a line that lies before x. `outer` and
+// `inner` are half the widths of the trapezoid's base and top.
 float share_before(float x, float outer, float inner)
 {
     float y = min(abs(x), outer), ramp = max(outer - inner, 1e-4), left = outer - y;

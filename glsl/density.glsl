@@ -1,8 +1,9 @@
-// density.glsl - the grid of how much hair there is: where it is, and what it holds at a place.
+// density.glsl - the grid of hair density: its place, and its value at a position.
 //
-// It stands still in the head's frame, around all hair; its cells are as large as is asked for, or as they must be for
-// HAIR_DENSITY_NODES nodes to suffice. A node holds, in HAIR_DENSITY_UNITS, the area that strands around it would shade
-// of a light across them, over the side of a cell: what light meets on the way through a cell.
+// The grid is fixed in the head's frame and encloses all hair. Its cells have the requested size,
+// or the size at which HAIR_DENSITY_NODES nodes suffice. A node holds the area of the strands
+// around it, projected across a light, divided by the area of one face of a cell, in
+// HAIR_DENSITY_UNITS. This is the number of strands that light meets on its way through a cell.
 #include "draw_params.glsl"
 #include "ordered.glsl"
 #include "rotation.glsl"
@@ -13,13 +14,13 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uint density[]; };
-// Of x, y, z the least, then the least of their bits turned round, by bits that are in the order of the numbers.
+// Minima of x, y and z, then minima of their inverted bits, in the encoding of ordered.glsl.
 layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
 layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer { vec4 strand_vertex[]; };
 
-#define MOST_MET 30.0 // nothing is left of light that has met so many
+#define MOST_MET 30.0 // Strands after which no light is left.
 
-// A solid.
+// Return whether a position is inside a collider.
 bool is_inside(vec3 from_origin)
 {
 #ifdef HAIR_SOLIDS
@@ -29,12 +30,13 @@ bool is_inside(vec3 from_origin)
 #endif
 }
 
+// Return a vector in the head's frame.
 vec3 in_head(vec3 from_origin) { return rotate(quat_conjugate(draw.head), from_origin); }
 
 struct density_grid {
-    vec3  lower; // node 0, m
-    float cell;  // m
-    uvec3 nodes; // 0: there is no hair
+    vec3  lower; // Node 0, m.
+    float cell;  // m.
+    uvec3 nodes; // 0 if there is no hair.
 };
 
 density_grid find_grid()
@@ -51,10 +53,11 @@ density_grid find_grid()
     return density_grid(cell * floor(lower / cell), cell, uvec3(nodes));
 }
 
-// In cells from node 0.
+// Return a position in cells from node 0.
 vec3 place_in(density_grid grid, vec3 from_origin) { return (in_head(from_origin) - grid.lower) / grid.cell; }
 
-// The first node around a place, if it and those beyond it are in the grid.
+// Find the lowest of the eight nodes around a position and the fractions within the cell. Return
+// whether all eight are in the grid.
 bool find_node(density_grid grid, vec3 place, out uint node, out vec3 part)
 {
     vec3 whole = floor(place);
@@ -64,7 +67,7 @@ bool find_node(density_grid grid, vec3 place, out uint node, out vec3 part)
     return all(greaterThanEqual(whole, vec3(0.0))) && all(lessThan(whole, vec3(grid.nodes) - 1.0));
 }
 
-// What light meets there in a cell.
+// Return the number of strands that light meets in a cell at a position.
 float density_at(density_grid grid, vec3 place)
 {
     uint node;

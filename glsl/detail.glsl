@@ -1,15 +1,16 @@
-// detail.glsl - the level of detail: with what share of its strands a patch is drawn, and with how many segments.
+// detail.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
+// number of their segments.
 #include "position_texture.glsl"
 
 #define FEWEST_SEGMENTS 2.0
-#define GIVE 1.1     // hair may stretch, and stray from its guides
-#define WIDEST 16.0   // that taper and maps make a strand, as a multiple
-#define HIDDEN_BY 0.3 // radii of the skull between the eye and what is hidden
+#define GIVE 1.1     // Factor that allows for stretch and for followers that leave their guides.
+#define WIDEST 16.0   // Maximum factor of the width by taper and maps.
+#define HIDDEN_BY 0.3 // Depth of the line of sight in the skull, in radii.
 
 struct hair_detail {
-    float strands;   // share
+    float strands;   // Fraction.
     float segments;
-    float thickness; // that makes up for the strands left out
+    float thickness; // Factor that compensates for the strands left out.
 };
 
 vec3 guide_at(uint guide, uint sample_) { return texelFetch(position_texture, int(guide * draw.smooth_vertices + sample_)).xyz; }
@@ -27,7 +28,8 @@ bool is_in_view(vec3 center, float radius)
     return all(greaterThan(sides, vec4(-radius)));
 }
 
-// How far the way from the eye to a point leads through the skull: 0 none, 1 half its radius deep.
+// Return how strongly the skull occludes a point. 0 means that the line of sight misses the skull.
+// 1 means that it enters the skull by HIDDEN_BY radii or more.
 float hidden_at(vec3 eye, vec3 position)
 {
     vec3  way  = position - eye;
@@ -36,7 +38,7 @@ float hidden_at(vec3 eye, vec3 position)
     return smoothstep(0.0, HIDDEN_BY, 1.0 - past / draw.skull.w);
 }
 
-// Whether a ball is wholly in the cone of what the skull hides.
+// Return whether a sphere lies wholly in the cone that the skull occludes.
 bool is_hidden(vec3 eye, vec3 center, float radius)
 {
     vec3  to_skull = draw.skull.xyz - eye, to_ball = center - eye;
@@ -46,7 +48,7 @@ bool is_hidden(vec3 eye, vec3 center, float radius)
     return between + asin(min(radius / b, 1.0)) < skull;
 }
 
-// `patch_`: reach, length, importance of hair_patch.
+// Return the level of detail of a patch. `patch_` holds the patch's reach, length and importance.
 hair_detail find_detail(uint guide, vec4 patch_)
 {
     float most   = float(draw.segments) * draw.segment_share;

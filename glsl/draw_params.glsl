@@ -1,4 +1,4 @@
-// draw_params.glsl - the uniform buffer of whatever draws, at its slot of shared.h.
+// draw_params.glsl - the uniform buffer of draw passes, at its slot of shared.h.
 #ifndef HAIR_DRAW_PARAMS_GLSL
 #define HAIR_DRAW_PARAMS_GLSL
 

@@ -1,5 +1,6 @@
-// evaluate.glsl - where a follower is drawn: the one function that every path of drawing evaluates. With HAIR_HITS it
-// heeds which followers meet solids, and what is done about it.
+// evaluate.glsl - the position of a follower, by the one function that every drawing path
+// evaluates. With HAIR_HITS the function takes account of followers inside colliders and of their
+// repair.
 #include "follower.glsl"
 #include "repair.glsl"
 
@@ -8,7 +9,8 @@ layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
 
 vec4 repair_control(int first, int i) { return texelFetch(repair_texture, first + i); }
 
-// Tariq 2010: single-strand from the first vertex inside on, blended over a zone above it.
+// Interpolate single-strand from the first vertex inside a collider on, blended over a zone above
+// it (Tariq 2010).
 hair_point switch_at(hair_follower follower, float t, float hit)
 {
     float x = clamp((t - hit) / HAIR_SWITCH_ZONE + 1.0, 0.0, 1.0);

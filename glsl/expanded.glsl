@@ -1,10 +1,12 @@
-// expanded.glsl - where a follower is drawn, as expand.comp has left its vertices: in place of evaluate.glsl, at those t.
+// expanded.glsl - the position of a follower, read from the vertex cache that expand.comp writes.
+// It replaces evaluate.glsl.
 #include "follower.glsl"
 
 layout(binding = HAIR_UNIT_EXPANDED) uniform samplerBuffer expanded_texture;
 layout(binding = HAIR_UNIT_EXPANDED_TANGENT) uniform samplerBuffer expanded_tangent_texture;
 
-// Between two vertices, or at one: the first of them, and how far beyond it.
+// Return the fraction by which t lies beyond a cached vertex. `at` is the index of the vertex. Near
+// a vertex the fraction is exactly 0 or 1.
 float place_between(uint number, float t, out int at)
 {
     float along = t * float(draw.segments), k = min(floor(along + 1e-3), float(draw.segments) - 1.0);
@@ -14,7 +16,7 @@ float place_between(uint number, float t, out int at)
 }
 
 #if defined(HAIR_MOTION) || defined(HAIR_SHARES)
-// Where levels of detail leave out segments too.
+// Interpolate between cached vertices, because levels of detail leave out segments too.
 hair_point evaluate(hair_follower follower, uint number, float t)
 {
     int   at;
@@ -36,7 +38,7 @@ hair_point evaluate(hair_follower follower, uint number, float t)
 #ifdef HAIR_MOTION
 layout(binding = HAIR_UNIT_BEFORE) uniform samplerBuffer before_texture;
 
-// Where the strand was when it was drawn before.
+// Return the position of the strand in the previous frame that was drawn.
 vec3 before_at(uint number, float t)
 {
     int   at;

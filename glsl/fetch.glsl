@@ -1,5 +1,6 @@
-// fetch.glsl - the smoothed guides and the followers, read as textures; with HAIR_STORED as storage buffers, which a GPU
-// reads several times as fast, but which stages that draw are not promised.
+// fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
+// from storage buffers, which GPUs read several times as fast. OpenGL does not guarantee storage
+// buffers to the stages that draw.
 #include "shared.h"
 #include "position_texture.glsl"
 

@@ -1,9 +1,10 @@
-// fibre.glsl - light that fibres of hair scatter: one by itself (Marschner et al. 2003, its longitudinal part after
-// d'Eon et al. 2011), and among many (dual scattering, Zinke et al. 2008, with as many fibres in front as a Poisson
-// process has). Azimuths are tabulated by lib/draw/fibre.c.
+// fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
+// et al. 2003, with the longitudinal part after d'Eon et al. 2011. The model of many fibres is dual
+// scattering (Zinke et al. 2008), with the number of fibres in front of a point as in a Poisson
+// process. lib/draw/fibre.c tabulates the azimuthal part.
 //
-// Longitudinal lobes are made symmetric, so that light's way may be turned round, and divided by q, which has been
-// fitted so that none is lost: to 0.7 % for a fibre without tilt.
+// Longitudinal lobes are made symmetric, so that the path of light is reversible. They are divided
+// by a factor q that is fitted to conserve energy, to 0.7 % for a fibre without tilt.
 #include "draw_params.glsl"
 
 layout(binding = HAIR_UNIT_FIBRE) uniform sampler3D fibre_texture;
@@ -15,8 +16,9 @@ vec4 fibre_table(float x, float y, float layer)
     return textureLod(fibre_texture, vec3(at, (layer + 0.5) / float(HAIR_FIBRE_LAYERS)), 0.0);
 }
 
-// Directions as seen from the fibre: sine and cosine above the plane across it, of light and eye; the cosine of half
-// the angle between their cones; and phi / pi, where 0 is back to the light.
+// Directions relative to the fibre. `light` and `eye` are sine and cosine of the inclination to the
+// plane across the fibre. `half_cosine` is the cosine of half the angle between their cones. `turn`
+// is phi / pi, and 0 when the eye is on the side of the light.
 struct fibre_angles {
     vec2  light, eye;
     float half_cosine, turn;
@@ -27,14 +29,16 @@ fibre_angles measure_angles(vec3 tangent, vec3 to_light, vec3 to_eye)
     fibre_angles a;
     float l = clamp(dot(tangent, to_light), -1.0, 1.0), e = clamp(dot(tangent, to_eye), -1.0, 1.0);
     a.light = vec2(l, sqrt(1.0 - l * l)), a.eye = vec2(e, sqrt(1.0 - e * e));
-    // cos((x - y) / 2) by cos(x - y).
+    // cos((x - y) / 2) = sqrt((1 + cos(x - y)) / 2).
     a.half_cosine = sqrt(clamp(0.5 + 0.5 * (a.light.y * a.eye.y + l * e), 0.0, 1.0));
     float across  = (dot(to_light, to_eye) - l * e) / max(a.light.y * a.eye.y, 1e-6);
     a.turn        = acos(clamp(across, -1.0, 1.0)) * 0.31830989;
     return a;
 }
 
-float log_bessel(float x) // log of I0 (Abramowitz and Stegun 1964, 9.8.1 and 9.8.2)
+// Return the logarithm of the modified Bessel function I0 (Abramowitz and Stegun 1964, 9.8.1 and
+// 9.8.2).
+float log_bessel(float x)
 {
     float t = x * x / 14.0625, u = 3.75 / max(x, 3.75);
     float small = t * (0.2659732 + t * (0.0360768 + t * 0.0045813));
@@ -44,7 +48,8 @@ float log_bessel(float x) // log of I0 (Abramowitz and Stegun 1964, 9.8.1 and 9.
     return x < 3.75 ? log(small) : x - 0.5 * log(x) + log(large);
 }
 
-// A longitudinal lobe of that variance, of scales tilted by an angle with that sine and cosine.
+// Return a longitudinal lobe of the given variance. `tilt` is sine and cosine of the angle by which
+// the fibre's scales tilt it.
 float longitudinal(fibre_angles a, float variance, vec2 tilt)
 {
     vec2  l = vec2(a.light.x * tilt.y - a.light.y * tilt.x, abs(a.light.y * tilt.y + a.light.x * tilt.x));
@@ -52,20 +57,24 @@ float longitudinal(fibre_angles a, float variance, vec2 tilt)
     float r = 1.0 / variance;
     float m = exp(log_bessel(l.y * e.y * r) - (l.x * e.x + 1.0) * r) * r / (1.0 - exp(-2.0 * r));
     float s = variance / (variance + 0.3);
-    float grazing = sqrt(s * (0.304161 + s * (-0.101796 + s * (1.961349 - 1.543683 * s)))); // q where the cosine is 0
-    float normal  = 1.0 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s))); // and 1
+    // q where the cosine is 0.
+    float grazing = sqrt(s * (0.304161 + s * (-0.101796 + s * (1.961349 - 1.543683 * s))));
+    // q where the cosine is 1.
+    float normal  = 1.0 + s * (-0.138467 + s * (0.363444 + s * (-1.358778 + 0.927069 * s)));
     float g = grazing * grazing * grazing, n = normal * normal * normal - g;
     return m * pow((g + n * l.y * l.y * l.y) * (g + n * e.y * e.y * e.y), -1.0 / 6.0);
 }
 
-// Of the absorption per radius that gives hair of this fibre that reflectance (Chiang et al. 2016, equation 9).
+// Return the absorption per radius at which hair of this fibre has the given reflectance (Chiang et
+// al. 2016, equation 9).
 vec3 absorption_of(vec3 reflectance)
 {
     vec3 l = log(clamp(reflectance, 0.001, 0.995));
     return l * l * draw.fibre.y;
 }
 
-// What one fibre scatters from the light to the eye, 1/sr. v: its longitudinal variance.
+// Return the light that one fibre scatters from the light to the eye, 1/sr. `mu` is the absorption
+// per radius. `v` is the longitudinal variance of the fibre.
 vec3 scatter_once(fibre_angles a, vec3 mu, float tilt, float v)
 {
     vec4  share = fibre_table(a.turn, a.half_cosine, 0.0), path = fibre_table(a.turn, a.half_cosine, 1.0);
@@ -80,10 +89,10 @@ vec3 scatter_once(fibre_angles a, vec3 mu, float tilt, float v)
 
 vec3 scatter_once(fibre_angles a, vec3 mu, float tilt) { return scatter_once(a, mu, tilt, draw.fibre.x); }
 
-// What fibres send on and back, by channel, of light that they are lit with from one side.
+// Light that fibres transmit forward and backward, by channel, when they are lit from one side.
 struct fibre_crowd {
     vec3 on, back;
-    vec2 variance; // of both
+    vec2 variance; // Longitudinal variances, forward and backward.
 };
 
 fibre_crowd find_crowd(fibre_angles a, vec3 mu)
@@ -94,11 +103,12 @@ fibre_crowd find_crowd(fibre_angles a, vec3 mu)
     return fibre_crowd(vec3(r.x, g.x, b.x), vec3(r.y, g.y, b.y), (r.zw + g.zw + b.zw) / 3.0);
 }
 
-// direct: share of the light that meets no fibre on its way; passed: what comes through in all; met: how many it
-// meets.
+// Return the light scattered to the eye by a fibre among many. `once` is the scattering of one
+// fibre. `direct` is the fraction of the light that meets no fibre on its way. `passed` is the
+// fraction that arrives in all. `met` is the number of fibres met.
 vec3 scatter_often(fibre_angles a, fibre_crowd crowd, vec3 once, float direct, vec3 passed, float met)
 {
-    // Back from the fibres behind: light that turns round there once, or three times.
+    // Light that the fibres behind return. It changes direction there once or three times.
     vec3  f2 = crowd.on * crowd.on, gone = 1.0 - f2, b = crowd.back, b3 = b * b * b;
     vec3  behind = min(b * f2 / gone + b3 * f2 / (gone * gone * gone), 1.0);
     float f = dot(crowd.on, vec3(0.3333)), bb = dot(b, vec3(0.3333)), bbb = bb * bb * bb;

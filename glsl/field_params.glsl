@@ -1,4 +1,5 @@
-// field_params.glsl - the uniform buffer of whatever writes or reads the field, at its slot of shared.h.
+// field_params.glsl - the uniform buffer of passes that write or read the distance field, at its
+// slot of shared.h.
 #ifndef HAIR_FIELD_PARAMS_GLSL
 #define HAIR_FIELD_PARAMS_GLSL
 

@@ -1,5 +1,5 @@
-// follower.glsl - where a follower is (shared.h says how it is made of guides). What draws evaluates followers by
-// evaluate.glsl.
+// follower.glsl - interpolation of a follower from guides, as shared.h defines it. Drawing code
+// calls it through evaluate.glsl.
 #ifndef HAIR_FOLLOWER_GLSL
 #define HAIR_FOLLOWER_GLSL
 
@@ -7,7 +7,7 @@
 #include "look.glsl"
 #include "fetch.glsl"
 
-// As much of it as is drawn.
+// Return a follower, cut to the length that is drawn.
 hair_follower fetch_follower(uint number)
 {
     hair_follower follower = fetch_whole(number);
@@ -18,18 +18,18 @@ hair_follower fetch_follower(uint number)
 }
 
 struct hair_point {
-    vec3  position; // m, from the head's origin
-    vec3  tangent;  // unit
-    float radius;   // m
+    vec3  position; // m, from the head's origin.
+    vec3  tangent;  // Unit.
+    float radius;   // m.
 };
 
 struct guide_point {
     vec3  position, tangent;
-    vec3  bend;         // slope of the tangent by u
-    float guide_length; // m; to a few digits
+    vec3  bend;         // Derivative of the tangent by u.
+    float guide_length; // m, approximate.
 };
 
-struct guide_place { // between a sample of a smoothed guide and the next
+struct guide_place { // A position between a sample of a smoothed guide and the next.
     int   at;
     float share;
 };
@@ -41,7 +41,8 @@ guide_place find_place(uint number, float u)
     return guide_place(int(number * draw.smooth_vertices) + k, along - float(k));
 }
 
-// Beyond its tip (u > 1) a guide goes on straight. `beyond`: it may; else its place needs no tangents.
+// Return a point of a guide at u. Beyond its tip, with u > 1, a guide goes on straight where
+// `beyond` allows it. Otherwise the position does not depend on tangents.
 guide_point fetch_guide(uint number, float u, bool beyond)
 {
     guide_place place = find_place(number, u);
@@ -70,14 +71,16 @@ vec4 fetch_frame(uint number, float u)
     return normalize(mix(a, dot(a, b) < 0.0 ? -b : b, place.share));
 }
 
-// What is done at t to a follower that meets a solid.
+// Repair at t of a follower that meets a collider.
 struct repair {
-    vec3  away, away_slope;   // how far it is moved, m, and slope by t
-    float freed, freed_slope; // share to which it is freed of all guides but its own
+    vec3  away, away_slope;   // Displacement, m, and its derivative by t.
+    // Blend from all guides to its own guide alone, [0, 1], and its derivative by t.
+    float freed, freed_slope;
 };
 const repair UNTOUCHED = repair(vec3(0.0), vec3(0.0), 0.0, 0.0);
 
-// Beyond t = 1 straight on. `beyond`: the follower may be longer than its guides.
+// Return a point of a follower. Beyond t = 1 it goes on straight. `beyond` allows the follower to
+// be longer than its guides.
 hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
 {
     float       u       = t * follower.length_ratio;
@@ -96,7 +99,7 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
     slope  = width.x * slope + width.y * offset;
     offset = width.x * offset;
 
-    // Multi-strand where it does not clump. Tangents are slopes by t.
+    // Multi-strand where the follower does not clump. Tangents are derivatives by t.
     vec3  position = g0.position, along = length_ * g0.tangent;
     float multi       = follower.multi * (1.0 - clump.x) * (1.0 - r.freed);
     float multi_slope = -follower.multi * (clump.y * (1.0 - r.freed) + (1.0 - clump.x) * r.freed_slope);
@@ -117,7 +120,7 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
     offset.xz += a.at;
     slope.xz  += a.slope;
     vec3 turned = rotate(frame, offset);
-    // The frame turns with the strand: what is on the inside of a bend is passed more slowly.
+    // The frame turns with the strand, so a point on the inside of a bend moves more slowly.
     along += rotate(frame, slope) + r.away_slope - follower.length_ratio * dot(g0.bend, turned) * g0.tangent;
     float radius = draw.radius * follower.offset[0].w * curve_at(HAIR_CURVE_TAPER, v).x;
     return hair_point(position + turned + r.away, direction_or(along, g0.tangent), radius);

@@ -1,10 +1,11 @@
-// form_distance.glsl - the distance to a form's surface between the nodes of its grid, in its own space, below 0 inside;
-// and the unit vector along which it grows. Beyond the grid as from the surface nearest to where it ends.
-// lib/collide/distance.c says the same. NODE(i) is the i-th of all forms' nodes.
+// form_distance.glsl - signed distance to the surface of a collision mesh, interpolated between the
+// nodes of its grid, and the unit gradient. Positions are in the mesh's own space. Outside the grid
+// the distance continues from the point where the grid ends. lib/collide/distance.c has the same
+// function for the CPU. NODE(i) is the i-th node of all collision meshes.
 struct form_grid {
-    vec4  place; // xyz: its first node, w: from node to node, m
-    uvec3 size;  // nodes along x, y and z
-    uint  first;
+    vec4  place; // xyz: first node, m. w: spacing of nodes, m.
+    uvec3 size;  // Nodes along x, y and z.
+    uint  first; // Index of the first node.
 };
 
 float form_distance(form_grid form, vec3 p, out vec3 gradient)

@@ -1,14 +1,17 @@
-// frames.glsl - frames carried along a guide by the least rotation from each segment to the next.
+// frames.glsl - parallel transport of frames along a guide, by the smallest rotation from each
+// segment to the next.
 //
-// F_i = T_i F_(i-1), where T_i turns the direction of segment i-1 into that of segment i. Products of rotations
-// are associative, so the chain is an inclusive scan: log2 n steps (Hillis and Steele 1986) instead of n.
+// F_i = T_i F_(i-1), where T_i rotates the direction of segment i-1 into that of segment i.
+// Products of rotations are associative. The chain is therefore an inclusive scan of log2 n steps
+// (Hillis and Steele 1986) and not n steps.
 #include "rotation.glsl"
 
 shared vec4 scan_frame[HAIR_GUIDE_THREADS];
 shared vec3 segment_direction[HAIR_GUIDE_THREADS];
 
-// One thread per segment i; `direction` is its unit direction, `root` the frame that the scalp gives. Afterwards
-// scan_frame[i] is the frame of segment i and segment_direction[i] its direction. Called by the whole work group.
+// Compute the frames of all segments. The whole work group calls it, with one thread per segment i.
+// `direction` is the unit direction of segment i, and `root` is the frame of the scalp. Afterwards
+// scan_frame[i] is the frame of segment i and segment_direction[i] its direction.
 void carry_frames(uint i, uint segments, vec3 direction, vec4 root)
 {
     synchronise();

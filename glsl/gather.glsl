@@ -1,12 +1,14 @@
-// gather.glsl - where a strand goes that is drawn wider, for those that are left out: as far as it reaches out farther to
-// either side, it moves inwards among its neighbours. So they cover as much as before: the outline of them all stays, and
-// inside it they are as much wider as they are fewer.
+// gather.glsl - displacement of strands that are drawn wider to compensate for strands that are
+// left out. A strand moves towards the middle of its neighbours by the width that it gains. The
+// outline of all strands stays, and inside it their total coverage stays.
 #include "follower.glsl"
 
-// Strands near the middle move less than those that reach out farthest, and what the latter lack of `wider` is made up for.
+// Factor of the movement. It exceeds 1 because strands near the middle move less than the outermost
+// strands.
 #define FARTHER 1.4
 
-// Of the three guides between which a follower grows; of its one guide where it has only that.
+// Return the mean point of the three guides between which a follower grows. A single-strand
+// follower has only its own guide.
 guide_point middle_of(hair_follower follower, float u)
 {
     guide_point own = fetch_guide(follower.guide0, u, true);
@@ -18,7 +20,8 @@ guide_point middle_of(hair_follower follower, float u)
     return own;
 }
 
-// `wider`: m, to either side. Returns by how much it moves, m. What is near the middle comes near to it, but not past it.
+// Move a point towards the middle of its guides and return the displacement, m. `wider` is the
+// widening to either side, m. A point near the middle comes close to it but does not pass it.
 vec3 gather(hair_follower follower, float t, float wider, inout hair_point point)
 {
     guide_point middle = middle_of(follower, t * follower.length_ratio);

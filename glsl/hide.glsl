@@ -1,5 +1,6 @@
-// hide.glsl - what the host has drawn, as how far the farthest of it is: a pyramid (Greene, Kass and Miller 1993) of levels, one
-// after the other in a buffer. Depth has the sign by which more of it is farther away.
+// hide.glsl - Hi-Z of the application's depth (Greene, Kass and Miller 1993): the farthest depth of
+// every texel. The levels follow each other in one buffer. Depth is signed, so that a greater value
+// is farther away.
 #ifndef HAIR_HIDE_GLSL
 #define HAIR_HIDE_GLSL
 
@@ -12,7 +13,7 @@ layout(std430, binding = HAIR_BIND_HIDE_DEPTH) restrict buffer hide_depth_buffer
 
 struct hide_level {
     ivec2 size;
-    int   first; // texel, in the buffer
+    int   first; // First texel in the buffer.
 };
 
 hide_level next_level(hide_level level)
@@ -22,6 +23,6 @@ hide_level next_level(hide_level level)
 
 hide_level first_level() { return hide_level(ivec2(hide.columns, hide.rows), 0); }
 
-#define NOWHERE 1e30 // farther than anything
+#define NOWHERE 1e30 // Farther than any depth.
 
 #endif

@@ -1,12 +1,12 @@
-// lights.glsl - what light comes to a point: from each light, and from the surroundings.
+// lights.glsl - light that arrives at a point, from each light and from the surroundings.
 #ifndef HAIR_LIGHTS_GLSL
 #define HAIR_LIGHTS_GLSL
 
 #include "draw_params.glsl"
 
 struct hair_beam {
-    vec3 to;         // unit, towards the light
-    vec3 irradiance; // on a plane that faces it
+    vec3 to;         // Unit direction to the light.
+    vec3 irradiance; // On a plane that faces the light.
 };
 
 hair_beam beam_at(uint number, vec3 position)
@@ -16,7 +16,8 @@ hair_beam beam_at(uint number, vec3 position)
     vec4 axis = draw.light[at + HAIR_LIGHT_AXIS], more = draw.light[at + HAIR_LIGHT_MORE];
     vec3  way    = place.xyz - place.w * position;
     float square = dot(way, way);
-    vec3  to     = square > 1e-12 ? way * inversesqrt(square) : vec3(0.0, 1.0, 0.0); // In its middle any will do.
+    // In its middle any direction will do.
+    vec3  to     = square > 1e-12 ? way * inversesqrt(square) : vec3(0.0, 1.0, 0.0);
     float cone   = clamp((dot(axis.xyz, to) - axis.w) * more.x, 0.0, 1.0);
     float ranges = square * more.y, window = clamp(1.0 - ranges * ranges, 0.0, 1.0);
     return hair_beam(to, color.rgb * (cone * cone * window * window / max(square, color.w)));
@@ -29,7 +30,8 @@ float sky_on(mat4 sky, vec3 normal, vec3 side)
     return sky[3][3] + 1.5707963 * dot(sky[3].xyz, normal) + across * 0.3333333;
 }
 
-// On the half of a cylinder that faces a unit normal: the mean over normals round it, by how large each is seen.
+// Return the irradiance on the half of a cylinder that faces a unit normal. It is the mean over the
+// normals around the cylinder, weighted by their visible area.
 vec3 sky_round(vec3 normal, vec3 side)
 {
     vec3 found = vec3(sky_on(draw.sky[0], normal, side), sky_on(draw.sky[1], normal, side),
@@ -37,7 +39,7 @@ vec3 sky_round(vec3 normal, vec3 side)
     return max(found, 0.0);
 }
 
-// On a plane.
+// Return the irradiance on a plane.
 vec3 sky_at(vec3 normal)
 {
     vec4 n = vec4(normal, 1.0);

@@ -1,13 +1,13 @@
-// look.glsl - what a look makes of a strand's way: curves along it, and what strays, kinks and curls, as offsets across it
-// in its guide's frame. With HAIR_STYLED all of it, else not what kinks, curls and cuts.
+// look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
+// offsets across the strand in its guide's frame. Kinks, curls and cuts need HAIR_STYLED.
 #include "draw_params.glsl"
 #include "random.glsl"
 #include "spline.glsl"
 
-// Intervals of what strays, over the length.
+// Intervals of a stray over the length.
 #define STRAY_WAVES 6.0
 
-// Value and slope by t of a curve at t in [0, 1].
+// Return value and derivative by t of a curve at t in [0, 1].
 vec2 curve_at(int curve, float t)
 {
     float at = t * float(HAIR_CURVE_INTERVALS);
@@ -19,20 +19,21 @@ vec2 curve_at(int curve, float t)
 }
 
 struct aside {
-    vec2 at;    // along x and z of the frame, m
-    vec2 slope; // by t
+    vec2 at;    // Offset along x and z of the frame, m.
+    vec2 slope; // Derivative by t.
 };
 
 aside scaled(aside a, vec2 curve) { return aside(curve.x * a.at, curve.x * a.slope + curve.y * a.at); }
 
-// Two random numbers in [0, 1).
+// Return two random numbers in [0, 1).
 vec2 random_pair(uint seed)
 {
     uint h = hash(seed);
     return vec2(h & 0xffffu, h >> 16) * (1.0 / 65536.0);
 }
 
-// A smooth random way within a square of [-1, 1]: a B-spline of random control points, `waves` intervals for t from 0 to 1.
+// Return a point of a smooth random path within the square [-1, 1]^2. It is a B-spline of random
+// control points, with `waves` intervals for t from 0 to 1.
 aside wander(uint seed, float t, float waves)
 {
     float  along = t * waves, k = floor(along);
@@ -51,13 +52,14 @@ aside stray(uint seed, float t, float length_)
 }
 
 #ifdef HAIR_STYLED
-// A third of the 32 bits away from what strays, whose control points are few.
+// Return the offset of a kinked strand. Its seed is a third of the 32-bit range away from that of
+// strays, which have few control points.
 aside kink(uint seed, float t, float length_)
 {
     return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks), curve_at(HAIR_CURVE_FRIZZ, t));
 }
 
-// Tight turns are small ones.
+// Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
 aside curl(uint guide, uint seed, float t, float length_)
 {
     vec2  lock = random_pair(guide), own = random_pair(seed + 2u);
@@ -73,7 +75,8 @@ aside curl(uint guide, uint seed, float t, float length_)
     return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));
 }
 
-// Of what is given of a strand only this share is drawn: the part of its offsets' curve up to there (de Casteljau).
+// Cut a follower to the fraction of its length that is drawn. The offsets' curve is cut by de
+// Casteljau's algorithm.
 void cut(inout hair_follower follower)
 {
     float share = draw.strand.drawn * (1.0 - draw.strand.thinning * random(follower.seed + 3u));
@@ -87,7 +90,7 @@ void cut(inout hair_follower follower)
 }
 #endif
 
-// Where the look takes a strand of a guide, beside the way it would go.
+// Return the offset by which the look moves a strand of a guide.
 aside find_aside(uint guide, uint seed, float t, float length_)
 {
     aside a = stray(seed, t, length_);

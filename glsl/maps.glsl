@@ -1,11 +1,12 @@
-// maps.glsl - places in what lights' depth maps show, which are orthographic or, of lights that have a place, in perspective.
+// maps.glsl - positions in the depth maps of lights. The maps are orthographic, or in perspective
+// for lights with a position.
 #ifndef HAIR_MAPS_GLSL
 #define HAIR_MAPS_GLSL
 
 #include "draw_params.glsl"
 
-// Texture coordinates and depth. What is behind the light, where perspective has nothing, is outside of all maps; what
-// is farther than a map shows is as far as it shows.
+// Return texture coordinates and depth of a position in a map. A position behind a perspective
+// light is outside every map. A position beyond the map's far plane gets the far plane's depth.
 vec3 place_in_map(uint map, vec3 position)
 {
     vec4 at = draw.shadow[map] * vec4(position, 1.0);
@@ -18,7 +19,8 @@ float distance_to_light(uint number, vec3 position)
     return length(place.xyz - place.w * position);
 }
 
-// How far behind what has this depth a place at depth z and so far from its light is, along the light. m
+// Return the distance, along the light, of a position behind a surface of the given depth, m. z is
+// the depth of the position, and from_light its distance to the light.
 float metres_behind(uint number, float z, float depth, float from_light)
 {
     vec4 map = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MAP];
@@ -26,7 +28,7 @@ float metres_behind(uint number, float z, float depth, float from_light)
     return (z - depth) * (map.w > 0.0 ? from_light / max(map.w - depth, 1e-6) : map.z);
 }
 
-// Depth by m along the light there.
+// Return the increase of depth per metre along the light.
 float depth_by_metre(uint number, float z, float from_light)
 {
     vec4 map = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MAP];

@@ -421,8 +421,8 @@ HAIR_SIZE(hair_rest, 48)
 // rate.
 struct hair_rod {
     // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
-    // root q_(i-1) is the frame of the scalp. w: bending stiffness over the length that it stands
-    // for, m^3/s^2.
+    // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it
+    // acts over, m^3/s^2.
     hair_vec4 strain;
     // x: length of segment i, m. 0 for the tip. y: 1 / mass, 1/m. z: square of the angular
     // frequency of the pull to the rest pose, 1/s^2. w of a first vertex: method of the accurate
@@ -930,7 +930,7 @@ HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_
 struct hair_strand {
     hair_uint follower;
     float     width;   // Factor of its own width.
-    float     widened; // Part of `width` that compensates for strands that are left out.
+    float     widened; // Factor within `width` that compensates for strands that are left out.
     float     whole;   // Number of segments. The fraction is that of the last one.
 };
 HAIR_SIZE(hair_strand, 16)
@@ -1019,7 +1019,7 @@ struct hair_draw_params {
     hair_vec4 skull;
     float     strand_share;    // Maximum fraction of the strands.
     float     segment_share;   // Maximum fraction of the segments.
-    float     width_power;     // Strands are wider by 1 / fraction to this power.
+    float     width_power;     // Strands are (1 / fraction) to this power times as wide.
     // Pixels per metre where w of clip space is 1. 0 disables detail by size on the screen.
     float     pixels_per_unit;
     float     strand_pixels;   // Wanted width of a strand, pixels.
@@ -1043,8 +1043,7 @@ struct hair_draw_params {
     hair_vec4 light[HAIR_LIGHTS * HAIR_LIGHT_VECTORS];
     // Matrix to each map: xy are texture coordinates and z is depth, both in [0, 1], all times w.
     hair_mat4 shadow[HAIR_SHADOW_MAPS];
-    // Matrix of each of r, g and b. The irradiance on a plane of unit normal n is (n, 1) sky (n,
-    // 1).
+    // Matrices of r, g and b. The irradiance on a plane of unit normal n is (n, 1) sky (n, 1).
     hair_mat4 sky[3];
 };
 HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
