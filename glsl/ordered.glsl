@@ -1,4 +1,5 @@
-// ordered.glsl - bits that are in the order of the numbers that they stand for, for what is the least and the most.
+// ordered.glsl - an encoding of floats as bits in the order of the floats, for atomic minima and
+// maxima.
 #ifndef HAIR_ORDERED_GLSL
 #define HAIR_ORDERED_GLSL
 

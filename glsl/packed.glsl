@@ -1,4 +1,5 @@
-// packed.glsl - vertices of strands as they are kept: see HAIR_BIND_EXPANDED_TANGENT and HAIR_BIND_SHADED.
+// packed.glsl - packing of strand vertices for storage. See HAIR_BIND_EXPANDED_TANGENT and
+// HAIR_BIND_SHADED.
 #include "shared.h"
 
 uvec2 pack_tangent(vec3 tangent)

@@ -1,20 +1,20 @@
-// patch.glsl - how many strands of a patch are drawn, how wide, and with how many segments: what every path of drawing
-// asks.
+// patch.glsl - the number of strands of a patch that are drawn, their width and their number of
+// segments. Every drawing path calls it.
 //
-// All of it changes continuously. Of strands the last one thins out before it goes; of segments, which begin at equal
-// distances from the root, the last one shrinks.
+// All of these change continuously. The last strand thins out before it disappears. Segments begin
+// at equal distances from the root, and the last segment shrinks.
 #include "detail.glsl"
 
 layout(binding = HAIR_UNIT_PATCH) uniform usamplerBuffer patch_texture;
 
 struct hair_patch_lines {
-    uint  first;     // follower
+    uint  first;     // First follower.
     uint  strands;
-    uint  segments;  // of a whole strand
-    float whole;     // the same, with the share that there is of the last one
-    float fading;    // share of its width that the last strand has
-    float thickness; // of all of them, as a share of their own
-    float widened;   // of that what makes up for strands that are left out
+    uint  segments;  // Segments of a whole strand.
+    float whole;     // Segments, with the last one as a fraction.
+    float fading;    // Fraction of its width that the last strand has.
+    float thickness; // Factor of the width of all strands.
+    float widened;   // Factor within `thickness` that compensates for strands that are left out.
 };
 
 hair_patch_lines find_lines(uint number)
@@ -39,8 +39,9 @@ hair_patch_lines find_lines(uint number)
 #endif
 }
 
-// The first of a patch's followers and how many, whose vertices passes go over: all of them, or those that are drawn. Where the
-// next one is about to be, it may be already in another stage, which rounds differently.
+// Return the first follower of a patch and the number of followers whose vertices a pass covers.
+// These are all, or those that are drawn. A strand that is about to appear counts as well, because
+// other stages round differently.
 uvec2 find_strands(uint number)
 {
     uvec2 all = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch

@@ -1,4 +1,5 @@
-// position_texture.glsl - where the samples of smoothed guides are: xyz from the head's origin, w: length from the root.
+// position_texture.glsl - positions of the samples of smoothed guides. xyz is relative to the
+// head's origin. w is the length from the root.
 #ifndef HAIR_POSITION_TEXTURE_GLSL
 #define HAIR_POSITION_TEXTURE_GLSL
 

@@ -1,5 +1,5 @@
-// random.glsl - a hash of 32 bits: the PCG output function of Jarzynski and Olano 2020, "Hash Functions for GPU
-// Rendering"; hair_hash() in lib/base/math.h is its twin.
+// random.glsl - a 32-bit hash: the PCG output function of Jarzynski and Olano 2020, "Hash Functions
+// for GPU Rendering". hair_hash() in lib/base/math.h is its twin.
 #ifndef HAIR_RANDOM_GLSL
 #define HAIR_RANDOM_GLSL
 
@@ -10,7 +10,7 @@ uint hash(uint x)
     return (word >> 22) ^ word;
 }
 
-// Evenly in [0, 1).
+// Return a uniformly distributed number in [0, 1).
 float random(uint seed) { return float(hash(seed) >> 8) * (1.0 / 16777216.0); }
 
 #endif

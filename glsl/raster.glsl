@@ -1,18 +1,20 @@
-// raster.glsl - segments of strands as pixels see them, for the passes that make those without units that draw: ribbons between
-// vertices that are expanded or, of levels of detail, staged, as ribbon.geom has them.
+// raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
+// vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
+// that of ribbon.geom.
 #include "expanded.glsl"
 #include "ribbon.glsl"
 
 layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
 
-// In the window, times w: the middle at both ends, and from there to a side.
+// A ribbon in the window, times w. It has a middle at both ends, and vectors from there to a side.
 struct raster_ribbon {
     vec4 middle[2], side[2];
-    vec2 seen; // from where to where it is in front of the eye, of 1
+    vec2 seen; // Range in [0, 1] that is in front of the eye.
 };
 
-// The place of its first vertex, by what its width is to be multiplied, and whether its strand has so many.
+// Return the index of a segment's first vertex. `width` is the factor of its width. `there` is
+// whether its strand has the segment.
 int vertex_of(uint segment, out float width, out bool there)
 {
     uint  each   = draw.segments, k = segment % each;
@@ -27,10 +29,11 @@ int vertex_of(uint segment, out float width, out bool there)
 #endif
 }
 
-// Keep of a way from 0 to 1 what is not below 0, of what is so much at its ends.
+// Clip the range `seen` of [0, 1] to where a linear function with the end values a and b is not
+// negative.
 void keep(float a, float b, inout vec2 seen)
 {
-    float at = a / (a - b); // Of no use, and none made of it, where they are alike.
+    float at = a / (a - b); // Not used where a and b are equal.
     if (a < 0.0) seen.x = b > 0.0 ? max(seen.x, at) : 2.0;
     else if (b < 0.0) seen.y = min(seen.y, at);
 }
@@ -58,7 +61,7 @@ raster_ribbon ribbon_of(uint segment)
     return r;
 }
 
-// What is seen of it, on pixels: its corners, two at each end, with their depth.
+// Visible part of a ribbon in pixels: two corners at each end, with their depth.
 struct raster_outline {
     vec3 corner[4];
 };
@@ -74,7 +77,7 @@ raster_outline outline_of(raster_ribbon r)
     return o;
 }
 
-// Where it is in a pixel.
+// Return the position of a sample in its pixel.
 vec2 sample_at(uint number)
 {
     vec4 pair = raster.at[number / 2u];
@@ -83,11 +86,13 @@ vec2 sample_at(uint number)
 
 float turn(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// Of a place by the turns about it from corner to corner of a triangle: all are of one sign, and there is an area.
+// Return whether a point is within a triangle of non-zero area. `e` holds the cross products from
+// the point to consecutive corners. They are of one sign if the point is inside.
 bool is_within(vec3 e) { return e.x + e.y + e.z != 0.0 && (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0)))); }
 
-// What of the two triangles that a ribbon is drawn as is seen at a place: how far from one end to the other that is, of 1, and its
-// depth. False: neither is there.
+// Find a ribbon, drawn as two triangles, at a pixel position. `share` is the fraction from one end
+// to the other, and `depth` is the depth there. Return false if neither triangle covers the
+// position.
 bool sees(raster_outline o, vec2 place, out float share, out float depth)
 {
     vec2 a = o.corner[0].xy - place, b = o.corner[1].xy - place, c = o.corner[2].xy - place, d = o.corner[3].xy - place;
@@ -102,7 +107,8 @@ bool sees(raster_outline o, vec2 place, out float share, out float depth)
     if (!is_within(second)) return there;
     second /= second.x + second.y + second.z;
     float other = dot(second, vec3(o.corner[3].z, o.corner[1].z, o.corner[2].z));
-    if (!there || (raster.flips == 0u ? other < depth : other > depth)) { // One may be folded over the other.
+    // A ribbon may be folded, so that its triangles overlap.
+    if (!there || (raster.flips == 0u ? other < depth : other > depth)) {
         share = 1.0 - second.y;
         depth = other;
     }

@@ -1,16 +1,18 @@
-// repair.glsl - how a follower that meets a solid is led round it: two curves along it, both uniform cubic
-// B-splines of few control points, so that nothing about them can kink or jump.
+// repair.glsl - the two curves that push a follower out of colliders. Both are uniform cubic
+// B-splines of few control points. They therefore have no kinks or jumps.
 //
-//   away(t)  how far the strand is moved, 0 at its root: the control point before the first is minus the one after
-//   freed(t) how far it is freed of all guides but its own, from 0 to 1
+//   away(t)   displacement, 0 at the root
+//   freed(t)  blend from all guides, 0, to its own guide alone, 1
 //
-// `repair_control` gives control point i of the strand whose first is at `first`: away in xyz, freed in w. That at 0,
-// whose place is the root's, has in x how much longer a stretch of the curve is drawn, in place of away.
+// To make away(0) 0, the control point before the first is minus the one after it. `repair_control`
+// returns control point i of the strand whose first control point is `first`, with away in xyz and
+// freed in w. Control point 0 lies at the root, where away is 0. Its x therefore stores the
+// relative increase of the length of curve that is drawn.
 #include "spline.glsl"
 
 vec4 repair_control(int first, int i);
 
-// Interval of t, and the share of it that lies before t.
+// Return the interval of t. x is the fraction of the interval before t.
 int spline_place(float t, out float x)
 {
     float at = clamp(t, 0.0, 1.0) * float(HAIR_REPAIR_INTERVALS);

@@ -15,7 +15,8 @@ vec3 rotate(vec4 q, vec3 v)
     return v + q.w * t + cross(q.xyz, t);
 }
 
-// The least rotation that turns unit a into unit b. Opposite vectors: half a turn about any perpendicular.
+// Return the smallest rotation that turns unit vector a into unit vector b. For opposite vectors it
+// is half a turn about any perpendicular.
 vec4 quat_between(vec3 a, vec3 b)
 {
     float w = 1.0 + dot(a, b);

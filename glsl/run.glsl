@@ -1,9 +1,9 @@
-// run.glsl - the vertices of followers that a work group goes over, of draw.chunks that share a patch.
+// run.glsl - the follower vertices that a work group covers. draw.chunks work groups share a patch.
 #include "patch.glsl"
 #include "workgroup.glsl"
 
 struct vertex_run {
-    uint first, end, stride; // of all vertices
+    uint first, end, stride; // In vertices of all followers.
 };
 
 vertex_run find_run()

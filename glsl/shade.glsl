@@ -1,4 +1,4 @@
-// shade.glsl - light from a strand to the eye.
+// shade.glsl - light that a strand reflects to the eye.
 #include "draw_params.glsl"
 #include "lights.glsl"
 #include "shadow.glsl"
@@ -8,22 +8,23 @@
 #endif
 
 struct hair_fragment {
-    vec3  position; // m, from the head's origin
-    vec3  tangent;  // unit, from root to tip
-    vec3  to_eye;   // unit
-    float t;        // from root to tip, [0, 1]
-    float random;   // the strand's own, [0, 1)
-    uint  seed;     // likewise
-    uint  lock;     // that it is in: its guide
-    uint  strand;   // follower
-    vec2  uv;       // of its root on the scalp; 0 where none is known
-    float across;   // from -1 at one edge of a ribbon to 1 at the other; 0 where vertices are shaded
-    vec3  color;    // reflectance
+    vec3  position; // m, from the head's origin.
+    vec3  tangent;  // Unit, from root to tip.
+    vec3  to_eye;   // Unit.
+    float t;        // From root to tip, [0, 1].
+    float random;   // The strand's own, [0, 1).
+    uint  seed;     // The strand's own.
+    uint  lock;     // The strand's guide.
+    uint  strand;   // Number of the follower.
+    vec2  uv;       // Texture coordinates of its root on the scalp. 0 if there are none.
+    float across; // From -1 at one edge of a ribbon to 1 at the other. 0 when vertices are shaded.
+    vec3  color;    // Reflectance.
 };
 
 vec3 albedo_of(hair_fragment f) { return f.color; }
 
-vec3 normal_of(hair_fragment f) // of the ribbon
+// Return the normal of the ribbon.
+vec3 normal_of(hair_fragment f)
 {
     return normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6);
 }
@@ -38,7 +39,8 @@ vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
     return light_past_bodies(number, f.position) * through;
 }
 
-// Of the sky's light, the share that comes through hair, where it is known. Light hair passes more on.
+// Return the fraction of the sky's light that comes through hair, or an estimate from `otherwise`
+// where it is unknown. Light hair transmits more.
 vec3 sky_through(hair_fragment f, vec3 otherwise)
 {
     if (draw.lit == 0u) return 0.25 + 0.75 * sqrt(otherwise);
@@ -64,13 +66,14 @@ vec3 hair_shade(hair_fragment f)
         vec4         light = light_through(f, i, 1.0 - crowd.on, met);
         vec3         once  = scatter_once(a, mu, tilt, variance);
         sum += beam.irradiance * (a.light.y * scatter_often(a, crowd, once, light.x, light.yzw, met));
-        if (i == 0u) open = light.yzw; // What shades from the first light hides the sky too.
+        if (i == 0u) open = light.yzw; // Occluders of the first light also occlude the sky.
     }
     return sum + sky_of(f) * albedo * sky_through(f, open) * 0.31830989;
 }
 #else
-// Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as Scheuermann 2004 approximates them: a white
-// one shifted towards the root, a coloured one towards the tip.
+// Shading after Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as
+// Scheuermann 2004 approximates them. The white highlight is shifted towards the root, the coloured
+// one towards the tip.
 
 float lobe(vec3 tangent, vec3 halfway, float exponent)
 {
@@ -95,7 +98,7 @@ vec3 hair_shade(hair_fragment f)
         // Light from behind passes through the fibre but does not glint on its near side.
         float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
         sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
-        if (i == 0u) open = light; // What shades from the first light hides the sky too.
+        if (i == 0u) open = light; // Occluders of the first light also occlude the sky.
     }
     return sum + sky_of(f) * albedo * sky_through(f, vec3(open));
 }

@@ -1,4 +1,5 @@
-// shading.glsl - light from a strand to the eye as views ask for it: ours, or the host's, which may call ours.
+// shading.glsl - light from a strand to the eye as views need it: by the library's shader, or by
+// the application's, which may call the library's.
 #if defined(HAIR_OWN_VERTICES) || (defined(HAIR_OWN_PIXELS) && !defined(HAIR_OF_VERTICES))
 #define HAIR_OWN 1
 #define hair_shade hair_shade_ours

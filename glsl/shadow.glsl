@@ -1,6 +1,10 @@
-// shadow.glsl - how much of a light comes through the hair and past the bodies in front of a point. Through hair as light.comp
-// has found it for vertices of strands; else exponential in the depth of what the light's shadow map says lies between (Beer
-// 1852), averaged over taps around it. Past bodies all or nothing, smoothly over the texels around.
+// shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
+// of a point.
+//
+// The fraction through hair is that of light.comp for strand vertices, where it is known. Otherwise
+// it is exponential in the depth of hair that the light's shadow map shows (Beer 1852), averaged
+// over taps around the point. The fraction past opaque geometry is 0 or 1, filtered over the texels
+// around the point.
 #include "draw_params.glsl"
 #include "maps.glsl"
 
@@ -8,11 +12,13 @@ layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_
 layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
 
 #define SHADOW_TAPS 8
-#define SHADOW_RADIUS 5.0 // texels
+#define SHADOW_RADIUS 5.0 // Texels.
 
-const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688); // by 2.399963 radians
+// Rotation by the golden angle, 2.399963 radians.
+const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
-// Of the sky (0) or a light (from 1): the share that meets no strand, and how many are met.
+// Return the fraction of the sky, 0, or of a light, from 1, that meets no strand. y is the number
+// of strands met.
 vec2 light_found(uint which, uint strand, float t)
 {
     float at = clamp(t, 0.0, 1.0) * float(draw.segments), k = min(floor(at), float(draw.segments) - 1.0);
@@ -21,8 +27,10 @@ vec2 light_found(uint which, uint strand, float t)
     return mix(a, unpackHalf2x16(texelFetch(light_texture, i + int(draw.lit)).x), at - k);
 }
 
-// x: share that meets no strand on its way; yzw: shares that come through if each strand that is met takes as much as
-// `taken` of it. met: strands that are met, of which a Poisson process has at least one where light meets any.
+// Return the fractions of a light that reach a strand. x is the fraction that meets no strand on
+// its way. yzw are the fractions that arrive if each strand that is met absorbs the fraction
+// `taken`. `met` is the number of strands met. If light meets any, a Poisson process has at
+// least one.
 vec4 light_through_strands(uint number, uint strand, float t, vec3 taken, out float met)
 {
     vec2  found = light_found(number + 1u, strand, t);
@@ -37,7 +45,8 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     vec4 more = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE];
     uint map  = uint(more.w);
     met       = 0.0;
-    // So many that no compiler unrolls the loop, which some do for each of the maps.
+    // The number of taps is not constant, because some compilers would unroll the loop for each of
+    // the maps.
     int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
     if (taps == 0) return vec4(1.0);
     vec3  at    = place_in_map(map, position);
@@ -46,7 +55,7 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
     vec4  sum   = vec4(0.0);
     for (int i = 0; i < taps; ++i) {
-        // Vogel's spiral: even over the disc, turned for each strand so that no pattern shows.
+        // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
         float depth = textureLod(shadow_texture[map], at.xy + r * arm, 0.0).r;
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
@@ -61,13 +70,14 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
 #ifdef HAIR_BLOCKED
 layout(binding = HAIR_UNIT_BODY) uniform sampler2D body_texture[HAIR_SHADOW_MAPS];
 
-// Of three by three texels, weighed as a quadratic B-spline has it; all that is nearer to what hides it than the bias is lit.
-// By single texels: Mesa's llvmpipe aborts where arrays of textures are gathered from.
+// Return the fraction of a light that passes opaque geometry, from 3 x 3 texels with the weights of
+// a quadratic B-spline. A point that is nearer to its occluder than the bias is lit. Texels are
+// read one by one, because Mesa's llvmpipe aborts on gathers from arrays of textures.
 float light_past_bodies(uint number, vec3 position)
 {
     vec4 own = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MAP];
     uint map = uint(own.x);
-    int  taps = map < uint(HAIR_SHADOW_MAPS) ? 9 : 0; // As above.
+    int  taps = map < uint(HAIR_SHADOW_MAPS) ? 9 : 0; // Not constant, as above.
     if (taps == 0) return 1.0;
     vec3  at    = place_in_map(map, position);
     float least = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)), sum = 0.0;

@@ -1,6 +1,8 @@
-// solid_distance.glsl - the exact distance to the surface of a shape in its own space, below 0 inside, without rounding;
-// and the unit vector along which it grows. lib/collide/distance.c says the same.
-#define SHAPE_SPHERE 0u // as hair_shape
+// solid_distance.glsl - the exact signed distance to the surface of a shape in its own space,
+// without rounding, and the unit gradient. lib/collide/distance.c has the same functions for the
+// CPU.
+// Values of hair_shape.
+#define SHAPE_SPHERE 0u
 #define SHAPE_CAPSULE 1u
 #define SHAPE_BOX 2u
 #define SHAPE_CYLINDER 3u
@@ -16,14 +18,15 @@ float box_distance(vec3 size, vec3 p, out vec3 gradient)
     return away + min(deepest, 0.0);
 }
 
-// From a segment of the plane.
+// Return the vector from the nearest point of the segment (a, b) to p.
 vec2 from_segment(vec2 p, vec2 a, vec2 b)
 {
     vec2 d = b - a;
     return p - a - clamp(dot(p - a, d) / max(dot(d, d), 1e-30), 0.0, 1.0) * d;
 }
 
-// What turns about the y axis, in the half-plane of (distance from the axis, height).
+// Distances to shapes of revolution about the y axis, in the half-plane (distance from the axis,
+// height).
 float cylinder_distance(vec2 size, vec2 p, out vec2 gradient)
 {
     vec2  q = vec2(p.x, abs(p.y)) - size, beyond = max(q, 0.0);

@@ -1,5 +1,5 @@
-// spline.glsl - uniform cubic B-splines: weights of the four control points around an interval, at x from 0 to 1 in it,
-// and their slopes.
+// spline.glsl - uniform cubic B-splines: weights of the four control points around an interval, at
+// x in [0, 1], and their derivatives.
 #ifndef HAIR_SPLINE_GLSL
 #define HAIR_SPLINE_GLSL
 

@@ -1,6 +1,9 @@
-// strand.glsl - a vertex of a drawn strand: where, how wide and, where colour is asked for, its colour. Shading runs
-// here and not for every sample of a pixel: along a strand light changes slowly, across it not at all.
-#include "follower.glsl" // First: a file is put in where it is first named, be that left out or not.
+// strand.glsl - a vertex of a drawn strand: its position, its width and, where colour is drawn, its
+// colour. Shading runs per vertex and not per sample of a pixel, because light changes slowly along
+// a strand and not at all across it.
+
+// First, because a file is inserted at its first mention, even in a branch that is left out.
+#include "follower.glsl"
 #ifdef HAIR_EXPANDED
 #include "expanded.glsl"
 #else
@@ -13,12 +16,12 @@
 #include "shading.glsl"
 
 struct strand_vertex {
-    vec4  position; // xyz: m, from the head's origin; w: radius, m
-    vec3  tangent;  // unit
+    vec4  position; // xyz: m, from the head's origin. w: radius, m.
+    vec3  tangent;  // Unit.
     vec3  color;
-    uvec3 numbers; // see passed.glsl
+    uvec3 numbers; // See passed.glsl.
     vec3  place;
-    vec3  before; // where it was, as position
+    vec3  before; // Position in the previous frame.
 };
 
 #ifdef HAIR_TINTED
@@ -29,7 +32,8 @@ layout(binding = HAIR_UNIT_COLOR) uniform sampler2D color_texture;
 #ifdef HAIR_PAINTED
 layout(binding = HAIR_UNIT_PAINT) uniform samplerBuffer paint_texture;
 
-// What it would have by the look, and what the groom has for it, wet as it may be.
+// Return the colour before random variation: the look's ramp, blended with the groom's colour,
+// which wetness may darken.
 vec3 color_at(uint number, float t)
 {
     float along = t * float(HAIR_CURVE_INTERVALS);
@@ -62,7 +66,8 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     return f;
 }
 
-// Where pixels are shaded, what there is to shade.
+// Return the colour of a vertex, or only its reflectance if the application's shader runs per
+// pixel.
 vec3 shade(hair_fragment f)
 {
 #ifdef HAIR_OWN_PIXELS
@@ -74,14 +79,15 @@ vec3 shade(hair_fragment f)
 #endif
 }
 
-// The k-th vertex of a strand of so many segments, of which there may be a share: t.
+// Return t of the k-th vertex of a strand with a number of segments that may end in a fraction.
 float place_of(uint k, float segments) { return min(float(k) / segments, 1.0); }
 
 #ifdef HAIR_SHADED
 layout(binding = HAIR_UNIT_SHADED) uniform samplerBuffer shaded_texture;
 #endif
 
-// `width`: a share of its own. `widened`: that of it which makes up for strands that are left out, 1 or more.
+// Return a vertex of a strand. `width` is a factor of its own width. `widened` is the factor in
+// `width` that compensates for strands that are left out, 1 or more.
 strand_vertex strand_at(uint number, float t, float width, float widened)
 {
     hair_follower follower = fetch_follower(number);

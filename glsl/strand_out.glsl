@@ -1,7 +1,7 @@
-// strand_out.glsl - what a vertex of a strand passes on.
+// strand_out.glsl - outputs of a vertex of a strand.
 #include "passed.glsl"
 
-layout(location = 0) out vec4 strand_position; // xyz from the head's origin; w: radius
+layout(location = 0) out vec4 strand_position; // xyz: from the head's origin, m. w: radius, m.
 layout(location = 1) out vec3 strand_tangent;
 layout(location = 2) out vec3 strand_color;
 #ifdef HAIR_NUMBERED

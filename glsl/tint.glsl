@@ -1,12 +1,14 @@
-// tint.glsl - what colour a strand has along it, and what chance makes of its colour, its roughness and its scales.
+// tint.glsl - the colour of a strand along its length, and random variation of its colour, its
+// roughness and the tilt of its scales.
 #include "draw_params.glsl"
 #include "random.glsl"
 
-#define SPARKLES 48.0 // along a strand
+#define SPARKLES 48.0 // Along a strand.
 
 float spread(float by, float random_) { return 1.0 + by * (2.0 * random_ - 1.0); }
 
-// Strands of a lock have what it has, or each its own.
+// Return whether a strand is a streak. Either all strands of a lock decide together, or each strand
+// decides by itself.
 bool is_streak(uint seed, uint lock)
 {
     bool together = random(seed + 8u) < draw.tint.streak_locks;
@@ -20,7 +22,8 @@ vec3 ramp_at(float t)
     return mix(draw.tint.ramp[k].rgb, draw.tint.ramp[k + 1].rgb, along - float(k));
 }
 
-// `bright`: the strand's own random number for that. `color`: what it has at t before chance.
+// Return the colour of a strand at t with its random variation. `bright` is the strand's own random
+// number for brightness. `color` is its colour without the variation.
 vec3 tint_of(uint seed, uint lock, float t, float bright, vec3 color)
 {
     if (is_streak(seed, lock)) color = draw.tint.streak.rgb;
@@ -31,16 +34,17 @@ vec3 tint_of(uint seed, uint lock, float t, float bright, vec3 color)
     return color * ((1.0 - lost) * spread(draw.tint.brightness, bright));
 }
 
-// As a multiple, of the tilt of its scales; and of the variance of its lobes along it.
+// Return the factor of the tilt of a strand's scales.
 float tilt_of(float random_) { return spread(draw.tint.tilt, random_); }
 
+// Return the factor of the variance of a strand's longitudinal lobes.
 float variance_of(uint seed)
 {
     float rough = max(spread(draw.tint.roughness, random(seed + 11u)), 0.2);
     return rough * rough;
 }
 
-// What glitters, from 0 to 2: a smooth random number along the strand.
+// Return the factor of glints at t, in [0, 2]. It is a smooth random number along the strand.
 float sparkle_at(uint seed, float t)
 {
     float at = t * SPARKLES, k = floor(at), x = at - k;

@@ -1,12 +1,13 @@
-// workgroup.glsl - which work group this is, and where its threads meet.
+// workgroup.glsl - the number of a work group, and the synchronisation of its threads.
 #ifndef HAIR_WORKGROUP_GLSL
 #define HAIR_WORKGROUP_GLSL
 
-// Number of this work group: dispatches have two dimensions, since one is promised only 65,535 groups.
+// Return the number of this work group. Dispatches have two dimensions, because OpenGL guarantees
+// only 65,535 groups in one.
 uint hair_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
-// The work group meets here, and sees what each of its threads wrote to shared memory: barrier() alone orders only
-// the threads, and one driver does move shared writes across it.
+// Wait for all threads of the work group, and make their writes to shared memory visible. barrier()
+// alone orders only the threads, and one driver does move shared writes across it.
 void synchronise()
 {
     memoryBarrierShared();
