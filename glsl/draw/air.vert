@@ -1,5 +1,6 @@
-// air.vert - air as arrows: a triangle for each place of a lattice in a slice, three vertices of an instance. From there it
-// points where the air goes, as far as the next place where that is as fast as the wind.
+// air.vert - the wind as arrows: one instance of three vertices, a triangle, per node of a lattice
+// in a slice. An arrow points along the wind from its node. It reaches the next node at the
+// reference speed of params.air.w.
 #version 450 core
 #include "shown.glsl"
 #include "wind/air.glsl"

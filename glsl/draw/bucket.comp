@@ -1,5 +1,6 @@
-// bucket.comp - segments by how far they are from the eye: counted in buckets or, with HAIR_PLACES, written where their bucket
-// has room for them. One thread per segment.
+// bucket.comp - sorting of segments by distance from the eye. This pass counts them in a depth
+// histogram. With HAIR_PLACES it scatters them to the positions that the prefix sum of the
+// histogram gives. One thread per segment.
 #version 450 core
 #include "expanded.glsl"
 #include "workgroup.glsl"

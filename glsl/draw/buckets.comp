@@ -1,4 +1,5 @@
-// buckets.comp - where in the list of sorted segments each bucket begins, and the command that draws them all. One work group.
+// buckets.comp - prefix sum of the depth histogram, which gives the first sorted segment of each
+// bin, and the command that draws all segments. One work group.
 #version 450 core
 #include "shared.h"
 #include "workgroup.glsl"
@@ -14,7 +15,7 @@ void main()
     uint i = gl_LocalInvocationID.x, each = uint(HAIR_SORT_BUCKETS / HAIR_COUNT_THREADS), first = i * each, sum = 0u;
     for (uint k = first; k < first + each; ++k) sum += bucket[k];
 
-    // Sums over all threads up to this one (Hillis and Steele 1986).
+    // Inclusive prefix sum over the threads (Hillis and Steele 1986).
     sums[i] = sum;
     for (uint reach = 1u; reach < HAIR_COUNT_THREADS; reach *= 2u) {
         synchronise();

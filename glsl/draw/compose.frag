@@ -1,5 +1,6 @@
-// compose.frag - what raster.comp has found, sample by sample: its depth and, of the segment that is seen there, the colour that
-// vertices have been shaded with, as a ribbon that is drawn has it in between.
+// compose.frag - composition of what raster.comp found, sample by sample: the depth, and the colour
+// of the visible segment. The colour is interpolated between shaded vertices, as it is on a drawn
+// ribbon.
 #version 450 core
 #include "raster.glsl"
 
@@ -19,7 +20,8 @@ vec4 color_of(uint segment, vec2 place)
     bool  is_there;
     sees(outline_of(r), place, share, depth);
     vec2  w = mix(vec2(r.middle[0].w), vec2(r.middle[1].w), r.seen);
-    float there = share * w.x / mix(w.y, w.x, share); // On the strand, of what that is on the picture.
+    // Fraction along the strand, from the fraction along the picture.
+    float there = share * w.x / mix(w.y, w.x, share);
     int   at = vertex_of(segment, width, is_there);
     return mix(texelFetch(shaded_texture, at), texelFetch(shaded_texture, at + 1), mix(r.seen.x, r.seen.y, there));
 }

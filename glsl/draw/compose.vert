@@ -1,4 +1,4 @@
-// compose.vert - the tiles of the picture that there is hair in, as two triangles each.
+// compose.vert - the tiles of the picture that contain hair, as two triangles each.
 #version 450 core
 #include "shared.h"
 

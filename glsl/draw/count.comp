@@ -1,5 +1,6 @@
-// count.comp - where in the list of drawn strands those of each patch begin, and the command that draws them all. One work
-// group, each of whose threads counts a run of patches.
+// count.comp - a prefix sum of the number of drawn strands over patches, which gives each patch's
+// first strand in the list, and the commands that draw the list. One work group, in which each
+// thread counts a run of patches.
 #version 450 core
 #include "patch.glsl"
 #include "workgroup.glsl"
@@ -9,10 +10,11 @@ layout(std430, binding = HAIR_BIND_START) restrict buffer start_buffer { uint st
 layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer { hair_draw_command command[]; };
 
 shared uint sums[HAIR_COUNT_THREADS];
-shared uint most; // segments of a strand
+shared uint most; // Maximum segments of a strand.
 
-// There are indices for strands of all the segments, of half as many, and so on (lib/draw/listed.c): the fewest that do, and how
-// many of a corner lie before them.
+// Return the smallest segment count that has indices and is enough for all strands. There are
+// indices for all segments, half as many, and so on (lib/draw/listed.c). `before` is the number of
+// indices before those, for one corner per segment.
 uint find_indices(out uint before)
 {
     uint each = draw.segments;
@@ -24,7 +26,8 @@ uint find_indices(out uint before)
     return each;
 }
 
-// Instances of HAIR_INSTANCE_STRANDS strands, then the strands that are left. `corners` of a segment, `ends` of each of its ends.
+// Write a command for full instances of HAIR_INSTANCE_STRANDS strands and one for the remaining
+// strands. A segment has `corners` indices, and each of its ends has `ends` vertices.
 void write_commands(uint at, uint strands, uint each, uint before, uint corners, uint ends)
 {
     uint indices = corners * each, first = corners * before;
@@ -33,7 +36,7 @@ void write_commands(uint at, uint strands, uint each, uint before, uint corners,
     command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
 }
 
-// A thread for each vertex that there are indices for, in as many dimensions as workgroup.glsl takes.
+// Write the dispatch of one thread per indexed vertex, in the dimensions of workgroup.glsl.
 void write_stage_command(uint strands, uint each)
 {
     uint  groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
@@ -54,7 +57,7 @@ void main()
         if (lines.strands > 0u) longest = max(longest, lines.segments);
     }
 
-    // Sums over all threads up to this one (Hillis and Steele 1986).
+    // Inclusive prefix sum over the threads (Hillis and Steele 1986).
     sums[i] = sum;
     if (i == 0u) most = 0u;
     for (uint reach = 1u; reach < HAIR_COUNT_THREADS; reach *= 2u) {

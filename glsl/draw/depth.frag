@@ -1,5 +1,5 @@
-// depth.frag - nothing but depth: shadow maps and pre-passes. With HAIR_SHARES how much of a texel a strand covers, for what
-// hair takes of a light.
+// depth.frag - depth only, for shadow maps and prepasses. With HAIR_SHARES it writes how much of a
+// texel a strand covers, for opacity maps of a light.
 #version 450 core
 #ifdef HAIR_SHARES
 #include "draw_params.glsl"

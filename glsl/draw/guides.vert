@@ -1,5 +1,5 @@
-// guides.vert - the simulated strands as lines, coloured by stretch: blue -2 %, grey 0, red +2 %. One instance per
-// guide, one vertex per sample.
+// guides.vert - the simulated strands as lines, coloured by stretch: blue at -2 %, grey at 0, red
+// at +2 %. One instance per guide, one vertex per sample.
 #version 450 core
 #include "draw_params.glsl"
 

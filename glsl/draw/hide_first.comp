@@ -1,4 +1,5 @@
-// hide_first.comp - the first level of the pyramid of what hides hair, from the host's depth. One thread per texel of the level.
+// hide_first.comp - the first Hi-Z level, from the application's depth. One thread per texel of the
+// level.
 #version 450 core
 #include "hide.glsl"
 

@@ -1,5 +1,5 @@
-// hide_guides.comp - boxes around the parts of smoothed guides, so that followers need not look at every vertex. One thread per
-// part.
+// hide_guides.comp - bounding boxes of the parts of smoothed guides, so that followers need not
+// read every vertex. One thread per part.
 #version 450 core
 #include "hide.glsl"
 #include "position_texture.glsl"
@@ -19,5 +19,5 @@ void main()
         upper   = max(upper, at);
     }
     box[2u * i]      = lower;
-    box[2u * i + 1u] = upper; // w: length from the root to its end
+    box[2u * i + 1u] = upper; // w: length from the root to the part's end.
 }

@@ -1,4 +1,4 @@
-// hide_next.comp - a level of the pyramid of what hides hair, from the one before it. One thread per texel of the level.
+// hide_next.comp - a Hi-Z level from the level before it. One thread per texel of the level.
 #version 450 core
 #include "hide.glsl"
 

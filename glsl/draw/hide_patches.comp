@@ -1,5 +1,5 @@
-// hide_patches.comp - which patches are hidden: those every part of whose followers is behind all that the host has drawn where
-// it is. A work group per patch.
+// hide_patches.comp - occlusion culling of patches. A patch is occluded if each part of all its
+// followers lies behind the application's depth. A work group per patch.
 #version 450 core
 #include "hide.glsl"
 #include "fetch.glsl"
@@ -13,16 +13,19 @@ layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
 layout(std430, binding = HAIR_BIND_HIDE_BOX) readonly restrict buffer hide_box_buffer { vec4 box[]; };
 layout(std430, binding = HAIR_BIND_HIDE_PATCH) restrict buffer hide_patch_buffer { hair_patch patches[]; };
 
-#define GIVE 1.1 // as in detail.glsl
-#define TURNS (HAIR_GROUP_SIZE / HAIR_HIDE_PARTS) // threads that look a part up
-#define DIAGONAL 1.4142136 // of what goes aside along two axes
+#define GIVE 1.1 // See detail.glsl.
+#define TURNS (HAIR_GROUP_SIZE / HAIR_HIDE_PARTS) // Threads that look up a part.
+#define DIAGONAL 1.4142136 // Factor for offsets along two axes.
 
-shared uint lower[HAIR_HIDE_PARTS][3], upper[HAIR_HIDE_PARTS][3]; // of all followers: see ordered.glsl; the latter turned round
+// Bounding box of all followers for each part, in the encoding of ordered.glsl. The bits of `upper`
+// are inverted.
+shared uint lower[HAIR_HIDE_PARTS][3], upper[HAIR_HIDE_PARTS][3];
 shared uint seen;
-shared float given[HAIR_CURVES][HAIR_CURVE_INTERVALS + 1]; // of each curve, at even places
+// Samples of each curve at equal steps.
+shared float given[HAIR_CURVES][HAIR_CURVE_INTERVALS + 1];
 
-// What solids do to a follower: by how far it is moved, m; by what share of it it is longer; and whether it is freed of other
-// guides than its own.
+// Return bounds of the repair of a follower. x: displacement, m. y: relative increase of its
+// length. z: 1 if it is freed of all guides but its own, otherwise 0.
 vec3 find_repair(uint number)
 {
     vec3 most = vec3(0.0);
@@ -37,7 +40,7 @@ vec3 find_repair(uint number)
     return most;
 }
 
-// Of a curve along a strand, which never goes beyond what it is given at even places, between two t.
+// Return the maximum of a curve between two t. A curve never exceeds its neighbouring samples.
 float most_of(int curve, float from, float to)
 {
     int   last = int(ceil(to * float(HAIR_CURVE_INTERVALS)));
@@ -46,12 +49,12 @@ float most_of(int curve, float from, float to)
     return most;
 }
 
-// How far a follower is from where its guides are at most, between two t. m
+// Return a bound of the distance between a follower and its guides between two t, m.
 float find_beside(hair_follower f, float length_, float freed, float from, float to)
 {
     float offset = 0.0, clump = max(most_of(HAIR_CURVE_CLUMP, from, to), freed);
     for (int i = 0; i < 4; ++i) offset = max(offset, length(f.offset[i].xyz));
-    vec2  own    = random_pair(f.seed + 1u); // As in stray.
+    vec2  own    = random_pair(f.seed + 1u); // See stray() in look.glsl.
     float strays = 0.0;
     if (own.x < draw.strand.tip_strays) strays += most_of(HAIR_CURVE_TIP_STRAY, from, to);
     if (own.y < draw.strand.strays) strays += most_of(HAIR_CURVE_STRAY, from, to);
@@ -60,6 +63,7 @@ float find_beside(hair_follower f, float length_, float freed, float from, float
     return offset + DIAGONAL * strays * length_ + draw.strand.most_aside;
 }
 
+// Enlarge the box of a part by the box of a guide's part, widened by `by`.
 void widen(uint part, uint guide, float by)
 {
     uint  at = 2u * (guide * HAIR_HIDE_PARTS + part);
@@ -70,7 +74,8 @@ void widen(uint part, uint guide, float by)
     }
 }
 
-// A follower is where its guides are, as far as they go, but for what takes it aside. Beyond their tips it goes straight on.
+// Enlarge the boxes of all parts by a follower. A follower lies where its guides are, as far as
+// they reach, except for its bounded offset. Beyond their tips it goes on straight.
 void widen(uint number, float thickness)
 {
     hair_follower f       = fetch_whole(number);
@@ -89,8 +94,9 @@ void widen(uint number, float thickness)
     }
 }
 
-// Whether a box is, by the texels whose turn it is, in a level of which it covers few. What crosses the eye's plane, is partly
-// outside or is no number is not hidden.
+// Return whether the texels of this thread show that a box is occluded. The texels are in a level
+// of which the box covers few. A box is visible if it crosses the plane of the eye, is partly
+// outside the texture, or is not finite.
 bool is_hidden(vec3 low, vec3 high, int turn)
 {
     vec2  from = vec2(NOWHERE), to = vec2(-NOWHERE);

@@ -1,10 +1,17 @@
-// light.comp - how much light comes to each vertex of a strand past all others and past solids. Work groups as run.glsl has
-// them.
+// light.comp - light that arrives at each vertex of a strand past all other strands and past
+// colliders. Work groups are those of run.glsl.
 //
-// What is met is summed in two steps of a cell, their middles from a cell off, and from where there is hair next, which is
-// looked for in ever longer steps, what nodes around know; it counts as strands that lie as this one does. Of a light with a shadow map, the share
-// that meets nothing is known better: of places along the half segments beside the vertex and across the strand, those that
-// nothing hides in the map. Written for the sky and for each light, as halves: that share; what is met.
+// The number of strands met is a sum. It begins with two steps of one cell, with the first midpoint
+// one cell away. Then ever longer steps look for the next cell with hair, and the values that
+// light_nodes.comp found for the nodes around it are added. The strands are taken to be parallel to
+// this strand.
+//
+// For a light with a shadow map, the fraction that meets no strand is more accurate. It is the
+// fraction of sample points that nothing occludes in the map. The samples lie on the half segments
+// beside the vertex and across the strand.
+//
+// For the sky and for each light the pass writes two halves: the fraction that meets no strand, and
+// the number of strands met.
 #version 450 core
 #include "run.glsl"
 #include "density.glsl"
@@ -18,20 +25,20 @@ layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_
 
 #define TAPS 12
 #define NEAR_STEPS 2
-#define OWN_DEPTH 0.35 // of a radius: what hides a strand lies so much farther in front of it
+#define OWN_DEPTH 0.35 // In radii. A strand must be nearer to the light by this to occlude.
 
 struct strand_bit {
-    vec3  before, at, after; // m, from the head's origin
+    vec3  before, at, after; // m, from the head's origin.
     vec3  tangent;
     float radius;
     uint  seed;
 };
 
-// Of a place in the grid: its nodes that hold hair, and what each counts.
+// Nodes with hair around a position in the grid, and their weights.
 uint  corner[8];
 float weight[8];
 
-// False: there are none.
+// Find the nodes with hair around a position. Return false if there are none.
 bool find_corners(density_grid grid, vec3 place)
 {
     uint  node;
@@ -49,6 +56,7 @@ bool find_corners(density_grid grid, vec3 place)
     return sum > 1e-6;
 }
 
+// Return the interpolated value of the nodes found by find_corners().
 float around(uint which)
 {
     float sum = 0.0;
@@ -57,7 +65,7 @@ float around(uint which)
     return sum;
 }
 
-// On the way to a light, `reach` off, m.
+// Return the number of strands met on the way to a light at the distance `reach`, m.
 float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach)
 {
     vec3  place = place_in(grid, position), way = in_head(to), size = vec3(grid.nodes) - 1.0;
@@ -77,13 +85,13 @@ float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float r
     return min(sum, MOST_MET);
 }
 
-// Of the places around, the share that nothing hides in a shadow map.
+// Return the fraction of sample points around a vertex that nothing occludes in a shadow map.
 float open_in(uint map, uint light, vec3 to, strand_bit s)
 {
     vec2  size  = vec2(textureSize(shadow_texture[map], 0));
     vec3  along = place_in_map(map, s.after) - place_in_map(map, s.before);
     vec2  texels = along.xy * size;
-    float slope = along.z / max(dot(texels, texels), 1.0); // of depth along the strand
+    float slope = along.z / max(dot(texels, texels), 1.0); // Depth per texel along the strand.
     vec3  side  = cross(s.tangent, to);
     side *= s.radius / max(length(side), 1e-12);
     float each = depth_by_metre(light, place_in_map(map, s.at).z, distance_to_light(light, s.at));
@@ -93,7 +101,7 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
         vec3  p  = s.at + 0.5 * abs(x) * ((x < 0.0 ? s.before : s.after) - s.at) + across * side;
         vec3  at = place_in_map(map, p);
         ivec2 texel = ivec2(floor(at.xy * size));
-        // The strand's own depth is that in the texel's middle.
+        // Depth of the strand itself at the centre of the texel.
         float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
         bool  there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size)));
         open += !there || depth - own <= texelFetch(shadow_texture[map], texel, 0).r ? 1.0 : 0.0;

@@ -1,9 +1,10 @@
-// light_box.comp - the box around all hair that vertices are written of, in the head's frame. Work groups as run.glsl has them.
+// light_box.comp - the bounding box of all hair whose vertices are written, in the head's frame.
+// Work groups are those of run.glsl.
 #version 450 core
 #include "run.glsl"
 #include "density.glsl"
 
-shared uint own[6]; // of this group
+shared uint own[6]; // Box of this work group.
 
 void main()
 {

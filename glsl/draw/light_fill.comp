@@ -1,6 +1,7 @@
-// light_fill.comp - the strands that are drawn put into the grid: of each segment the area it would shade if it lay across
-// the light, at places at most a cell apart, among the nodes around. Sums of integers, whatever the order. A work
-// group per patch.
+// light_fill.comp - splatting of the drawn strands into the density grid. Each segment adds the
+// area that it would shade if it lay across the light. The area is spread over points at most a
+// cell apart and over the nodes around them. Sums are integers and do not depend on the order. A
+// work group per patch.
 #version 450 core
 #include "patch.glsl"
 #include "density.glsl"

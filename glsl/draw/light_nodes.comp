@@ -1,8 +1,8 @@
-// light_nodes.comp - how many strands, and solids, each light meets on its way to every node of the grid that holds hair,
-// and how much of the sky is left there. Each thread goes over several nodes.
+// light_nodes.comp - for every grid node with hair, the number of strands and colliders that each
+// light meets on its way, and the visible fraction of the sky. Each thread covers several nodes.
 //
-// Steps of a cell, their middles from a cell off, so that a strand does not shade itself; all of what is there counts as if
-// it lay across the light.
+// Steps are one cell long. The first midpoint is one cell away, because a strand must not shade
+// itself. All hair counts as if it lay across the light.
 #version 450 core
 #include "density.glsl"
 #include "lights.glsl"
@@ -10,10 +10,10 @@
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer { float light_of_node[]; };
 
 #define SKY_WAYS 6
-#define SKY_STEPS 5     // each twice as long as the one before
-#define TURNED 0.785398 // mean of a strand's width as it is seen from all sides
+#define SKY_STEPS 5     // Each is twice as long as the one before.
+#define TURNED 0.785398 // Mean factor of a strand's projected width over all directions.
 
-// From a node on towards `to`, for at most `reach`, m.
+// Return the number of strands met from a node towards `to`, over at most `reach`, m.
 float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float reach)
 {
     vec3  way   = in_head(to), size = vec3(grid.nodes) - 1.0;

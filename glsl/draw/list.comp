@@ -1,4 +1,4 @@
-// list.comp - the strands that are drawn without a tessellator, one after the other. A work group per patch.
+// list.comp - the list of strands that are drawn without a tessellator. A work group per patch.
 #version 450 core
 #include "patch.glsl"
 #include "workgroup.glsl"

@@ -1,6 +1,8 @@
-// raster.comp - segments to samples, where few units draw but all compute: which is the nearest at each sample, and how near; of
-// several as near the first one. Without atomics of 64 bits the depth is found first, and then, by the same arithmetic, who claims
-// it. A work group shares out its segments' rows of pixels: threads have as much to do whatever is long and what is short.
+// raster.comp - rasterisation of segments by compute, for GPUs with few graphics units. It finds
+// the nearest segment and its depth at each sample. Of equally near segments the first one wins.
+// Without 64-bit atomics a first pass finds the depth, and a second pass with the same arithmetic
+// finds the segment that claims it. A work group distributes the pixel rows of its segments among
+// its threads, which balances long and short segments.
 #version 450 core
 #ifdef HAIR_LONG_ATOMICS
 #extension GL_ARB_gpu_shader_int64 : require
@@ -20,18 +22,19 @@ layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uve
 #endif
 layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer { uint tile[]; };
 
-// Of the segments of this work group.
+// Segments of this work group.
 shared raster_outline outlines[HAIR_RASTER_SEGMENTS];
-shared ivec4          bounds[HAIR_RASTER_SEGMENTS]; // pixels about it: xy: the first, zw: the last
-shared uint           ends[HAIR_RASTER_SEGMENTS];   // of its pieces among those of all
+shared ivec4          bounds[HAIR_RASTER_SEGMENTS]; // Pixel bounds. xy: the first, zw: the last.
+shared uint           ends[HAIR_RASTER_SEGMENTS];   // Inclusive prefix sum of the segments' pieces.
 
-// In pixels: the line in its middle, where it starts and which way it goes; and half of how wide it is.
+// Return a ribbon's middle line in pixels. xy: start. zw: direction.
 vec4 line_of(raster_outline o)
 {
     vec2 start = 0.5 * (o.corner[0].xy + o.corner[1].xy);
     return vec4(start, 0.5 * (o.corner[2].xy + o.corner[3].xy) - start);
 }
 
+// Return half of a ribbon's width, pixels.
 float half_of(raster_outline o) { return 0.5 * max(distance(o.corner[0].xy, o.corner[1].xy), distance(o.corner[2].xy, o.corner[3].xy)); }
 
 ivec4 bounds_of(raster_ribbon r, raster_outline o)
@@ -39,7 +42,7 @@ ivec4 bounds_of(raster_ribbon r, raster_outline o)
     vec2 most  = vec2(raster.columns, raster.rows);
     vec2 lower = min(min(o.corner[0].xy, o.corner[1].xy), min(o.corner[2].xy, o.corner[3].xy));
     vec2 upper = max(max(o.corner[0].xy, o.corner[1].xy), max(o.corner[2].xy, o.corner[3].xy));
-    // What is no number is nowhere.
+    // A ribbon that is not finite is nowhere.
     bool there = r.seen.x < r.seen.y && all(lessThan(lower, most)) && all(greaterThanEqual(upper, vec2(0.0)));
     return there ? ivec4(max(lower, vec2(0.0)), min(upper, most - 1.0)) : ivec4(0, 0, -1, -1);
 }
@@ -57,17 +60,18 @@ void take(uint segment, uint at, float depth)
 #endif
 }
 
-// How a row lies to the line in the middle: how far along that goes beside each pixel up. Pixels.
+// Return how far the middle line advances in x per pixel in y, pixels.
 float slant_of(vec2 way) { return way.x / (abs(way.y) < 1e-6 ? 1e-6 : way.y); }
 
-// How many pieces of a row there are at most.
+// Return the maximum number of pieces of a row.
 uint pieces_of(raster_outline o, ivec4 about)
 {
     float half_ = half_of(o), most = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
     return 1u + uint(min(most, float(about.z - about.x))) / HAIR_RASTER_PIECE;
 }
 
-// One piece of a row: of the line what is no farther from it than half the width, and as far to either side.
+// Rasterise one piece of a row. It covers the part of the middle line that is no farther from the
+// row than half the width, and half the width to either side.
 void fill(uint segment, raster_outline o, ivec4 about, int y, uint piece)
 {
     vec4  line  = line_of(o);
@@ -89,7 +93,7 @@ void fill(uint segment, raster_outline o, ivec4 about, int y, uint piece)
     }
 }
 
-// Which segment's a piece is: the first whose pieces end behind it.
+// Return the segment of a piece: the first whose pieces end behind it.
 uint segment_of(uint piece)
 {
     uint first = 0u;

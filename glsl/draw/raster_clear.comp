@@ -1,4 +1,5 @@
-// raster_clear.comp - nothing is seen by any sample. Four by four: buffers are as long.
+// raster_clear.comp - clearing of all samples and tiles. A thread clears four numbers, because the
+// length of the buffer is a multiple of four.
 #version 450 core
 #include "workgroup.glsl"
 #include "shared.h"
@@ -9,7 +10,7 @@ layout(std430, binding = HAIR_BIND_NEAREST) writeonly restrict buffer nearest_bu
 layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer { uint tile[]; };
 
 #ifdef HAIR_DEPTH
-#define NUMBERS 1u // of a sample
+#define NUMBERS 1u // Numbers per sample.
 #else
 #define NUMBERS 2u
 #endif

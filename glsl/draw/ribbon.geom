@@ -1,5 +1,5 @@
-// ribbon.geom - a segment as a ribbon that faces the eye: of true width, or as wide as all pixels of which it covers a
-// share.
+// ribbon.geom - a segment as a ribbon that faces the eye. The ribbon has its true width, or reaches
+// all pixels that it partly covers.
 #version 450 core
 #include "draw_params.glsl"
 #include "passed.glsl"
@@ -45,14 +45,15 @@ void pass_on(int end, float across)
 }
 
 #ifdef HAIR_SHARES
-// How far beside the middle, in widths, the ribbon must reach; and of that vertex the share's terms.
+// Return the factor by which the ribbon must be widened. `share` receives the vertex's coverage
+// terms, see coverage.glsl.
 float widen(vec4 center, vec3 side, out vec4 share)
 {
     vec4  clip  = draw.view_to_clip * (draw.view * center), by = draw.view_to_clip * (draw.view * vec4(side, 0.0));
     vec2  pixel = 0.5 * draw.viewport.xy * (by.xy - clip.xy / clip.w * by.w) / clip.w;
     float half_ = length(pixel);
     if (!(half_ > 1e-9)) return 0.0;
-    vec2 n = abs(pixel) / half_; // Of a square pixel seen along the strand: a trapezoid.
+    vec2 n = abs(pixel) / half_; // A square pixel seen along the strand is a trapezoid.
     share  = vec4(half_ + draw.viewport.z, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y));
     return share.x / half_;
 }

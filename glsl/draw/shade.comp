@@ -1,5 +1,5 @@
-// shade.comp - light from vertices of strands to the eye, before they are drawn: there are GPUs of which few units draw, but all
-// compute. Work groups as run.glsl has them.
+// shade.comp - light from strand vertices to the eye, computed before drawing, because some GPUs
+// have few graphics units. Work groups are those of run.glsl.
 #version 450 core
 #include "strand.glsl"
 #include "run.glsl"

@@ -1,5 +1,5 @@
-// slice.frag - the field by colour: blue outside, red inside, white at the surface, a line for every voxel from it.
-// Nothing where nothing is near.
+// slice.frag - the distance field as colour: blue outside, red inside, white at the surface, and a
+// line for every voxel of distance. Pixels far from all colliders are discarded.
 #version 450 core
 #include "field.glsl"
 

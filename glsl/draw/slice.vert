@@ -1,8 +1,9 @@
-// slice.vert - a slice of the field's box: four vertices of a strip.
+// slice.vert - a slice of the distance field's box, as a strip of four vertices.
 #version 450 core
 #include "shown.glsl"
 
-layout(location = 0) out vec3 slice_position; // from the head's origin, along the world's axes
+// Position from the head's origin, along the world's axes.
+layout(location = 0) out vec3 slice_position;
 
 void main()
 {

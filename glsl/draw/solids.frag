@@ -1,5 +1,5 @@
-// solids.frag - a solid, found along the ray by the distance to it that the field is made of (Hart 1996), and shaded.
-// Behind the slice only.
+// solids.frag - a collider, found by sphere tracing along the ray (Hart 1996) with the distance
+// function of the distance field, and shaded. Only the part behind the slice is drawn.
 #version 450 core
 #include "shown.glsl"
 #include "field/shape.glsl"
@@ -12,7 +12,7 @@ layout(location = 1) flat in vec3 face;
 layout(location = 2) flat in int number;
 layout(location = 0) out vec4 color;
 
-hair_field_solid own; // as if its axes were the head's
+hair_field_solid own; // The collider, with its own axes in place of the head's.
 
 vec3 normal_at(vec3 p, float h)
 {
@@ -29,7 +29,8 @@ void main()
     own.rotation = vec4(0.0, 0.0, 0.0, 1.0);
     own.position.xyz = vec3(0.0);
 
-    // From the eye, or from before the box, through this point of its far side; in the solid's axes.
+    // Ray from the eye, or from in front of the box, through this point on the box's far side, in
+    // the collider's axes.
     vec3  eye    = rotate(turn, rotate(back, draw.eye.xyz) - draw.eye.w * shown.solid.position.xyz);
     vec3  extent = shown.upper.xyz - shown.lower.xyz;
     vec3  start  = draw.eye.w > 0.0 ? eye : box_position + 2.0 * length(extent) * eye;
@@ -43,7 +44,7 @@ void main()
     float height = dot(normal, start) + dot(params.plane.xyz, shown.solid.position.xyz) - params.plane.w;
     float slope  = dot(normal, way);
     if (params.plane.xyz != vec3(0.0)) {
-        // What is on the eye's side of the plane is cut away.
+        // The part on the eye's side of the plane is cut away.
         if (height * slope >= 0.0) discard;
         t = max(t, -height / slope);
     }
@@ -56,7 +57,7 @@ void main()
     }
     if (!found || t > last) discard;
 
-    if (cut) t += 0.01 * length(extent); // Behind the slice that is drawn there.
+    if (cut) t += 0.01 * length(extent); // The cut lies behind the slice that is drawn there.
     vec3 p      = start + t * way;
     vec3 facing = cut ? -way : normal_at(p, 10.0 * fine);
     vec3 hue    = 0.5 + 0.35 * cos(6.2831853 * (0.38196601 * float(own.number) + vec3(0.0, 0.33, 0.67)));

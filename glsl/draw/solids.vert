@@ -1,9 +1,9 @@
-// solids.vert - the box around a solid. One instance per solid, 36 vertices.
+// solids.vert - the bounding box of a collider. One instance per collider, 36 vertices.
 #version 450 core
 #include "shown.glsl"
 
-layout(location = 0) out vec3 box_position; // in the solid's axes
-layout(location = 1) flat out vec3 face;    // outward normal
+layout(location = 0) out vec3 box_position; // Position in the collider's axes.
+layout(location = 1) flat out vec3 face;    // Outward normal.
 layout(location = 2) flat out int number;
 
 void main()

@@ -1,5 +1,6 @@
-// stage.comp - vertices of the strands that are listed, for a view that has them as it wants: fewer, wider, of fewer segments. In the
-// order of the list, with room for all segments of each. HAIR_SIDES: as they are drawn. One thread per vertex.
+// stage.comp - the per-view vertices of listed strands, with the number, width and segments that a
+// view wants. They are in the order of the list, with room for all segments of each strand. With
+// HAIR_SIDES they are written in clip space, ready to be drawn. One thread per vertex.
 #version 450 core
 #include "strand.glsl"
 #include "workgroup.glsl"
@@ -48,8 +49,8 @@ void main()
     uint place = i / each, k = i % each, at = place * (draw.segments + 1u) + k;
     if (place >= command[HAIR_STAGE_COMMAND].strands) return;
     uvec4 record = texelFetch(strand_texture, int(place));
-    vec3  own    = uintBitsToFloat(record.yzw); // of hair_strand
-    // Beyond the last segment of its own a strand has none: all vertices are at its tip.
+    vec3  own    = uintBitsToFloat(record.yzw); // width, widened and whole of hair_strand.
+    // Vertices beyond the last segment of a strand lie at its tip.
     strand_vertex v = strand_at(record.x, place_of(k, own.z), own.x, own.y);
     write_place(at, v);
 #ifndef HAIR_DEPTH

@@ -1,4 +1,5 @@
-// staged.vert - one vertex of what stage.comp has left of strands for this view: to one of their sides, or of lines their middle.
+// staged.vert - one of the per-view vertices that stage.comp wrote. It is a side of a ribbon or the
+// middle of a line.
 #version 450 core
 #include "draw_params.glsl"
 

@@ -1,4 +1,4 @@
-// strand.frag - what a pixel sees of a strand: its colour, or its number or velocity in place of that.
+// strand.frag - a pixel of a strand: its colour, or its numbers or velocity in place of the colour.
 #version 450 core
 #include "draw_params.glsl"
 #include "passed.glsl"
@@ -30,7 +30,7 @@ layout(location = 0) out vec4 color;
 
 void main()
 {
-    // What was not in front of the eye has no place to come from.
+    // A point that was not in front of the eye has no previous position.
     vec2 way = clip_before.z > 1e-6 ? clip_now.xy / clip_now.z - clip_before.xy / clip_before.z : vec2(0.0);
     color    = vec4(0.5 * way, 0.0, 1.0);
 }
@@ -58,8 +58,8 @@ vec4 shade_pixel()
 vec4 shade_pixel() { return vec4(strand_color, 1.0); }
 #endif
 
-// Where a segment covers a pixel but not its middle, its colours are extrapolated, and might become negative; or more than
-// formats of half floats hold.
+// Write the colour. If a segment covers a pixel but not its centre, colours are extrapolated. They
+// may then be negative, or exceed what half-float formats hold.
 void main()
 {
     vec4 shaded = shade_pixel();

@@ -1,4 +1,4 @@
-// strand.tese - one vertex of a follower: which isoline, and which segment.
+// strand.tese - one vertex of a follower, found from its isoline and segment.
 #version 450 core
 #include "strand.glsl"
 #include "strand_out.glsl"
@@ -9,7 +9,8 @@ layout(location = 1) patch in vec4  whole;
 
 void main()
 {
-    // Coordinates are rounded, on some drivers to 16 bits: the exact line and segment are recovered from them.
+    // Coordinates are rounded, on some drivers to 16 bits. The exact line and segment are recovered
+    // from them.
     uint line    = uint(gl_TessCoord.y * float(lines.y) + 0.5);
     uint segment = lines.z + uint(gl_TessCoord.x * float(lines.w) + 0.5);
 

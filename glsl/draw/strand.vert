@@ -1,4 +1,5 @@
-// strand.vert - one vertex of a strand without a tessellator: which strand of the list, and which segment, by its number.
+// strand.vert - one vertex of a strand without a tessellator. Its number gives the strand in the
+// list and the segment.
 #version 450 core
 #include "strand.glsl"
 #include "strand_out.glsl"
@@ -17,8 +18,8 @@ void main()
 #endif
     uint  each   = draw.segments + 1u;
     uvec4 record = texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
-    // Beyond the last segment of its own a strand has none: all vertices are at its tip.
-    vec3  own = uintBitsToFloat(record.yzw); // of hair_strand
+    // Vertices beyond the last segment of a strand lie at its tip.
+    vec3  own = uintBitsToFloat(record.yzw); // width, widened and whole of hair_strand.
     float t   = place_of(vertex % each, own.z);
 
     strand_vertex v = strand_at(record.x, t, own.x, own.y);
