@@ -91,7 +91,7 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
     vec2  size  = vec2(textureSize(shadow_texture[map], 0));
     vec3  along = place_in_map(map, s.after) - place_in_map(map, s.before);
     vec2  texels = along.xy * size;
-    float slope = along.z / max(dot(texels, texels), 1.0); // Depth per texel along the strand.
+    float slope = along.z / max(dot(texels, texels), 1.0); // Slope of depth along the strand.
     vec3  side  = cross(s.tangent, to);
     side *= s.radius / max(length(side), 1e-12);
     float each = depth_by_metre(light, place_in_map(map, s.at).z, distance_to_light(light, s.at));

@@ -1,5 +1,5 @@
 // raster.comp - rasterisation of segments by compute, for GPUs with few graphics units. It finds
-// the nearest segment and its depth at each sample. Of equally near segments the first one wins.
+// the nearest segment and its depth at each sample. The first of equally near segments wins.
 // Without 64-bit atomics a first pass finds the depth, and a second pass with the same arithmetic
 // finds the segment that claims it. A work group distributes the pixel rows of its segments among
 // its threads, which balances long and short segments.

@@ -1,8 +1,9 @@
-// shape.glsl - the distance to a solid's surface, below 0 inside. With HAIR_FORMS also to that of a form.
+// shape.glsl - signed distance to a collider's surface, below 0 inside. With HAIR_FORMS colliders
+// may be collision meshes.
 #include "rotation.glsl"
 #include "solid_distance.glsl"
 
-#define SHAPE_FORM 6u // as hair_shape
+#define SHAPE_FORM 6u // Value of hair_shape.
 
 #ifdef HAIR_FORMS
 layout(std430, binding = HAIR_BIND_NODE) readonly buffer node_buffer { float node[]; };

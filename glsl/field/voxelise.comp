@@ -1,16 +1,18 @@
-// voxelise.comp - a brick of the field written: the distance of each voxel's centre to the nearest of the solids that
-// reach into the brick, exactly, and which one that is. One work group per brick, one thread per voxel.
+// voxelise.comp - one brick of the distance field. It holds the exact distance from the centre of
+// each voxel to the nearest of the colliders that reach into the brick, and the number of that
+// collider. One work group per brick, one thread per voxel.
 #version 450 core
 #include "field_params.glsl"
 #include "workgroup.glsl"
 #include "field/shape.glsl"
 layout(local_size_x = HAIR_BRICK, local_size_y = HAIR_BRICK, local_size_z = HAIR_BRICK) in;
 
-#define DEEPEST 6e4 // m: what a half can hold
+#define DEEPEST 6e4 // m. A half float can hold it.
 
 layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_field_brick brick[]; };
 layout(std430, binding = HAIR_BIND_MEMBER) readonly buffer member_buffer { uint member[]; };
-layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer solid_texture; // One driver reads storage many times as slowly.
+// A texture, because one driver reads storage buffers many times as slowly.
+layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer solid_texture;
 layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
 layout(binding = HAIR_IMAGE_SOLID, r32ui) writeonly uniform uimage3D solid_image;
 

@@ -1,4 +1,5 @@
-// selftest.tese - number of the patch and place across its isolines, to be captured.
+// selftest.tese - the number of the patch and the coordinate across its isolines, for transform
+// feedback.
 #version 450 core
 layout(isolines, equal_spacing) in;
 

@@ -1,5 +1,5 @@
-// expand.comp - followers written out as vertices, segments + 1 each, to be drawn or read back. Work groups as run.glsl has
-// them.
+// expand.comp - the vertex cache of followers, segments + 1 vertices each, to be drawn or read
+// back. Work groups are those of run.glsl.
 #version 450 core
 #include "evaluate.glsl"
 #include "run.glsl"

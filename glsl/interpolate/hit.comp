@@ -1,13 +1,14 @@
-// hit.comp - the first vertex of each follower that is inside a solid (Tariq 2010): by a thread that stops there, or with
-// HAIR_HIT_GROUP by several that share its vertices. The root is where it is: only what comes after it counts. With
-// HAIR_PREPASS hit.tese has found it.
+// hit.comp - the first vertex of each follower that is inside a collider (Tariq 2010). One thread
+// per follower stops at that vertex. With HAIR_HIT_GROUP several threads share the vertices of a
+// follower. The root is fixed and is not tested. With HAIR_PREPASS hit.tese has already found the
+// vertex.
 #version 450 core
 #include "follower.glsl"
 #include "field.glsl"
 #include "workgroup.glsl"
 
-// Beside each other: followers, which are mostly of the same guides as those beside them, so that these are read once for
-// all. Each at the same vertex.
+// Neighbouring threads take neighbouring followers at the same vertex. Such followers mostly have
+// the same guides, which are then read once for all of them.
 #ifdef HAIR_HIT_GROUP
 layout(local_size_x = HAIR_HIT_FOLLOWERS, local_size_y = HAIR_HIT_THREADS) in;
 #else
@@ -33,7 +34,8 @@ bool is_inside(hair_follower follower, uint k, bool beyond)
 
 float find_first(uint number, hair_follower follower)
 {
-    // Where loops are run for several followers at once, that for all but the longest needs half as much of memory.
+    // There are two loops, because several followers run at once, and the loop for followers within
+    // their guides reads half as much memory.
     uint last = draw.segments, k = 1u + gl_LocalInvocationID.y;
     if (follower.length_ratio <= 1.0)
         while (k <= last && !is_inside(follower, k, false)) k += gl_WorkGroupSize.y;
@@ -60,7 +62,7 @@ float least_of_all(float first) { return first; }
 void main()
 {
     uint number = hair_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (number == 0u) list[1u - draw.turn] = 0u; // For the next time.
+    if (number == 0u) list[1u - draw.turn] = 0u; // Cleared for the next run.
     hair_follower follower = fetch_follower(min(number, draw.followers - 1u));
     bool          switches = draw.collision == HAIR_COLLISION_IS_SWITCH;
     bool          minds    = !switches || follower.multi > 0.0;

@@ -1,4 +1,4 @@
-// hit.frag - the number of a vertex that is inside a solid.
+// hit.frag - the number of a vertex that is inside a collider.
 #version 450 core
 
 layout(location = 0) flat in float found;

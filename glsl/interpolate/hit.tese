@@ -1,5 +1,6 @@
-// hit.tese - the first vertex of each follower that is inside a solid, as Tariq 2010 finds it: every vertex is drawn as
-// a point, all those of a follower to one texel, where the least number stays.
+// hit.tese - the first vertex of each follower that is inside a collider, by the method of Tariq
+// 2010. Every vertex is drawn as a point. All points of a follower go to one texel, where MIN
+// blending keeps the smallest number.
 #version 450 core
 #include "follower.glsl"
 #include "field.glsl"

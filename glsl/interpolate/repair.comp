@@ -1,10 +1,12 @@
-// repair.comp - leads followers that meet a solid round it: finds the curves of repair.glsl. A thread per follower of
-// the list that hit.comp has made.
+// repair.comp - the curves of repair.glsl that push followers out of colliders. One thread per
+// follower of the list of hit.comp.
 //
-// Where the strand is deep inside, its guides went different ways round the solid: it is freed of all but its own
-// (Tariq 2010), from well above. What still is inside is pushed out along the field's gradient, by Kaczmarz's method:
-// vertex after vertex, the least change of control points that brings it to the surface, several times over. Then the
-// curve is drawn as far as the strand was long before.
+// A strand that is deep inside has guides on different sides of the collider. It is freed of all
+// guides but its own (Tariq 2010), from well above the first vertex inside. Vertices that remain
+// inside are pushed out along the gradient of the distance field by Kaczmarz's method. For one
+// vertex after another, it makes the smallest change of control points that brings the vertex to
+// the surface. It repeats this several times. Then the curve is drawn to the length that the strand
+// had before.
 #version 450 core
 #include "follower.glsl"
 #include "field.glsl"
@@ -15,11 +17,13 @@ layout(local_size_x = HAIR_REPAIR_THREADS) in;
 layout(std430, binding = HAIR_BIND_REPAIR) writeonly restrict buffer repair_buffer { uvec2 halves[]; };
 layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { uint list[]; };
 
-#define ROUNDS 10u        // of pushing, between looks at the length
-#define LENGTHS 4u        // times that the length is looked at
-#define SHALLOW 0.002     // m: so deep a strand keeps its guides,
-#define DEEP 0.025        // and so deep it is freed of them; the nearer the two, the faster a strand leaves its guides
-#define AHEAD 1           // intervals that it is freed above a vertex inside
+#define ROUNDS 10u        // Passes of pushing between updates of the length.
+#define LENGTHS 4u        // Updates of the length.
+// Depths up to which a strand keeps its guides and from which it is freed of them, m. The closer
+// they are, the faster a strand leaves its guides.
+#define SHALLOW 0.002
+#define DEEP 0.025
+#define AHEAD 1           // Intervals above a vertex inside from which it is freed.
 
 shared vec4  control[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_THREADS];
 shared float vertex[3 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_THREADS];
@@ -38,7 +42,8 @@ void keep_vertex(uint i, vec3 p)
     vertex[at] = p.x, vertex[at + HAIR_REPAIR_THREADS] = p.y, vertex[at + 2u * HAIR_REPAIR_THREADS] = p.z;
 }
 
-// Looks at the strand as it is: how long and how deep, and how far to free it.
+// Measure the unrepaired strand. Return its length. `deepest` is its greatest depth in a collider.
+// Set how far its control points are freed.
 float look(int own, hair_follower follower, uint samples, out float deepest)
 {
     float total = 0.0;
@@ -65,7 +70,7 @@ float look(int own, hair_follower follower, uint samples, out float deepest)
     return total;
 }
 
-// The strand without what moves it away.
+// Compute the vertices of the strand without its displacement.
 void place(int own, hair_follower follower, uint samples, float slide)
 {
     for (uint i = 0u; i <= samples; ++i) {
@@ -76,7 +81,7 @@ void place(int own, hair_follower follower, uint samples, float slide)
     }
 }
 
-// Moves the curve by `step` at t, and no control point farther than need be.
+// Move the curve by `step` at t with the smallest change of control points.
 void push(int own, float t, vec3 step)
 {
     float x;
@@ -133,7 +138,8 @@ void main()
     control[own].xyz = vec3(slide - 1.0, 0.0, 0.0);
     for (int i = 0; i < HAIR_REPAIR_CONTROLS; ++i) {
         vec4 c = control[i * HAIR_REPAIR_THREADS + own];
-        // By the bits, for comparisons with NaN may be compiled away: what halves cannot hold leads nowhere.
+        // The test uses bits, because comparisons with NaN may be compiled away. Control points
+        // that half floats cannot hold become 0.
         if ((floatBitsToUint(dot(c, c)) & 0x7fffffffu) > floatBitsToUint(1e8)) c = vec4(0.0);
         halves[number * HAIR_REPAIR_CONTROLS + uint(i)] = uvec2(packHalf2x16(c.xy), packHalf2x16(c.zw));
     }

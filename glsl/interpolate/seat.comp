@@ -1,5 +1,6 @@
-// seat.comp - roots of followers put where a skinned scalp has them, which stretches between the guides that they are
-// made of: their offsets from those are found anew. One thread per follower.
+// seat.comp - new offsets of followers on a skinned scalp. The scalp stretches between their
+// guides, so their roots are placed by their root bindings and the offsets follow from the roots.
+// One thread per follower.
 #version 450 core
 #include "scalp.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -24,7 +25,7 @@ void main()
     vec3  blended = (1.0 - w1 - w2) * first + w1 * root_of(follower[i].guide1) + w2 * root_of(follower[i].guide2);
     vec4  back    = quat_conjugate(texelFetch(frame_texture, int(g * on.smooth_vertices)));
     vec3  single = rotate(back, root - first), own = rotate(back, root - blended);
-    // What is not sound came from the host, and guides did not go there.
+    // Values that are not finite come from the application. Guides did not follow them either.
     if (!is_sound(vec4(single, 0.0)) || !is_sound(vec4(own, 0.0))) return;
     follower[i].offset[0].xyz = single;
     follower[i].offset[1].w   = own.x;

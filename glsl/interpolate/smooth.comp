@@ -1,10 +1,11 @@
-// smooth.comp - guides smoothed once a step into buffers of position, length, tangent and frame, which everything
-// that draws reads (Tariq 2010). One work group per guide, params.smooth_vertices samples at equal distances.
+// smooth.comp - smoothed guides, once per step: buffers of position, length, tangent and frame that
+// all drawing code reads (Tariq 2010). One work group per guide, params.smooth_vertices samples at
+// equal distances.
 //
-// Between the vertices runs a cubic Hermite spline through them, with the tangents of the parabola through three
-// neighbours (so that segments of unequal length make no overshoot). What is drawn lies between the ends of the
-// last substep: both are taken in the head's own frame and put under the head's pose now, so that roots never
-// leave the scalp.
+// The curve is a cubic Hermite spline through the vertices. Its tangents are those of the parabola
+// through three neighbours, so segments of unequal length cause no overshoot. The drawn state lies
+// between the start and the end of the last substep. Both are taken in the head's own frame and
+// placed under the current pose of the head, so that roots never leave the scalp.
 #version 450 core
 #include "buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
@@ -14,7 +15,7 @@ layout(local_size_x = HAIR_GUIDE_THREADS) in;
 shared vec3  vertex[HAIR_GUIDE_THREADS];
 shared float from_root[HAIR_GUIDE_THREADS];
 
-// Distances from the root: an inclusive scan of segment lengths.
+// Compute distances from the root, by an inclusive scan of segment lengths.
 void sum_lengths(uint i, uint count)
 {
     float l = i > 0u && i < count ? distance(vertex[i], vertex[i - 1u]) : 0.0;
@@ -29,7 +30,7 @@ void sum_lengths(uint i, uint count)
     synchronise();
 }
 
-// Derivative by length at vertex j.
+// Return the derivative by length at vertex j.
 vec3 slope(uint j, uint count)
 {
     if (j == 0u) return segment_direction[0];
@@ -90,7 +91,8 @@ void main()
         vec3  m1     = slope(j + 1u, count) * l;
         vec3  chord  = vertex[j + 1u] - vertex[j];
         vec3  bend0  = m0 - chord, bend1 = m1 - chord;
-        // Hermite, written as the chord and what bends away from it: floats keep the small part.
+        // Hermite form as the chord plus the deviation from it, because floats then keep the small
+        // part.
         vec3  point   = vertex[j] + w * chord + w * (1.0 - w) * ((1.0 - w) * bend0 - w * bend1);
         vec3  tangent = chord + (1.0 - w) * (1.0 - 3.0 * w) * bend0 - w * (2.0 - 3.0 * w) * bend1;
         tangent       = direction_or(tangent, segment_direction[j]);

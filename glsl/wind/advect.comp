@@ -1,5 +1,6 @@
-// advect.comp - velocities carried along by the air: each face gets what was where its air comes from, linear between
-// faces (Stam 1999, "Stable Fluids"). Air from outside the box is the wind there. One thread per slot.
+// advect.comp - advection of the fluid's velocities. Each face gets the velocity at the point from
+// which its fluid comes, linear between faces (Stam 1999, "Stable Fluids"). Fluid from outside the
+// box has the velocity of the wind there. One thread per slot.
 #version 450 core
 #include "wind/trace.glsl"
 #include "wind/ambient.glsl"

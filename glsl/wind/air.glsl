@@ -1,5 +1,6 @@
-// air.glsl - how air moves, at any place: the wind and its gusts, diverted by what is in their way, or the
-// fluid in its box; what blows from places; and the application's texture.
+// air.glsl - the wind at any position. It is the sum of three parts. The first is the ambient wind
+// with its gusts, diverted by obstacles, or the fluid in its box. The second is the local wind
+// sources. The third is the application's texture.
 #ifndef HAIR_AIR_GLSL
 #define HAIR_AIR_GLSL
 
@@ -11,15 +12,18 @@ layout(std140, binding = HAIR_BIND_WIND) uniform wind_buffer { hair_wind_params 
 layout(binding = HAIR_UNIT_AIR) uniform sampler3D air_texture;
 layout(binding = HAIR_UNIT_VOLUME) uniform sampler3D volume_texture;
 
-// Taylor's frozen turbulence: the pattern goes along with the wind.
+// Return the gust at a position and time. By Taylor's frozen turbulence, the pattern moves with the
+// wind.
 vec3 gust_at(vec3 place, float time)
 {
     return gust_of(wind.gust_turn, wind.gust_from, wind.velocity.w, place - wind.velocity.xyz * time);
 }
 
-// Around a ball, with p from its centre in radii, and x how far that is down the wind. Potential flow has no part into it;
-// behind it is a wake of a drag coefficient of 0.5, Gaussian and with the momentum that takes (Bastankhah and Porte-Agel
-// 2014), into which still air behind the ball goes over within some four radii.
+// Return the wind around a sphere. p is the position relative to its centre, in radii, and x the
+// distance downwind. Outside the wake it is potential flow, which cannot enter the sphere. The wake
+// behind it has a Gaussian profile, a drag coefficient of 0.5 and the momentum deficit of that drag
+// (Bastankhah and Porte-Agel 2014). Still air directly behind the sphere changes into the wake
+// within about four radii.
 vec3 around_ball(vec3 u, vec3 p, vec3 down)
 {
     float r     = max(length(p), 1e-6), s = 1.0 / (max(r, 1.0) * max(r, 1.0) * max(r, 1.0));
@@ -31,8 +35,9 @@ vec3 around_ball(vec3 u, vec3 p, vec3 down)
     return (1.0 - lack) * (u + 0.5 * s * (u - 3.0 * dot(u, n) * n));
 }
 
-// To all sides, the same volume through every sphere; or a round turbulent jet, which keeps its momentum and whose width
-// at half its speed grows by 0.094 of the way (Pope 2000, "Turbulent Flows").
+// Return the velocity of a local wind source. A source without a direction blows the same volume
+// through every sphere. A directed source is a round turbulent jet that keeps its momentum. Its
+// half-width at half speed grows by 0.094 of the distance (Pope 2000, "Turbulent Flows").
 vec3 from_source(uint k, vec3 place)
 {
     vec3  p = place - wind.source[k].xyz, way = wind.jet[k].xyz;
@@ -43,21 +48,24 @@ vec3 from_source(uint k, vec3 place)
     return speed * radius / half_width * exp2(-share) * smoothstep(-radius, 0.0, x) * way;
 }
 
-// Of a place from the head's origin, m, in the fluid's box; at its border, the last eighth on all sides, less and less.
+// Return the weight of the fluid at a position in its box, given in fractions of its sides. The
+// weight falls to 0 over the last eighth on all sides.
 float fluid_share(vec3 place)
 {
     vec3 inside = clamp(8.0 * (0.5 - abs(place - 0.5)), 0.0, 1.0);
     return inside.x * inside.y * inside.z;
 }
 
-// Gusts come into the fluid with the air that does.
+// Return the fluid's velocity, blended at the border with the wind `around`. Gusts enter the fluid
+// with the air that flows in.
 vec3 in_fluid(vec3 place, vec3 around)
 {
     vec3 at = (place - wind.box.xyz) * wind.box.w;
     return mix(around, textureLod(air_texture, at, 0.0).xyz, fluid_share(at));
 }
 
-// What is not finite, which may be the texture's, is no wind. By the bits, for comparisons with NaN may be compiled away.
+// Return a velocity, or 0 if it is not finite, as the application's texture may be. The test uses
+// bits, because comparisons with NaN may be compiled away.
 vec3 sound(vec3 v)
 {
     uvec3 bits = floatBitsToUint(v) & 0x7fffffffu;
@@ -70,7 +78,8 @@ vec3 from_texture(vec3 place)
     return all(equal(at, clamp(at, 0.0, 1.0))) ? sound(textureLod(volume_texture, at, 0.0).xyz) : vec3(0.0);
 }
 
-// m/s, at a position from the head's origin, which is a place from that at the end of the dispatch; `time` from there, s.
+// Return the wind, m/s, at a position from the head's origin. `place` is the same position relative
+// to the head's origin at the end of the dispatch. `time` is relative to that end, s.
 vec3 air_then(vec3 position, vec3 place, float time)
 {
     vec3 u     = wind.velocity.xyz + gust_at(place, time), past = u;
@@ -81,7 +90,7 @@ vec3 air_then(vec3 position, vec3 place, float time)
     return wind.volume != 0u ? u + from_texture(place) : u;
 }
 
-// At the start of a substep of the dispatch.
+// Return the wind at the start of a substep of the dispatch.
 vec3 air_at(vec3 position, uint substep)
 {
     vec4 at = wind.at[substep];

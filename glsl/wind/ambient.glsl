@@ -1,4 +1,5 @@
-// ambient.glsl - the wind and its gusts at a place that is given as in fluid.glsl, at the start of the step.
+// ambient.glsl - the ambient wind and its gusts at a position in the coordinates of fluid.glsl, at
+// the start of the step.
 #include "wind/fluid.glsl"
 #include "wind/gust.glsl"
 

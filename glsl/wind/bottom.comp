@@ -1,5 +1,5 @@
-// bottom.comp - the coarsest level, of at most 8 cells along an axis, solved by one work group: sweeps of Gauss and Seidel,
-// each gone beyond by what suits so few cells.
+// bottom.comp - the coarsest multigrid level, of at most 8 cells along an axis. One work group
+// solves it by red-black Gauss-Seidel sweeps with overrelaxation suited to so few cells.
 #version 450 core
 #include "wind/pressure.glsl"
 layout(local_size_x = HAIR_FLUID_BOTTOM_THREADS) in;
@@ -7,7 +7,7 @@ layout(local_size_x = HAIR_FLUID_BOTTOM_THREADS) in;
 layout(std430, binding = HAIR_BIND_PRESSURE) writeonly buffer pressure_buffer { float pressure[]; };
 
 #define SWEEPS 16
-#define BEYOND 1.4
+#define BEYOND 1.4 // Overrelaxation factor.
 
 shared float solved[2 * HAIR_FLUID_BOTTOM_THREADS];
 
@@ -15,7 +15,7 @@ struct bottom_cell {
     int   at, n;
     ivec3 place;
     float right, whole;
-    vec3  below, above; // 0 where there is no neighbour
+    vec3  below, above; // Open fractions. 0 where there is no neighbour.
 };
 
 bottom_cell fetch_bottom(uint i)

@@ -1,5 +1,5 @@
-// coarsen.comp - how much of the faces of the next coarser level is open: the mean of the four that make up each. One
-// thread per slot of that level.
+// coarsen.comp - open fractions of the faces of the next coarser level. Each is the mean of the
+// four faces that form it. One thread per slot of that level.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

@@ -1,6 +1,7 @@
-// correct.comp - half of what being carried there and back again has lost is given back, between the least and the greatest
-// of what each face's air comes from: MacCormack's scheme by Selle et al. 2008, "An Unconditionally Stable MacCormack
-// Method". All air is then sped up as the wind around has been. One thread per slot.
+// correct.comp - MacCormack correction of advection by Selle et al. 2008, "An Unconditionally
+// Stable MacCormack Method". It restores half of the error of advection forward and back, clamped
+// to the range of the faces from which the fluid comes. Then the change of the ambient wind is
+// added everywhere. One thread per slot.
 #version 450 core
 #include "wind/trace.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -14,7 +15,7 @@ float most_of(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 float corrected(int axis, ivec3 at, float carried, vec3 place, vec3 from)
 {
     vec4       near, far, near_to, far_to;
-    vec3       to    = trace(place, 1.0) - fluid.shift.xyz; // in the box as it is
+    vec3       to    = trace(place, 1.0) - fluid.shift.xyz; // In the current box.
     fluid_spot own   = spot_at(axis, place), source = spot_at(axis, from);
     fetch_faces(velocity_texture, axis, own, near, far);
     float      was   = between(near, far, own.part);

@@ -1,20 +1,23 @@
-// cylinder.glsl - what air does to a cylinder in it, of diameter d: by a metre, with u the air's velocity against it, n across
-// and t along the cylinder, and Re = |u_n| d / nu,
+// cylinder.glsl - drag of air on an infinite cylinder of diameter d, per metre. u is the velocity
+// of the air relative to the cylinder, with the parts u_n across it and u_t along it. rho is the
+// density and nu the kinematic viscosity of the air. mu is its dynamic viscosity. Re = |u_n| d / nu
+// is the Reynolds number.
 //
 //   F_n = rho d / 2 C(Re) |u_n| u_n,  C = 1 + 9.75 Re^-0.744
 //
-// of infinite cylinders: the form of White 1991, "Viscous Fluid Flow", with what fits Kaplun 1957, Dennis and Chang 1970, Park,
-// Kwon and Choi 1998 and Wieselsberger 1922 within a tenth, 0.1 < Re < 400. What flows along a
-// yawed cylinder does not change what flows across it and is carried by it, as heat is at a Prandtl number of 1 (the
-// independence principle: Sears 1948), so
+// The form of C is that of White 1991, "Viscous Fluid Flow". Its coefficients fit Kaplun 1957,
+// Dennis and Chang 1970, Park, Kwon and Choi 1998 and Wieselsberger 1922 within a tenth, for 0.1 <
+// Re < 400.
+//
+// The flow along a yawed cylinder does not change the flow across it (the independence principle,
+// Sears 1948). The flow across carries it as it carries heat at a Prandtl number of 1. The drag
+// along therefore follows the heat transfer of cylinders (Churchill and Bernstein 1977):
 //
 //   F_t = pi mu Nu(Re) u_t,  Nu = 0.3 + 0.62 Re^(1/2) / (1 + 0.4^(2/3))^(1/4)
-//
-// as heat passes from cylinders (Churchill and Bernstein 1977).
 #ifndef HAIR_CYLINDER_GLSL
 #define HAIR_CYLINDER_GLSL
 
-// Across and along, by mu u.
+// Return the drag across and along the cylinder, divided by mu u.
 vec2 drag_of(float reynolds)
 {
     float across = reynolds + 9.75 * exp2(0.256 * log2(max(reynolds, 1e-12)));

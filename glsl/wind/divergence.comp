@@ -1,5 +1,6 @@
-// divergence.comp - what flows into a cell, which its pressure is to drive out again: through what is open of its faces the
-// air, through the rest what closes it. Begins the finest level, with no pressure. One thread per cell.
+// divergence.comp - the right side of the pressure equation: the flow into a cell, which its
+// pressure must drive out. The open fraction of a face carries the fluid, and the rest carries what
+// closes the face. It also clears the pressure of the finest level. One thread per cell.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

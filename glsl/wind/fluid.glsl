@@ -1,7 +1,7 @@
-// fluid.glsl - the grid of the fluid: where its numbers are, and its velocities at any place. See lib/wind/fluid.h.
+// fluid.glsl - the grid of the fluid: its indices and its velocities. See lib/wind/fluid.h.
 //
-// Places are in sides of a cell from the box's corner. A slot is the cell of the same number along each axis, and the three
-// faces below it: there are one more of them along each axis than cells.
+// Positions are in cells from the corner of the box. A slot is a cell and the three faces on its
+// lower sides. Along each axis there is one more slot than there are cells.
 #ifndef HAIR_WIND_FLUID_GLSL
 #define HAIR_WIND_FLUID_GLSL
 
@@ -25,20 +25,21 @@ int index_of(ivec3 at, uint side) { return at.x + int(side) * (at.y + int(side) 
 
 ivec3 axis_of(int k) { return ivec3(k == 0, k == 1, k == 2); }
 
-// Of the component along the axis in any of the buffers of velocities.
+// Return the index of a velocity component along an axis, in any of the velocity buffers.
 int face_of(int axis, ivec3 at)
 {
     int side = int(fluid.cells) + 1;
     return axis * side * side * side + index_of(at, uint(side));
 }
 
-// The middle of a face.
+// Return the centre of a face.
 vec3 face_place(int axis, ivec3 at) { return vec3(at) + 0.5 * vec3(1 - axis_of(axis)); }
 
-// Share of a face that is open, by what a slot holds.
+// Return the open fraction of a face, from the bits of a slot.
 float open_share(uint slot, int axis) { return float(slot >> (10 * axis) & 1023u) / 1023.0; }
 
-// By the bits, for comparisons with NaN may be compiled away.
+// Return whether a speed is finite and plausible. The test uses bits, because comparisons with NaN
+// may be compiled away.
 bool is_sound(float v) { return (floatBitsToUint(v) & 0x7fffffffu) <= floatBitsToUint(HAIR_FLUID_FASTEST); }
 
 #endif

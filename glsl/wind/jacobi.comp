@@ -1,5 +1,5 @@
-// jacobi.comp - a sweep of Jacobi: every pressure is made to fit those of its neighbours, as they were. One thread per
-// cell.
+// jacobi.comp - a Jacobi sweep. Every pressure is solved for with its neighbours' old pressures.
+// One thread per cell.
 #version 450 core
 #include "wind/pressure.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

@@ -1,6 +1,8 @@
-// open.comp - how much of each face is open, and how fast what closes it moves along the face's axis: of Ng, Min and Gibou
-// 2009, "An efficient fluid-solid coupling algorithm for single-phase flows". Open is what is outside of all solids by the
-// field, in sixteenths of the face and parts of these where a surface goes through one. One thread per slot.
+// open.comp - the open fraction of each face, and the velocity of what closes it along the axis of
+// the face. The method is that of Ng, Min and Gibou 2009, "An efficient fluid-solid coupling
+// algorithm for single-phase flows". The open part lies outside all colliders by the distance
+// field. It is measured in sixteenths of the face, and in fractions of them where a surface passes
+// through one. One thread per slot.
 #version 450 core
 #include "wind/fluid.glsl"
 #include "field.glsl"
@@ -12,20 +14,22 @@ layout(std430, binding = HAIR_BIND_MOTION) readonly buffer motion_buffer { hair_
 
 vec3 position_of(vec3 place) { return fluid.lower.xyz + fluid.lower.w * place; }
 
-// The field goes by the head of its last update; here the head is where this step has it.
+// Return a position as a fraction of the field's box. The distance field belongs to the head pose
+// of its last update, whereas this pose is that of the current step.
 vec3 box_place(vec3 place)
 {
     return (rotate(quat_conjugate(fluid.rotation), position_of(place)) - field.lower.xyz) * field.inverse.xyz;
 }
 
-// In sides of a cell.
+// Return the distance to the nearest collider, in cells.
 float distance_at(vec3 place)
 {
     vec3 in_field = box_place(place);
     return (field_holds(in_field) ? textureLod(field_texture, in_field, 0.0).x : field.inverse.w) / fluid.lower.w;
 }
 
-// Two directions along the face.
+// Return the open fraction of a face with the given centre. a and b are the two directions along
+// the face.
 float open_part(vec3 middle, vec3 a, vec3 b)
 {
     float sum = 0.0;

@@ -1,23 +1,26 @@
-// porous.comp - hair in the way of air: a face is as far closed as strands hold back over the step what is between them, and
-// what closes it goes with them. As if they lay every way, with l metres of them in a cubic metre, air of velocity u against
-// them slows by
+// porous.comp - hair as a porous obstacle for the wind. A face is closed as far as strands slow the
+// air between them over the step, and what closes it moves with the strands. Strands are taken to
+// be isotropic, with l metres of them in a cubic metre. Air of velocity u relative to them slows by
 //
 //   du/dt = -r u,  r = l nu (2/3 D_n + 1/3 D_t)
 //
-// D: of cylinder.glsl, at what u was. Implicitly 1 / (1 + r dt) is left of u, and as much of what pressure adds to it: so that
-// is how open the face is, and air goes around hair that is too dense for it within a step. One thread per slot.
+// D_n and D_t are the drag across and along a strand of cylinder.glsl, at the velocity before the
+// step. nu is the kinematic viscosity. Implicitly, 1 / (1 + r dt) of u remains, and of every change
+// of u by pressure. This is the open fraction of the face. Air therefore flows around hair that is
+// too dense to pass within a step. One thread per slot.
 #version 450 core
 #include "wind/trace.glsl"
 #include "wind/cylinder.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(binding = HAIR_UNIT_THICKET) uniform isamplerBuffer thicket_texture; // mass and momentum
+layout(binding = HAIR_UNIT_THICKET) uniform isamplerBuffer thicket_texture; // Mass and momentum.
 layout(binding = HAIR_UNIT_BARE_OPEN) uniform usamplerBuffer bare_open_texture;
 layout(binding = HAIR_UNIT_BARE_WALL) uniform samplerBuffer bare_wall_texture;
 layout(std430, binding = HAIR_BIND_WALL) writeonly buffer wall_buffer { float wall[]; };
 layout(std430, binding = HAIR_BIND_OPEN) writeonly buffer open_buffer { uint slots[]; };
 
-// Linear between nodes, which are the middles of cells of their own size.
+// Return mass and momentum of hair at a position, linear between nodes. Nodes are the centres of
+// cells of their own size.
 vec4 hair_at(vec3 place)
 {
     int   n    = int(fluid.nodes);
@@ -33,14 +36,15 @@ vec4 hair_at(vec3 place)
     return sum;
 }
 
-// Before the step, or the wind where the box was not.
+// Return the velocity of the air before the step, or of the wind if the box was not there.
 vec3 air_before(vec3 place)
 {
     vec3 then = place + fluid.shift.xyz;
     return is_in_box(then) ? textureLod(air_texture, then / float(fluid.cells), 0.0).xyz : fluid.wind.xyz;
 }
 
-// What is left of air against hair of such a density and velocity.
+// Return the fraction of the relative velocity that remains for hair of the given density and
+// velocity.
 float left_of(vec3 place, float density, vec3 velocity)
 {
     vec2 drag = drag_of(length(air_before(place) - velocity) * fluid.per_speed);

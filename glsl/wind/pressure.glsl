@@ -1,16 +1,18 @@
-// pressure.glsl - the equation of a cell: for its pressure p, in m/s, and those of its neighbours p_k
+// pressure.glsl - the equation of a cell, for its pressure p, in m/s, and the pressures p_k of its
+// neighbours:
 //
 //   sum_k w_k (p - p_k) = right side
 //
-// w_k: the share of the face between that is open. Outside the box the pressure is 0, at the border itself: half as far off.
+// w_k is the open fraction of the face between them. Outside the box the pressure is 0. It is 0 at
+// the border itself, which is half as far away as a neighbour.
 #include "wind/fluid.glsl"
 
 layout(binding = HAIR_UNIT_PRESSURE) uniform samplerBuffer pressure_texture;
 layout(binding = HAIR_UNIT_RIGHT) uniform samplerBuffer right_texture;
 
 struct fluid_cell {
-    float sum;   // of w_k p_k
-    float whole; // of w_k; 0: the cell is in a solid
+    float sum;   // Sum of w_k p_k.
+    float whole; // Sum of w_k. 0 if the cell is inside a collider.
     float right;
 };
 

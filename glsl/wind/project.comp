@@ -1,5 +1,6 @@
-// project.comp - the pressure's slope taken from the velocity of every face; a face that is closed goes with what closes it, and
-// air between strands goes in part as they do. What is not sound becomes the wind. One thread per slot.
+// project.comp - subtraction of the pressure gradient from the velocity of every face. A closed
+// face gets the velocity of what closes it. Air between strands partly moves with them. Values that
+// are not finite become the wind. One thread per slot.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -10,7 +11,8 @@ layout(binding = HAIR_UNIT_BARE_OPEN) uniform usamplerBuffer bare_open_texture;
 layout(binding = HAIR_UNIT_BARE_WALL) uniform samplerBuffer bare_wall_texture;
 layout(std430, binding = HAIR_BIND_VELOCITY) buffer velocity_buffer { float velocity[]; };
 
-// Of what solids leave open, where hair leaves a share of the face to air of such a speed: as much as goes through in all.
+// Return the mean velocity through the part of a face that colliders leave open. Hair leaves the
+// fraction `share` of the face to air of the given speed.
 float among_hair(int slot, int face, int axis, float share, float speed)
 {
     float bare = open_share(texelFetch(bare_open_texture, slot).x, axis), hair = texelFetch(wall_texture, face).x;

@@ -1,4 +1,5 @@
-// prolong.comp - the pressure of the coarser cell that a cell is part of is added to its own. One thread per cell.
+// prolong.comp - prolongation: the pressure of the coarser cell that contains a cell is added to
+// the pressure of the cell. One thread per cell.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

@@ -1,4 +1,4 @@
-// publish.comp - the air's velocity at the middles of cells, as a texture. One thread per cell.
+// publish.comp - the fluid's velocity at the centres of cells, as a texture. One thread per cell.
 #version 450 core
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

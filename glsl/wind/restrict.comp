@@ -1,5 +1,6 @@
-// restrict.comp - what is left of the right sides of eight cells is that of the coarser cell that they make up, half as much
-// since its neighbours are twice as far. Begins that level, with no pressure. One thread per coarser cell.
+// restrict.comp - restriction: the residual of eight cells becomes the right side of the coarser
+// cell that they form. It is halved, because the coarser cell's neighbours are twice as far away.
+// It also clears the pressure of the coarser level. One thread per coarser cell.
 #version 450 core
 #include "wind/pressure.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

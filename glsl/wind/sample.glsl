@@ -1,7 +1,7 @@
-// sample.glsl - one component of a velocity at any place in the box, linear between faces.
+// sample.glsl - one component of the velocity at any position in the box, linear between faces.
 #include "wind/fluid.glsl"
 
-// The lowest of the eight faces around a place, and how far beyond it the place is.
+// The lowest of the eight faces around a position, and the fractions beyond it.
 struct fluid_spot {
     ivec3 face;
     vec3  part;
@@ -17,7 +17,7 @@ fluid_spot spot_at(int axis, vec3 place)
     return spot;
 }
 
-// The faces in the order of their numbers.
+// Fetch the velocities of the eight faces in the order of their indices.
 void fetch_faces(samplerBuffer from, int axis, fluid_spot spot, out vec4 near, out vec4 far)
 {
     int at = face_of(axis, spot.face), y = int(fluid.cells) + 1, z = y * y;

@@ -1,5 +1,5 @@
-// smooth.comp - half a sweep of Gauss and Seidel: the pressures of every other cell, like the fields of a chessboard, are
-// made to fit those of the cells between. One thread per two cells.
+// smooth.comp - half of a red-black Gauss-Seidel sweep. The pressures of the cells of one colour
+// are solved for with those of the other colour. One thread per two cells.
 #version 450 core
 #include "wind/pressure.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

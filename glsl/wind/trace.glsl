@@ -1,10 +1,12 @@
-// trace.glsl - where air comes from and goes to in a step: by the middle of its way, in the air as the last step left it.
-// Places are in the box as it was then.
+// trace.glsl - the position from which fluid comes, or to which it goes, in a step. The path uses
+// the velocity at its midpoint, as the last step left it. Positions are in the box of the last
+// step.
 #include "wind/sample.glsl"
 
-layout(binding = HAIR_UNIT_AIR) uniform sampler3D air_texture; // m/s, at the middles of cells
+layout(binding = HAIR_UNIT_AIR) uniform sampler3D air_texture; // m/s, at the centres of cells.
 
-// In cells over the step. Faster than that it comes from outside in any case.
+// Return the displacement over the step, in cells. It is clamped, because faster fluid comes from
+// outside the box in any case.
 vec3 way_at(vec3 place)
 {
     vec3 way = fluid.shift.w * textureLod(air_texture, place / float(fluid.cells), 0.0).xyz;

@@ -1,7 +1,9 @@
-// paths.inl - the fastest path of drawing on drivers that were measured, as `hair-bench paths` prints it on them: what the
-// driver's name of its renderer holds, then the path of ribbons and of lines, of both with levels of detail, and of
-// depth.
+// paths.inl - the fastest drawing path on drivers that were measured with `hair-bench paths`. A row
+// has a part of the driver's renderer name, then five paths: for ribbons, for lines, for ribbons
+// and lines with levels of detail, and for depth.
 FASTEST("llvmpipe", EXPANDED, EXPANDED, EXPANDED, EXPANDED, EXPANDED)
-FASTEST("NVIDIA H", COMPUTED, EXPANDED, COMPUTED, EXPANDED, COMPUTED) // few units of Hopper draw
+// Hopper has few graphics units.
+FASTEST("NVIDIA H", COMPUTED, EXPANDED, COMPUTED, EXPANDED, COMPUTED)
 FASTEST("NVIDIA", EXPANDED, EXPANDED, EXPANDED, EXPANDED, TESSELLATION)
-FASTEST("", TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION) // of any other
+// Any other driver.
+FASTEST("", TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION, TESSELLATION)

@@ -1,4 +1,5 @@
-// functions.inl - every OpenGL function the library calls: return type, name without gl, parameters.
+// functions.inl - every OpenGL function that the library calls: return type, name without "gl",
+// parameters.
 FUNCTION(void, ActiveTexture, (GLenum))
 FUNCTION(void, AttachShader, (GLuint, GLuint))
 FUNCTION(void, BeginTransformFeedback, (GLenum))

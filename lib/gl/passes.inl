@@ -1,7 +1,7 @@
-// passes.inl - every pass: its name in code, its name in reports, what it may be compiled with, and what it is made of:
-// definitions, and stages under glsl/. A stage after NAME? is there only in programs compiled with NAME, after !NAME? only in those
-// compiled without.
-// Read by the enums, the compiler, the tests and `make glsl`.
+// passes.inl - every pass: its name in code, its name in reports, its features, and its definitions
+// and stages under glsl/. A stage after NAME? exists only in programs compiled with NAME. A stage
+// after !NAME? exists only in programs compiled without NAME. The enums, the compiler, the tests
+// and `make glsl` read this table.
 #ifndef FEATURE
 #define FEATURE(name, define)
 #endif
@@ -9,38 +9,43 @@
 #define PASS(name, label, features, stages)
 #endif
 
-// What a pass is compiled with only where it is wanted: what a scene has none of, its programs do not know. Programs are made
-// when first needed, in whatever mixture that is.
-FEATURE(ROD, "HAIR_ROD")                 // guides are rods, with frames
-FEATURE(WIND, "HAIR_WIND")
-FEATURE(TIED, "HAIR_TIED")               // vertices are tied
-FEATURE(SKINNED, "HAIR_SKINNED")         // roots ride on a skinned scalp
-FEATURE(CROWD, "HAIR_CROWD")             // hair feels other hair
-FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE") // else a work group
-FEATURE(FIRST, "HAIR_FIRST")             // only what the solver's own method can do
-FEATURE(LISTED, "HAIR_LISTED")           // only guides of which FIRST has left that
-FEATURE(MIXED, "HAIR_MIXED")             // guides are solved by turns and forces of segments
-FEATURE(SOLIDS, "HAIR_SOLIDS")           // few
-FEATURE(ANY, "HAIR_ANY")                 // any number of them
-FEATURE(FEW, "HAIR_FEW_GUIDES")         // that wait for memory, and leave room for what they keep of it
-FEATURE(BODIES, "HAIR_BODIES")           // such that are no capsules among them
-FEATURE(HITS, "HAIR_HITS")               // followers have met solids
-FEATURE(DEPTH, "HAIR_DEPTH")             // no colour
-FEATURE(FIBRES, "HAIR_FIBRES")           // the colour of fibres, else of lines
-FEATURE(LINES, "HAIR_LINES")             // else ribbons
-FEATURE(STYLED, "HAIR_STYLED")           // the look kinks, curls or cuts followers
-FEATURE(TINTED, "HAIR_TINTED")           // strands have colours or places on the scalp of their own
-FEATURE(PAINTED, "HAIR_PAINTED")         // strands have colours of the groom
-FEATURE(IDS, "HAIR_IDS")                 // numbers in place of colour
-FEATURE(MOTION, "HAIR_MOTION")           // velocities in place of colour
-FEATURE(SHARES, "HAIR_SHARES")           // strands cover shares of pixels
-FEATURE(BLOCKED, "HAIR_BLOCKED")         // bodies block lights
-FEATURE(SHADED, "HAIR_SHADED")           // vertices have been shaded by compute
-FEATURE(WIDENED, "HAIR_WIDENED")         // strands may be wider for others that are left out
-FEATURE(HIDDEN, "HAIR_HIDDEN")           // patches may be hidden by what the host has drawn
+// Optional features of programs. A program contains only the features that its scene needs.
+// Programs are made when first needed, with any combination of features.
+FEATURE(ROD, "HAIR_ROD")                 // Guides are rods, with frames.
+FEATURE(WIND, "HAIR_WIND") // Wind blows.
+FEATURE(TIED, "HAIR_TIED")               // Vertices are pinned.
+FEATURE(SKINNED, "HAIR_SKINNED")         // Roots move with a skinned scalp.
+FEATURE(CROWD, "HAIR_CROWD")             // The hair-hair grid acts on guides.
+// One thread per guide. Otherwise one work group per guide.
+FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE")
+FEATURE(FIRST, "HAIR_FIRST")             // Only the solver's own method.
+FEATURE(LISTED, "HAIR_LISTED")           // Only guides at which FIRST failed.
+FEATURE(MIXED, "HAIR_MIXED") // Rotations and forces of segments are the unknowns of guides.
+FEATURE(SOLIDS, "HAIR_SOLIDS")           // Colliders are near. Without ANY there are few.
+FEATURE(ANY, "HAIR_ANY")                 // Any number of colliders.
+// Few guides: they wait for memory, and have registers to cache what they read.
 
-// A work group per guide and a thread per vertex: a group of 256 threads on guides of 32 vertices would wait for those that do
-// nothing.
+// Few guides, which have registers to cache what they read, since they wait for memory.
+FEATURE(FEW, "HAIR_FEW_GUIDES")
+FEATURE(BODIES, "HAIR_BODIES")           // Some colliders are not capsules.
+FEATURE(HITS, "HAIR_HITS")               // Some followers are inside colliders.
+FEATURE(DEPTH, "HAIR_DEPTH")             // Depth without colour.
+FEATURE(FIBRES, "HAIR_FIBRES")           // HAIR_SHADING_FIBRES. Otherwise HAIR_SHADING_LINES.
+FEATURE(LINES, "HAIR_LINES")             // Lines. Otherwise ribbons.
+FEATURE(STYLED, "HAIR_STYLED")           // The look kinks, curls or cuts followers.
+FEATURE(TINTED, "HAIR_TINTED") // Strands have colours or positions on the scalp of their own.
+FEATURE(PAINTED, "HAIR_PAINTED")         // Strands have the groom's colours.
+FEATURE(IDS, "HAIR_IDS")                 // Numbers in place of colour.
+FEATURE(MOTION, "HAIR_MOTION")           // Velocities in place of colour.
+FEATURE(SHARES, "HAIR_SHARES")           // Strands cover fractions of pixels.
+FEATURE(BLOCKED, "HAIR_BLOCKED")         // Opaque geometry blocks lights.
+FEATURE(SHADED, "HAIR_SHADED")           // A compute pass has shaded the vertices.
+// Strands may be wider to compensate for strands that are left out.
+FEATURE(WIDENED, "HAIR_WIDENED")
+FEATURE(HIDDEN, "HAIR_HIDDEN")           // Occlusion culling may have hidden patches.
+
+// Sizes of work groups with one work group per guide and one thread per vertex. In a group of 256
+// threads for a guide of 32 vertices most threads would be idle.
 #define SIZES HAIR_GL_SIZES
 #define WITH(name) HAIR_GL_WITH(name)
 #define STRAND_FEATURES \

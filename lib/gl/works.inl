@@ -1,5 +1,6 @@
-// works.inl - what an instance does, in order: its name in code, its name in reports, and how the labels of its passes
-// begin. The first row that fits is a pass's own; what draws depth or opacity is compiled to.
+// works.inl - the work of an instance, in order: its name in code, its name in reports, and the
+// prefix of the labels of its passes. A pass belongs to the first row that fits. Passes that draw
+// depth or opacity are found by their features.
 WORK(PLACE, "place", "sim/reset")
 WORK(TURN, "turn", "sim/turn")
 WORK(SCALP, "scalp", "sim/scalp")
