@@ -710,9 +710,9 @@ struct hair_energy {
 };
 HAIR_SIZE(hair_energy, 32)
 
-// A strand that is interpolated while drawing. With t from 0 at its root to 1 at its tip, u = t
-// length_ratio, g_k(u) and F_k(u) the position and frame of guide k, and o(t) the cubic Bezier
-// curve of `offset`:
+// A strand that is interpolated while drawing. t goes from 0 at its root to 1 at its tip, and u = t
+// length_ratio. g_k(u) and F_k(u) are the position and frame of guide k. o(t) is the cubic Bezier
+// curve of `offset`.
 //   single(t) = g_0(u) + F_0(u) o(t)
 //   multi(t)  = (1 - weight1 - weight2) g_0(u) + weight1 g_1(u) + weight2 g_2(u)
 //               + F_0(u) (offset[1..3].w)

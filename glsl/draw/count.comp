@@ -1,6 +1,6 @@
-// count.comp - a prefix sum of the number of drawn strands over patches, which gives each patch's
-// first strand in the list, and the commands that draw the list. One work group, in which each
-// thread counts a run of patches.
+// count.comp - a prefix sum of the number of drawn strands over patches, and the commands that draw
+// the list of strands. The sum gives each patch's first strand in the list. One work group, in
+// which each thread counts a run of patches.
 #version 450 core
 #include "patch.glsl"
 #include "workgroup.glsl"

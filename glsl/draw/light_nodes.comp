@@ -1,5 +1,6 @@
-// light_nodes.comp - for every grid node with hair, the number of strands and colliders that each
-// light meets on its way, and the visible fraction of the sky. Each thread covers several nodes.
+// light_nodes.comp - self-shadowing at every grid node with hair: the number of strands and
+// colliders on the way to each light, and the visible fraction of the sky. Each thread covers
+// several nodes.
 //
 // Steps are one cell long. The first midpoint is one cell away, because a strand must not shade
 // itself. All hair counts as if it lay across the light.

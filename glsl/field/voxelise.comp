@@ -1,5 +1,5 @@
-// voxelise.comp - one brick of the distance field. It holds the exact distance from the centre of
-// each voxel to the nearest of the colliders that reach into the brick, and the number of that
+// voxelise.comp - one brick of the distance field. Each voxel gets the exact distance from its
+// centre to the nearest of the colliders that reach into the brick, and the number of that
 // collider. One work group per brick, one thread per voxel.
 #version 450 core
 #include "field_params.glsl"

@@ -23,7 +23,6 @@ FEATURE(LISTED, "HAIR_LISTED")           // Only guides at which FIRST failed.
 FEATURE(MIXED, "HAIR_MIXED") // Rotations and forces of segments are the unknowns of guides.
 FEATURE(SOLIDS, "HAIR_SOLIDS")           // Colliders are near. Without ANY there are few.
 FEATURE(ANY, "HAIR_ANY")                 // Any number of colliders.
-// Few guides: they wait for memory, and have registers to cache what they read.
 
 // Few guides, which have registers to cache what they read, since they wait for memory.
 FEATURE(FEW, "HAIR_FEW_GUIDES")
