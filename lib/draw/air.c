@@ -1,13 +1,15 @@
-// air.c - air, drawn for debugging: arrows in a slice of the field's box.
+// air.c - arrows that show the wind in a slice of the field's box, drawn for debugging.
 #include <math.h>
 
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-#define ARROWS 40 // along the longest side
-#define AROUND 1.5f // of the box, and of air so much: as far as the fluid goes unless the wind says
+#define ARROWS 40 // Number of arrows along the longest side of the box.
+// Side of the slice of arrows, in sides of the field's box. The fluid's default grid is as large.
+#define AROUND 1.5f
 
-// That of the wind, or else of a source, or of what only a texture knows, 1 m/s.
+// Return the speed that is drawn grey, in m/s. It is the speed of the wind, or of the first source
+// with a speed. If only a texture gives velocities, it is 1 m/s.
 static float grey_speed(const hair_wind* wind)
 {
     float speed = hair_length(hair_load3(wind->velocity));
@@ -45,7 +47,7 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
                           const struct hair_pose* head, const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
-    GLuint buffer = 0; // Made each time: who looks at no air has none.
+    GLuint buffer = 0; // Created for each draw, so that no memory stays when the wind is not drawn.
     hair_vec4 turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     struct hair_shown_params params = {.rotation = turn};
     struct hair_draw_params own;
@@ -65,7 +67,8 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
     hair_gl_begin(gl, HAIR_GL_AIR);
     gl->DrawArraysInstanced(GL_TRIANGLES, 0, 3, (GLsizei)arrows);
     hair_gl_end(gl, HAIR_GL_AIR);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, NULL); // Before it is deleted: see state.c.
+    // Unbind the buffer before it is deleted. See state.c.
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, NULL);
     hair_gl_free_buffer(gl, &buffer);
     return HAIR_OK;
 }

@@ -1,5 +1,5 @@
-// blend.c - what shares of pixels take of the host's state: blending of the first draw buffer by alpha, and no depth is written. It
-// is put back at once, as in prepass.c.
+// blend.c - blending by alpha into the first draw buffer without depth writes. Only coverage passes
+// need this state, and they restore it at once, like prepass.c.
 #include "lib/draw/draw.h"
 
 void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was)

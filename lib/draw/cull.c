@@ -1,11 +1,11 @@
-// cull.c - whether a view can show any of the hair, decided without looking at where it is: by how far it can get.
+// cull.c - view culling of a whole instance by its maximum extent, without reading vertices.
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define GIVE 1.1f // as in glsl/detail.glsl
-#define WIDEST 16.0 // that a map and the groom make a strand, as a multiple
-#define EDGE 8.0 // pixels beyond the picture's edge: ribbons are widened to the pixels that they touch
+#define GIVE 1.1f // Allowance for stretched hair, as in glsl/detail.glsl.
+#define WIDEST 16.0 // Maximum factor by which maps and the groom widen a strand.
+#define EDGE 8.0 // Margin in pixels, because ribbons are widened to the pixels that they touch.
 
 double hair_draw_edge(float pixels, float jitter)
 {
@@ -39,7 +39,7 @@ double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
            pow(fmax((double)(lod->strands * (lod->dynamic ? lod->least : 1)), 1e-6), -(double)lod->width);
 }
 
-// Beyond the box of roots, m.
+// Return how far hair reaches beyond the box of roots, in metres.
 static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
 {
     const hair_look* look = &draw->look;
@@ -55,7 +55,8 @@ static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)
                    i & 4 ? e->upper.z + r : e->lower.z - r);
 }
 
-// In double, since far out the head's place and what it is multiplied by nearly cancel.
+// Transform a corner to clip space. Use doubles, because far from the world's origin the head's
+// position and the view matrix nearly cancel.
 static void find_corner(const hair_view* view, const struct hair_pose* head, hair_vec3 corner, double clip[4])
 {
     hair_vec3 at = hair_rotate(head->rotation, corner);
@@ -67,7 +68,8 @@ static void find_corner(const hair_view* view, const struct hair_pose* head, hai
     for (int i = 0; i < 16; ++i) clip[i % 4] += (double)view->projection[i] * eye[i / 4];
 }
 
-// What is outside of one of these by all corners of a box is so by the whole box: each is linear in clip space.
+// Bits of the clip planes. A box whose corners are all outside one plane is wholly outside it,
+// because each plane is linear in clip space.
 enum { LEFT, RIGHT, BELOW, ABOVE, BEHIND, FAR, NEAR, SIDES };
 
 static unsigned find_outside(const double clip[4], const double edge[2])
@@ -92,7 +94,7 @@ int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pos
         find_corner(view, head, corner_of(&draw->extent, reach, i), clip);
         outside &= find_outside(clip, edge);
     }
-    // Depth may be clamped, and then nothing is cut off near or far.
+    // If depth clamping is enabled, the near and far planes cut nothing off.
     if (outside & (1u << FAR | 1u << NEAR))
         if (gl->IsEnabled(GL_DEPTH_CLAMP)) outside &= ~(1u << FAR | 1u << NEAR);
     return outside != 0;
@@ -108,7 +110,8 @@ void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose*
         hair_vec3 at = hair_rotate(head->rotation, corner_of(&draw->extent, reach, i));
         float placed[4] = {at.x, at.y, at.z, 1}, out[4] = {0};
         for (int k = 0; k < 16; ++k) out[k % 4] += matrix[k] * placed[k / 4];
-        if (!(out[3] > 0)) return; // Beside the eye, hair may be anywhere.
+        // Hair beside or behind the eye may be anywhere, so the window stays as it is.
+        if (!(out[3] > 0)) return;
         for (int k = 0; k < 2; ++k) {
             all[k] = fminf(all[k], out[k] / out[3]);
             all[2 + k] = fmaxf(all[2 + k], out[k] / out[3]);

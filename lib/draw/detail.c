@@ -1,11 +1,13 @@
-// detail.c - the level of detail, from what the application asks for to what detail.glsl weighs for each patch.
+// detail.c - conversion of the application's level-of-detail settings to the values that
+// detail.glsl uses for each patch.
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define EVERYWHERE 1e30f // m: a plane so far behind everything cuts nothing off
+#define EVERYWHERE 1e30f // Distance in metres of a plane that cuts nothing off.
 
-// The half space { p : edge w(p) + sign row(p) >= 0 } of clip space, with a unit normal.
+// Return the half space { p : edge w(p) + sign row(p) >= 0 } of clip space as a plane with a unit
+// normal. The plane is in the space that `clip` transforms from.
 static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
     float p[4];
@@ -17,7 +19,8 @@ static hair_vec4 find_side(const float clip[16], int row, float sign, float edge
     return plane;
 }
 
-// Beyond the picture's edges by what strands are widened.
+// Write the side planes of the view. They lie beyond the viewport's edges by the amount that
+// strands are widened.
 static void write_sides(const struct hair_draw* draw, const hair_view* view, struct hair_draw_params* out)
 {
     float matrix[16], projection[16], clip[16];
@@ -33,7 +36,7 @@ static void write_sides(const struct hair_draw* draw, const hair_view* view, str
     out->culls = 1;
 }
 
-// How many pixels a step along the view's y axis crosses, where w of clip space is 1.
+// Return how many pixels a unit step along the view's y axis covers where w of clip space is 1.
 static float find_scale(const struct hair_draw* draw, const float projection[16])
 {
     GLfloat viewport[4] = {0};
@@ -41,10 +44,11 @@ static float find_scale(const struct hair_draw* draw, const float projection[16]
     return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
 }
 
-#define CELL 2.0f // pixels: as fine as light need be
-#define LED 0.005f // m: what leads followers round solids moves them so far
+#define CELL 2.0f // Smallest useful cell of the self-shadow grid, in pixels.
+#define LED 0.005f // Typical displacement of followers pushed out of colliders, in metres.
 
-// Nearest to the eye; everywhere with an orthographic projection.
+// Return the pixels per metre at the point of the hair's bounding sphere that is nearest to the
+// eye. With an orthographic projection the scale is constant.
 static float pixels_of(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view)
 {
     const hair_vec3 middle =
@@ -73,7 +77,7 @@ float hair_draw_cell(const struct hair_draw* draw, const hair_view* view)
     return view->lod && draw->pixels > 0 ? fmaxf(draw->look.voxel, CELL / draw->pixels) : draw->look.voxel;
 }
 
-// Of all strands, about.
+// Return about which fraction of all strands is drawn.
 static double find_share(const struct hair_draw* draw, const hair_lod* lod)
 {
     float width = 2 * draw->look.radius * draw->pixels;
@@ -96,7 +100,7 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
     out->segment_pixels = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
     out->least_share = lod->least;
     out->hidden_share = lod->hidden;
-    // Where roots are held, no strand leaves its patch's reach; where they are free there is no saying.
+    // Only where roots are attached does every strand stay within the reach of its patch.
     if (draw->bounded) write_sides(draw, view, out);
     if (lod->hidden < 1 && draw->bounded) {
         hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->skull.x, draw->skull.y, draw->skull.z));

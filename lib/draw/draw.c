@@ -1,4 +1,5 @@
-// draw.c - tessellated strands in batches, as lines or ribbons, in colour or depth; guides for debugging.
+// draw.c - passes that draw strands as lines or ribbons, in colour, depth and other outputs, and
+// guides for debugging.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
@@ -72,7 +73,7 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
 }
 
-// What only colour needs.
+// Bind the textures that only the colour pass reads.
 static void bind_light(struct hair_draw* draw, const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
@@ -99,7 +100,8 @@ void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
     }
 }
 
-// Patches of one draw: as many as generate no more vertices than the driver keeps, all having the most isolines.
+// Return how many patches one draw may hold so that it generates no more vertices than the driver
+// handles. Count every patch with the maximum number of isolines.
 static uint32_t batch_size(const struct hair_draw* draw)
 {
     uint32_t segments = draw->look.segments;
@@ -121,14 +123,16 @@ void hair_draw_patches(struct hair_draw* draw)
     }
 }
 
-// What is drawn with: a program, and the pass that it counts as; and what its vertices are shaded or staged with before, 0: nothing.
+// Programs of one draw: the main pass, and an optional pass that shades or writes vertices before
+// it.
 struct drawn {
     hair_gl_pass pass, shade_pass;
     GLuint program, shade;
-    int hides; // patches may be hidden, as `hide` has it
+    int hides; // Nonzero if patches are tested for occlusion with `hide`.
     struct hair_hide_params hide;
-    // Of pixels that are made by compute: where, and whether there are none.
+    // Parameters of compute rasterisation.
     struct hair_raster_params raster;
+    // Nonzero if compute rasterisation has no pixels to cover.
     int nowhere;
 };
 
@@ -147,7 +151,7 @@ static int is_painted(const struct hair_draw* draw, const hair_view* view)
     return view->pass == HAIR_PASS_COLOR && draw->paint && draw->look.groom_colors > 0;
 }
 
-// Whether uvs are asked for, and there are some.
+// Return nonzero if the draw needs root uvs and the groom has them.
 static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const struct hair_gl_shader* shader)
 {
     return is_textured(draw, view) || (shader && hair_draw_has_uvs(draw));
@@ -173,11 +177,11 @@ static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* v
     return features;
 }
 
-// What shading wants, where a pass of its own does that.
+// Features of shading, for views that shade vertices in a separate pass.
 #define SHADE_FEATURES                                                                                       \
     (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(TINTED) | HAIR_GL_WITH(PAINTED) | HAIR_GL_WITH(BLOCKED))
 
-// What making pixels by compute does.
+// Features of compute rasterisation.
 #define RASTER_FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 
 static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
@@ -189,7 +193,8 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
     return result;
 }
 
-// The pass that draws; and the one that shades or stages vertices before it, 0: there is none.
+// Return the pass that draws. Set *shade to the pass that shades or writes vertices before it, or
+// to 0 if there is none.
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
@@ -235,7 +240,8 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     if (!result && view->path == HAIR_PATH_COMPUTED)
         result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
-    for (int i = 0; i <= meets && !result; ++i) { // until they have met any, and then
+    // Compile the variants without follower collision, then those with it.
+    for (int i = 0; i <= meets && !result; ++i) {
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
         if (shade)
             result = need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader, &program);
@@ -275,7 +281,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
     if (hair_draw_is_shared(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
-    gl->Disable(GL_CULL_FACE); // A ribbon faces the eye either way round.
+    gl->Disable(GL_CULL_FACE); // A ribbon faces the eye with either side.
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
     if (hair_draw_covers(view)) hair_draw_begin_blend(gl, &was);
@@ -300,7 +306,7 @@ static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* h
     return result || out->nowhere ? result : hair_draw_need_raster(draw, with, &out->raster);
 }
 
-// What followers are drawn with and from, made and brought up to date.
+// Compile the programs and create or update the buffers that drawing followers needs.
 static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* smooth,
                               const struct hair_pose* head, const hair_view* view,
                               struct hair_gl_shader* shader, struct drawn* out)
@@ -351,7 +357,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     if (is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);
     if (params.textured) {
         draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
-        draw->gl->BindSampler(HAIR_UNIT_COLOR, 0); // The host's texture has its own.
+        // Use the sampler state of the application's texture.
+        draw->gl->BindSampler(HAIR_UNIT_COLOR, 0);
     }
     if (guides)
         draw_guides(draw);

@@ -1,4 +1,4 @@
-// draw.h - guides to pixels: what patches are drawn in which batches, with which parameters.
+// draw.h - passes from smoothed guides to pixels, with their buffers and parameters.
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
@@ -13,22 +13,25 @@
 #include "lib/draw/sorted.h"
 #include "lib/draw/staged.h"
 
-// The table of fibre.h, made when it is first needed, of the fibres that were asked for last.
+// Texture of the table in fibre.h, created on demand for the fibre parameters requested last.
 struct hair_fibres {
     GLuint texture;
     struct hair_fibre of;
 };
 
-// tint.c: make a look as wet as it is asked to be.
+// Apply the wetness of a look to its other settings. Defined in tint.c.
 void hair_look_soak(hair_look* look);
 
-// How far hair gets whose roots are held, in the head's frame: from the box of roots, and how long it is. m
+// Maximum extent of the hair in the head's frame while roots are attached.
 struct hair_extent {
+    // Box of the roots.
     hair_vec3 lower, upper;
+    // Maximum distance of a strand from its root, and length of the longest strand, in metres.
     float reach, length;
 };
 
-// What only some views need: it is made when one first does, and freed once for long none has.
+// Resources that only some views need. Each is created on demand, and freed once no view has used
+// it for long.
 enum {
     HAIR_DRAW_LISTED,
     HAIR_DRAW_EXPANDED,
@@ -46,22 +49,26 @@ enum {
 
 struct hair_draw {
     struct hair_gl* gl;
-    uint32_t frame; // as tidy.c was told,
-    uint32_t used[HAIR_DRAW_PARTS]; // and in which each was last needed
-    hair_look look; // soaked
-    GLuint follower, patch, params; // buffers
-    GLuint follower_texture, patch_texture; // the first two, for stages without storage buffers
+    uint32_t frame; // Number of the current frame, set by hair_draw_tidy().
+    uint32_t used[HAIR_DRAW_PARTS]; // Frame in which each part was last used.
+    hair_look look; // Look after hair_look_soak().
+    GLuint follower, patch, params; // Buffers of followers, patches and draw parameters.
+    // Buffer textures of the first two, for stages without storage buffers.
+    GLuint follower_texture, patch_texture;
     uint32_t followers, patches, smooth_vertices, guides;
-    uint32_t most_isolines; // of a patch
+    uint32_t most_isolines; // Maximum number of isolines in a patch.
     uint32_t map_sets;
-    uint32_t driver; // row of paths.inl
-    hair_vec4 skull; // of the groom
-    int bounded; // roots are held: no strand leaves its patch's reach
-    int held; // and neither ties, a skinned scalp nor a solver that stretches takes it anywhere else
-    // Of the view: how many pixels a metre is at most to its level of detail, 0: that does not matter; and the share of what
-    // leads followers round solids that it shows.
+    uint32_t driver; // Row of paths.inl for this driver.
+    // Sphere under the hair, from the groom. xyz is the centre, w the radius in metres.
+    hair_vec4 skull;
+    int bounded; // Nonzero if roots are attached, so that no strand leaves its patch's reach.
+    // Nonzero if, besides, neither pins, a skinned scalp nor a stretching solver moves strands out
+    // of `extent`.
+    int held;
+    // Maximum pixels per metre of the hair in the view, for level of detail. 0 disables per-patch
+    // level of detail. `led` is the displayed fraction of the displacement by follower collision.
     float pixels, led;
-    uint32_t seated; // for which run of smooth.comp followers are
+    uint32_t seated; // Run of smooth.comp for which roots of followers last moved with the scalp.
     struct hair_extent extent;
     struct hair_hits hits;
     struct hair_listed listed;
@@ -73,181 +80,228 @@ struct hair_draw {
     struct hair_staged staged;
     struct hair_self_shadow self_shadow;
     struct hair_hidden hidden;
-    struct hair_seats* seats; // where roots are on the scalp; NULL: there is none
-    GLuint uv, uv_texture; // 0 until they are needed
-    GLuint paint, paint_texture; // colours of the groom; 0: it has none
-    hair_vec4 reach; // where hair can be, in the head's frame: a ball, w: its radius, m
+    struct hair_seats* seats; // Root bindings to the scalp. NULL if there is no scalp.
+    GLuint uv, uv_texture; // Root uvs. 0 until needed.
+    GLuint paint, paint_texture; // Colours of the groom. 0 if there are none.
+    // Bounding sphere of the hair in the head's frame. xyz is the centre, w the radius in metres.
+    hair_vec4 reach;
 };
 
 hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
                              const struct hair_sim* sim);
 void hair_draw_destroy(struct hair_draw* draw);
 
-// seats.c: make ready for a skinned scalp; and put followers where it has them, once they are smooth.
+// Prepare followers for a skinned scalp. Defined in seats.c.
 hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim);
+// Move the roots of followers with the skinned scalp, once the guides are smoothed. Defined in
+// seats.c.
 void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
 
-// hits.c: find the followers that are inside solids, and lead them out, before either of the below. `field`: NULL: no
-// solid is near. margin: what guides keep from solids, m.
+// Find the followers inside colliders and push them out. Call this before followers are drawn or
+// written. NULL `field` means that no collider is near. `margin` is the distance that guides keep
+// from colliders, in metres. Defined in hits.c.
 hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
                                   const struct hair_solid_field* field, float margin);
+// Compile the programs of follower collision.
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
+// Return nonzero if follower collision is up to date with the guides and colliders.
 int hair_draw_has_met_solids(const struct hair_draw* draw,
-                             const struct hair_smooth* smooth); // since they moved
+                             const struct hair_smooth* smooth);
 void hair_draw_free_hits(struct hair_draw* draw);
-// prepass.c: with everything bound that makes followers, leave the first vertex inside in hits.image.
+// Create the image and the framebuffer of the prepass. Defined in prepass.c.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
+// Write the first vertex of each follower inside a collider to hits.image. The inputs of followers
+// must be bound.
 void hair_draw_run_prepass(struct hair_draw* draw);
-void hair_draw_patches(struct hair_draw* draw); // all of them, with the program that is current
-// The program of `pass` that the look asks for; and of a pass that draws or expands, that heeds what was found where there was
-// a solid.
+// Draw all patches with the current program.
+void hair_draw_patches(struct hair_draw* draw);
+// Return `pass` with the styling features that the look needs.
 hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
+// Return `pass` with the features that the look and, near colliders, follower collision need.
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass); // and compile it
-// Buffers, textures and parameters of passes that make followers.
+// Apply hair_draw_choose() to *pass and compile its program.
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+// Bind the buffers, textures and parameters that the vertices of followers are computed from.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 
-// tidy.c: a frame begins, or goes on; free what none of the last ones needed.
+// Begin or continue frame number `frame`. Free the parts that recent frames did not use. Defined in
+// tidy.c.
 void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
 
-// places.c: where roots are by the scalp's uvs, of a groom that has them.
+// Return nonzero if the groom has root uvs. Defined in places.c.
 int hair_draw_has_uvs(const struct hair_draw* draw);
+// Create the buffer and the texture of root uvs.
 hair_result hair_draw_need_uvs(struct hair_draw* draw);
 void hair_draw_free_uvs(struct hair_draw* draw);
 
-// fibres.c: the table that colour needs, with the look as it is.
+// Create or update the fibre table for the current look. Defined in fibres.c.
 hair_result hair_draw_need_fibres(struct hair_draw* draw);
 void hair_draw_free_fibres(struct hair_draw* draw);
 
-// self_shadow.c: find what light comes to vertices, if the look wants that for `view`; and how many numbers of each vertex
-// there are then, else 0. The texture of those, and the host's shadow maps, where shaders look for them.
+// Compute the light that reaches each vertex, if the look requests self-shadowing for `view`.
+// Defined in self_shadow.c.
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
                                  const struct hair_pose* head, const hair_view* view);
+// Return the number of light values per vertex, or 0 without self-shadowing.
 uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
+// Bind the application's shadow maps to their texture units. Defined in draw.c.
 void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
 void hair_draw_free_self_shadow(struct hair_draw* draw);
 
-// listed.c: what draws without a tessellator, and what OpenGL draws their segments by. With everything bound that makes
-// followers, list those that are drawn; draw them with the program that is current, by their ends or `paired` by both sides
-// of those.
+// Create the buffers of the strand list and compile its programs. Nonzero `hides` includes
+// occlusion culling. Defined in listed.c.
 hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
+// Create the index buffer of an instance of strands. Nonzero `paired` selects two vertices per
+// strand point.
 hair_result hair_draw_make_indices(struct hair_draw* draw, int paired);
 void hair_draw_free_listed(struct hair_draw* draw);
-// Unless they are listed, as `params` and the smoothed guides have them; without those that are hidden, where that was asked.
+// List the strands that are drawn, unless the list is up to date with `params` and the smoothed
+// guides. Nonzero `hides` leaves out occluded patches and always rebuilds the list. The inputs of
+// followers must be bound.
 void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
                     const struct hair_draw_params* params, int hides);
+// Draw the listed strands with the current program. Nonzero `paired` draws triangles between two
+// vertices per strand point. Otherwise draw lines.
 void hair_draw_listed(struct hair_draw* draw, int paired);
 
-// path.c: look the driver up; the path that `view` is drawn by, found once, since GL may be asked for its viewport: all else
-// reads it from view->path.
+// Find the row of paths.inl for the driver. Defined in path.c.
 void hair_draw_find_fastest(struct hair_draw* draw);
+// Return the render path of `view`. Call this once per view, because it may query the viewport. All
+// other code reads the path from view->path.
 hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
-// Whether the path takes vertices of all followers, that are written once; or has its own. Whether a view wants shares of pixels,
+// Return nonzero if the path reads the vertex cache of all followers.
 int hair_draw_expands(const hair_view* view);
+// Return nonzero if the path reads per-view vertices.
 int hair_draw_stages(const hair_view* view);
-int hair_draw_stages_sides(const hair_view* view); // in clip space, to be drawn as they are
+// Return nonzero if per-view vertices are in clip space, ready to draw.
+int hair_draw_stages_sides(const hair_view* view);
+// Return nonzero if strands are blended by their coverage of pixels.
 int hair_draw_is_shared(const hair_view* view);
-int hair_draw_covers(const hair_view* view); // or these alone, of a light's opacity
-// Ribbons of vertices that are there take no geometry shader, but each twice.
+// Return nonzero if the pass draws coverage, either blended colour or the opacity seen from a
+// light.
+int hair_draw_covers(const hair_view* view);
+// Return nonzero if ribbons are drawn without a geometry shader, from two vertices per strand
+// point.
 int hair_draw_is_paired(const hair_view* view);
-// lights.c: whether it has maps of bodies that block lights.
+// Return nonzero if a light of the colour pass has an opaque shadow map. Defined in lights.c.
 int hair_draw_is_blocked(const hair_view* view);
 
-// detail.c: `view` is what is drawn or lit next; NULL: all followers are asked for as they are. What leads them round solids is
-// shown where it moves them by two pixels, and not at all where by one: then they need not meet any.
+// Select the level of detail for `view`, which is drawn or lit next. NULL selects all followers in
+// full detail. Followers show their whole collision displacement where it covers two pixels. They
+// show none where it covers one pixel, and then need no collision. Defined in detail.c.
 void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view);
 
-// cull.c: how far hair gets; and whether so far none of it is in what `view` shows, which has been checked.
+// Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
+// Return nonzero if hair with attached roots cannot be inside `view`, which must be validated.
 int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
                              const hair_view* view);
 
-// All programs that drawing so runs, also once followers have met solids where there `may_meet` any.
+// Compile all programs that drawing `view` needs. Nonzero `may_meet` includes those for followers
+// that have met colliders.
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
                                     struct hair_gl_shader* shader, int may_meet);
 
-// Draw as `view` asks, with the head's origin at `head`. `view` has been checked. shader: of the host; NULL: ours.
+// Draw `view`, which must be validated, with the head's origin at `head`. `shader` is the
+// application's. NULL selects the built-in shading.
 hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader);
 
-// Draw solids, and where `view` asks for it a slice of the field, which then is up to date.
+// Draw the colliders, and a slice of the field if `view` requests it. A slice needs an up-to-date
+// field.
 hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
                              const hair_solid* solids, uint32_t count, const struct hair_pose* head,
                              const hair_view* view);
 
-// air.c: air as the last step had it, around what the field's box holds. fluid: NULL where none is.
+// Draw the wind as of the last step, in and around the field's box. NULL `fluid` means that there
+// is no fluid. Defined in air.c.
 hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, const hair_wind* wind,
                           const struct hair_fluid* fluid, const struct hair_field_box* box,
                           const struct hair_pose* head, const hair_view* view);
 
-// expanded.c: vertices of all followers, look.segments + 1 each, written unless they are there; what draws them reads them.
-// drawn: parameters of a view, then only of those that it draws, each time. Whether those of all are there; and how many
-// work groups of a pass over such a share of them are for each patch.
-size_t hair_draw_count_vertices(const struct hair_draw* draw); // of all followers
+// Return the number of vertices of all followers, look.segments + 1 each. Defined in expanded.c.
+size_t hair_draw_count_vertices(const struct hair_draw* draw);
+// Write the vertex cache unless it is up to date. With parameters of a view in `drawn`, write only
+// the vertices that the view draws, on every call.
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn);
+// Return nonzero if the cache holds up-to-date vertices of all followers.
 int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
+// Return the number of work groups per patch of a pass over the fraction `share` of all vertices.
 uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
 void hair_draw_free_expanded(struct hair_draw* draw);
 void hair_draw_bind_expanded(struct hair_draw* draw);
 
-// shaded.c: whether a view's vertices are shaded before they are drawn; room for that; and do it, with everything bound that draws.
+// Return nonzero if vertices of `view` are shaded in a pass before drawing. Defined in shaded.c.
 int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
+// Create the buffer of shaded vertices.
 hair_result hair_draw_need_shaded(struct hair_draw* draw);
 void hair_draw_free_shaded(struct hair_draw* draw);
+// Shade the vertices with `program`. The inputs of drawing must be bound.
 void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
-// motion.c: with vertices that are up to date, begin a frame, or go on with it; before vertices are written anew, keep those
-// that the frame before has shown; what was seen goes along with a head that is teleported.
+// Create the buffer of the previous frame's vertices. Defined in motion.c.
 hair_result hair_draw_need_motion(struct hair_draw* draw);
 void hair_draw_free_motion(struct hair_draw* draw);
+// Begin frame number `frame`, or continue it. The vertices must be up to date.
 void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame);
+// Keep the vertices that the previous frame displayed, before they are overwritten.
 void hair_draw_keep_shown(struct hair_draw* draw);
+// Move the previous frame's positions with a head that is teleported.
 void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
+// Bind the previous frame's vertices.
 void hair_draw_bind_motion(struct hair_draw* draw);
 
-// sorted.c: segments of the strands that are listed from far to near; drawn with the program that is current, blended.
+// Create the buffers of sorted segments and compile their programs. Defined in sorted.c.
 hair_result hair_draw_need_sorted(struct hair_draw* draw);
 void hair_draw_free_sorted(struct hair_draw* draw);
+// Sort the segments of the listed strands from far to near.
 void hair_draw_sort(struct hair_draw* draw);
+// Draw the sorted segments with the current program. The caller enables blending.
 void hair_draw_sorted(struct hair_draw* draw);
 
-// staged.c: room for vertices of listed strands as a view wants them; write them, and have them read in place of those that are
-// expanded.
+// Create the buffers of per-view vertices. Defined in staged.c.
 hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view);
 void hair_draw_free_staged(struct hair_draw* draw);
+// Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
 void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 
-// raster.c: where in the window hair is to be looked for, and with what samples; 0: nowhere. `with`: HAIR_GL_WITH(DEPTH),
-// else colour too, and HAIR_GL_WITH(WIDENED) of what is staged. Buffers for that; with everything bound that draws expanded strands, find what their samples see; and
-// draw that with the program that is current.
+// Find the pixels of the window that hair may cover, and their sample positions. Return 0 if there
+// are none. Defined in raster.c.
 int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_raster_params* out);
+// Create the buffers of compute rasterisation. HAIR_GL_WITH(DEPTH) in `with` selects depth without
+// colour. HAIR_GL_WITH(WIDENED) selects per-view vertices.
 hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                                   const struct hair_raster_params* params);
+// Find the nearest segment at each sample. The inputs of drawing must be bound.
 void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params);
+// Draw the rasterised samples into the framebuffer with the current program.
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
 void hair_draw_free_raster(struct hair_draw* draw);
 
-// hidden.c: whether `view` has what may hide hair; and where, if hair can be there at all. Programs and buffers for that; and with
-// everything bound that makes followers, find what patches are hidden.
+// Return nonzero if `view` has an occluder depth texture. Defined in hidden.c.
 int hair_draw_hides(const hair_view* view);
+// Compute the parameters of occlusion culling. Return 0 if no patch can be tested.
 int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                           struct hair_hide_params* out);
+// Create the buffers and compile the programs of occlusion culling.
 hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
+// Find the occluded patches. The inputs of followers must be bound.
 void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params);
 void hair_draw_free_hidden(struct hair_draw* draw);
 
-// blend.c: from one to the other, what is drawn is blended by its alpha and writes no depth.
+// Blending state of the application. Functions of blend.c.
 struct hair_blend {
     GLint equation[2], factor[4];
     GLboolean blends, writes_depth;
 };
+// Blend by alpha and write no depth, until hair_draw_end_blend() restores the state saved in *was.
 void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was);
 void hair_draw_end_blend(struct hair_gl* gl, const struct hair_blend* was);
 
-// Vertices of all followers read back: xyz from the head's origin, radius. The caller frees *out, and has checked that there are no more than
-// UINT32_MAX.
+// Read back the vertices of all followers. xyz is the position from the head's origin, w the
+// radius. The caller frees *out, and has checked that there are at most UINT32_MAX vertices.
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     hair_vec4** out);
 

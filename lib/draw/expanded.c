@@ -1,10 +1,12 @@
-// expanded.c - followers as vertices: written once by compute, then drawn for any number of views, or read back.
+// expanded.c - vertex cache of followers. Compute shaders write it once for any number of views, or
+// for reading back.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
 #include <math.h>
 
-#define MOST_ROUNDS 4096 // of a thread: Mesa's software rasteriser leaves loops after 65,535
+// Maximum iterations of a thread's loop. Mesa's software rasteriser leaves loops after 65,535.
+#define MOST_ROUNDS 4096
 
 size_t hair_draw_count_vertices(const struct hair_draw* draw)
 {
@@ -48,7 +50,8 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     hair_draw_free_motion(draw);
 }
 
-// Whatever moves or changes followers has them looked at for solids again.
+// Return nonzero if the cache is up to date. Whatever moves or changes followers also invalidates
+// follower collision.
 static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     const struct hair_expanded* expanded = &draw->expanded;
@@ -90,7 +93,8 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, buffers);
     hair_gl_run(gl, pass, draw->patches * drawn->chunks);
-    // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+    // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
+    // glBindBufferBase, which also clears the application's generic binding.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, 2, NULL);
     ++expanded->writes;
     expanded->there = !drawn->drawn_only;
@@ -116,7 +120,7 @@ hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_sm
     if (!result)
         gl->GetNamedBufferSubData(draw->expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
                                   vertices);
-    if (!kept) hair_draw_free_expanded(draw); // Only drawing is worth the memory.
+    if (!kept) hair_draw_free_expanded(draw); // Keep the memory only if drawing uses it.
     if (result) {
         hair_free(&gl->host, vertices);
         return result;

@@ -1,4 +1,4 @@
-// fibre.c - a cylinder's lobes, by summing over where on its width a ray comes in.
+// fibre.c - lobes of a dielectric cylinder, summed over the points of its width where a ray enters.
 #include "lib/draw/fibre.h"
 
 #include <math.h>
@@ -6,8 +6,10 @@
 
 #define PI 3.14159265358979
 #define LOBES 4
-#define ANGLES 64 // along the fibre
-#define RAYS 96 // over the width of the fibre, by angle from its middle: close where it grazes
+#define ANGLES 64 // Number of angles along the fibre.
+// Number of rays over the fibre's width, at even angles from its middle and so denser at grazing
+// incidence.
+#define RAYS 96
 
 void hair_fibre_variances(float roughness, float out[3])
 {
@@ -22,7 +24,7 @@ float hair_fibre_scale(float roughness)
     return 0.6266571f * (0.265f * roughness + 1.194f * roughness * roughness + 5.372f * powf(roughness, 22));
 }
 
-// Unpolarised, for light that comes at an angle of that cosine.
+// Return the Fresnel reflectance of unpolarised light for the cosine of its angle of incidence.
 static double reflect(double cosine, double index)
 {
     double t = sqrt(1 - (1 - cosine * cosine) / (index * index));
@@ -35,7 +37,8 @@ static double to_logistic(double x, double scale)
     return 1 / (1 + exp(-x / scale));
 }
 
-// Of an angle, distributed by a logistic that is cut at half a turn to each side, `kept` of it: the density, 1/radian.
+// Return the density, in 1/radian, of a logistic distribution of an angle, truncated to [-pi, pi].
+// `kept` is the probability of that interval.
 static double logistic(double x, double scale, double kept)
 {
     x = x - 2 * PI * floor((x + PI) / (2 * PI));
@@ -43,8 +46,9 @@ static double logistic(double x, double scale, double kept)
     return e / (scale * (1 + e) * (1 + e)) / kept;
 }
 
-// A ray that meets the fibre at an angle `in` round it from its middle: what leaves in each lobe if nothing is absorbed,
-// as a share of all light that comes in; at which angle from where it came; and how far inside it has gone, radii.
+// Paths of a ray that meets the fibre at the angle `in` around it, counted from its middle. `share`
+// is the fraction of all incoming light that leaves in each lobe without absorption. `angle` is the
+// angle from the incoming direction, and `path` the distance inside in radii.
 struct ray {
     double share[LOBES], angle[LOBES], path[LOBES];
 };
@@ -53,7 +57,7 @@ static struct ray trace(double in, double cos_d, double index)
 {
     struct ray ray;
     double sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
-    double bravais = index * cos_t / cos_d; // Index as seen across the fibre.
+    double bravais = index * cos_t / cos_d; // Index of refraction as seen across the fibre.
     double inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
     double leg = 2 * cos(inside) / cos_t;
     double through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
@@ -83,7 +87,7 @@ static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
             double phi = PI * column / (HAIR_FIBRE_COLUMNS - 1), sum[LOBES] = {0}, path[LOBES] = {0};
             for (int i = 0; i < RAYS; ++i)
                 for (int p = 0; p < LOBES; ++p) {
-                    // What has been reflected inside twice or more has lost its direction.
+                    // Light that was reflected inside twice or more has lost its direction.
                     double density = p < 3 ? logistic(phi - rays[i].angle[p], scale, kept) : 0.5 / PI;
                     sum[p] += rays[i].share[p] * density;
                     path[p] += rays[i].share[p] * density * rays[i].path[p];
@@ -95,7 +99,8 @@ static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
     }
 }
 
-static double weight_of(int column) // of a column in a sum over all turns, radians
+// Return the weight of a column in an integral over all azimuths, in radians.
+static double weight_of(int column)
 {
     int end = column == 0 || column == HAIR_FIBRE_COLUMNS - 1;
     return 2 * PI / (HAIR_FIBRE_COLUMNS - 1) * (end ? 0.5 : 1);
@@ -106,7 +111,9 @@ static double angle_of(int i)
     return PI * ((i + 0.5) / ANGLES - 0.5);
 }
 
-// Light comes evenly from one side of the plane through the fibre: at phi from it, phi / pi of it goes on to the other.
+// Return the fractions of light that a fibre sends on and back, and the variances of both. Light
+// comes evenly from one side of a plane through the fibre. At the angle phi from the light, phi /
+// pi of it goes on to the other side.
 static hair_vec4 send(const hair_fibre_table table, int row, double mu, const float variance[3])
 {
     double on = 0, back = 0, on_variance = 0, back_variance = 0;
@@ -127,18 +134,20 @@ static hair_vec4 send(const hair_fibre_table table, int row, double mu, const fl
     return (hair_vec4){(float)on, (float)back, (float)(on_variance / on), (float)(back_variance / back)};
 }
 
-// Log of the modified Bessel function I0, by its integral.
+// Return the logarithm of the modified Bessel function I0, from its integral.
 static double log_bessel(double x)
 {
     double sum = 0;
     for (int i = 0; i < 24; ++i) {
-        double s = sin(PI * (i + 0.5) / 48); // 1 - cos of twice the angle, without losing digits
+        // 2 s^2 is 1 - cos of twice the angle, without losing digits.
+        double s = sin(PI * (i + 0.5) / 48);
         sum += exp(-2 * x * s * s) / 24;
     }
     return x + log(sum);
 }
 
-// As in fibre.glsl, of scales without tilt, for angles above the plane across the fibre.
+// Return the longitudinal scattering for scales without tilt, as in fibre.glsl. Angles are measured
+// from the plane across the fibre.
 static double longitudinal(double light, double eye, double variance)
 {
     double r = 1 / variance, s = variance / (variance + 0.3);
@@ -150,11 +159,14 @@ static double longitudinal(double light, double eye, double variance)
     return m * pow((g + n * pow(cos(light), 3)) * (g + n * pow(cos(eye), 3)), -1.0 / 6);
 }
 
-// Lobes of different widths take light from cones on which they are differently strong, so that together they lose some
-// of what grazes the fibre. A factor for either direction makes up for it (Sinkhorn 1967): by cosine, in every row.
+// Compute a factor by which the table conserves energy. Lobes of different widths take light from
+// cones on which their strengths differ. Together they lose some of the light that grazes the
+// fibre. A factor for the cosine of either direction makes up for the loss (Sinkhorn 1967). Every
+// row holds the factor of its cosine.
 static void balance(hair_fibre_table table, const float variance[3])
 {
-    static const double finest = 4 * (PI / ANGLES) * (PI / ANGLES); // What the sums below resolve.
+    // Smallest variance that the sums below resolve.
+    static const double finest = 4 * (PI / ANGLES) * (PI / ANGLES);
     double lobe[HAIR_FIBRE_ROWS][LOBES] = {{0}}, pair[ANGLES][ANGLES], factor[ANGLES];
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row)
         for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {

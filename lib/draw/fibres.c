@@ -1,9 +1,9 @@
-// fibres.c - the table of fibre.h as a texture.
+// fibres.c - texture of the table in fibre.h.
 #include "lib/draw/draw.h"
 
 #include <string.h>
 
-#define REFRACTION 1.55f // of keratin
+#define REFRACTION 1.55f // Index of refraction of keratin.
 
 hair_result hair_draw_need_fibres(struct hair_draw* draw)
 {

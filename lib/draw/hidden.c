@@ -1,11 +1,12 @@
-// hidden.c - which patches a view need not draw, since the host has drawn something in front of all that they can reach.
+// hidden.c - occlusion culling of patches by the application's depth texture.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define BESIDE 2.0f // pixels, by which what is drawn of a strand may be wider than the strand
-#define ROUNDED 2.3841858e-7f // 2^-22: what arithmetic leaves of depth; a texture may leave less
+#define BESIDE 2.0f // Pixels by which a drawn strand may be wider than the strand.
+// 2^-22, the rounding error of depth arithmetic. A depth texture may be coarser.
+#define ROUNDED 2.3841858e-7f
 
 int hair_draw_hides(const hair_view* view)
 {
@@ -21,7 +22,8 @@ void hair_draw_free_hidden(struct hair_draw* draw)
     hidden->room = 0;
 }
 
-// From clip space to the texture: xy to [0, 1], z to what the host has in it.
+// Write the matrix from clip space to the texture. xy map to [0, 1], z to the depth that the
+// application stores.
 static void write_texture(struct hair_gl* gl, float to_texture[16], float range[2])
 {
     range[0] = 0, range[1] = 1;
@@ -39,7 +41,7 @@ static int is_given(const float matrix[16])
     return 0;
 }
 
-// What the texture was drawn with, from the head's origin.
+// Compute the matrix from the head's origin to the clip space that the texture was drawn with.
 static void find_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                       const hair_mat4* own, float clip[16])
 {
@@ -65,7 +67,8 @@ static void find_size(struct hair_gl* gl, GLuint texture, struct hair_hide_param
     out->slack = fmaxf(ROUNDED, ldexpf(1, -bits));
 }
 
-// Texels of the first level that hair reaches to, where that can be told; else all of them.
+// Find the texels of the first Hi-Z level that hair can cover. Take all texels if the extent is
+// unknown. Return 0 if there are none.
 static int find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_hide_params* out)
 {
@@ -126,7 +129,8 @@ hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide
     hair_result result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
                                            draw->hits.active ? HAIR_GL_WITH(HITS) : 0);
     if (!result && texels > hidden->room) {
-        // So many as all of the texture may want, that it need not be made again when hair comes nearer.
+        // Make room for the whole texture, so that hair that comes nearer does not reallocate the
+        // buffer.
         uint32_t columns = (params->width + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
         uint32_t rows = (params->height + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
         size_t room = hair_pyramid_texels(columns, rows);

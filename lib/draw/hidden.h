@@ -1,18 +1,19 @@
-// hidden.h - patches that are behind what the host has drawn. Only while a view has a texture of depth.
+// hidden.h - occlusion culling of patches. It takes memory only while a view has a depth texture.
 #ifndef HAIR_DRAW_HIDDEN_H
 #define HAIR_DRAW_HIDDEN_H
 
 #include "lib/gl/gl.h"
 
 struct hair_hidden {
-    GLuint params, depth, box; // buffers, as in shared.h; 0 until they are needed
-    size_t room; // for numbers of the second
+    GLuint params, depth, box; // Buffers, as in shared.h. 0 until needed.
+    size_t room; // Capacity of `depth`, in texels.
 };
 
-// pyramid.c: how many levels there are above so many texels, and how many texels they have together; the farthest depth of
-// what is bound as `params` say, made.
+// Return the number of Hi-Z levels for a first level of this size. Defined in pyramid.c.
 uint32_t hair_pyramid_levels(uint32_t columns, uint32_t rows);
+// Return the number of texels of all levels together.
 size_t hair_pyramid_texels(uint32_t columns, uint32_t rows);
+// Build all levels, the farthest depths of the bound texture, as `params` describe.
 void hair_pyramid_run(struct hair_gl* gl, GLuint uniform, struct hair_hide_params* params);
 
 #endif

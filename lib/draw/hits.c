@@ -1,12 +1,14 @@
-// hits.c - which followers come into solids, and what is done about it.
+// hits.c - follower collision, which finds the followers inside colliders and pushes them out.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define OUTSIDE 5e-4f // m: so far out of a solid, beyond the margin of guides, followers are put
+// Distance in metres, beyond the margin of guides, to which followers are pushed out.
+#define OUTSIDE 5e-4f
 
-// A GPU wants many threads, each with little to do one after the other; a processor as little work as there need be.
+// Return the pass that finds hits. GPUs need many threads with short loops. A software rasteriser
+// needs the least total work.
 static hair_gl_pass pass_of(const struct hair_draw* draw)
 {
     if (draw->hits.prepass) return HAIR_GL_PREPASS_HIT;
@@ -79,7 +81,8 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
     }
     hair_gl_run(gl, pass_of(draw), (draw->followers + each - 1) / each);
-    if (draw->look.collision == HAIR_COLLISION_PUSH) // Groups beyond the list's end find nothing to do.
+    // Work groups beyond the end of the list return at once.
+    if (draw->look.collision == HAIR_COLLISION_PUSH)
         hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }

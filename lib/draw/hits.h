@@ -1,4 +1,5 @@
-// hits.h - followers that come into solids: found, and led round them. Only where a solid is near the hair is there a pass, memory, or another program to draw with.
+// hits.h - state of follower collision. Its passes, memory and program variants exist only while a
+// collider is near the hair.
 #ifndef HAIR_DRAW_HITS_H
 #define HAIR_DRAW_HITS_H
 
@@ -6,16 +7,16 @@
 #include "lib/interpolate/interpolate.h"
 
 struct hair_hits {
-    GLuint hit, repair, list; // buffers, as in shared.h; 0 until they are needed
-    GLuint hit_texture, repair_texture; // the first two, for what draws
-    GLuint image, frame; // of a prepass: a texel per follower, to draw into
-    int prepass; // hits are found by one
-    int active; // solids are near
-    const struct hair_solid_field* field; // then: that they are in
-    int fresh; // for what was asked last; what changes followers or solids clears it
-    uint32_t smoothed; // runs of smooth.comp that it is for
-    uint32_t met; // how often it has been found out
-    uint32_t turn; // as in hair_draw_params
+    GLuint hit, repair, list; // Buffers, as in shared.h. 0 until needed.
+    GLuint hit_texture, repair_texture; // Buffer textures of the first two, for drawing.
+    GLuint image, frame; // Image with a texel per follower and its framebuffer, for a prepass.
+    int prepass; // Nonzero if a prepass finds the hits.
+    int active; // Nonzero if colliders are near.
+    const struct hair_solid_field* field; // Field of the colliders. NULL if none are near.
+    int fresh; // Nonzero if the result is valid. Changes to followers or colliders clear it.
+    uint32_t smoothed; // Run of smooth.comp that the result is for.
+    uint32_t met; // Number of updates so far.
+    uint32_t turn; // List counter in use, as in hair_draw_params.
 };
 
 #endif

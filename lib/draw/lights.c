@@ -1,10 +1,12 @@
-// lights.c - lights and surroundings, from the world to the head's origin and to what lights.glsl sums up.
+// lights.c - lights and surroundings, transformed to the head's origin and to the sums that
+// lights.glsl evaluates.
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-// World to clip becomes world to texture: xy from [-1, 1] to [0, 1], z by what the host's clip control says. In perspective
-// depth is that of what is infinitely far away less what falls with the distance: its row is a multiple of that of w.
+// Write the matrix from the head's origin to a shadow map. xy map from [-1, 1] to [0, 1], and z as
+// the application's clip control says. In perspective the rows of z and w are parallel in xyz.
+// Depth is then its value at infinity minus a term that falls with the distance.
 static void write_map(const struct hair_draw* draw, const struct hair_pose* head, const hair_light* light,
                       hair_mat4* shadow, hair_vec4* map)
 {
@@ -45,7 +47,8 @@ static void write_light(const hair_light* light, const struct hair_pose* head,
     out[HAIR_LIGHT_MORE].y = light->range > 0 ? 1 / (light->range * light->range) : 0;
 }
 
-// Ramamoorthi and Hanrahan 2001, equation 12: rows and columns for x, y, z, 1.
+// Write the irradiance matrix of one colour channel (Ramamoorthi and Hanrahan 2001, equation 12).
+// Its rows and columns stand for x, y, z and 1.
 static void write_sky(const float* sky, int channel, float ambient, hair_mat4* out)
 {
     static const float c[] = {0, 0.429043f, 0.511664f, 0.743125f, 0.886227f, 0.247708f};

@@ -1,5 +1,6 @@
-// listed.c - strands that are drawn without a tessellator: those that patches want drawn are listed by compute, and drawn
-// as both ends of every segment, which the driver makes once for the two segments that share them.
+// listed.c - strands drawn without a tessellator. Compute shaders list the strands that patches
+// draw. Each strand is drawn by the ends of its segments. The driver shades the end that two
+// segments share only once.
 #include "lib/draw/draw.h"
 
 #include <string.h>
@@ -27,8 +28,10 @@ static hair_result make_lists(struct hair_draw* draw, int hides)
                   : hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides ? HAIR_GL_WITH(HIDDEN) : 0);
 }
 
-// Of an instance of strands with all their segments, then with half as many, and so on to one, as count.comp takes them: both ends
-// of each segment, or two triangles of the pairs of vertices there. 16 bits are enough: 64 strands of 256 segments have 16,448.
+// Return the indices of one instance of 64 strands for each segment count n, n/2, ... 1, from which
+// count.comp selects. There are two per segment for lines, and six for ribbons of paired vertices.
+// 16 bits suffice, because 64 strands of 256 segments have 16,448 vertices, or twice as many if
+// paired.
 static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int paired, size_t* count)
 {
     static const uint32_t corners[2][HAIR_PAIRED_INDICES] = {{0, 1}, {0, 1, 2, 2, 1, 3}};
@@ -93,7 +96,8 @@ void hair_draw_free_listed(struct hair_draw* draw)
     hair_gl_free_buffer(gl, &listed->command);
 }
 
-// Where levels of detail look at nothing that a view has, all views have the same list.
+// Describe the inputs of a strand list. All views share a list if the level of detail does not
+// depend on the view.
 static struct hair_listing describe(const struct hair_gl* gl, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* params)
 {
@@ -126,7 +130,7 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_COUNT | with, 1);
     hair_gl_run(gl, HAIR_GL_LIST | with, draw->patches);
-    if (hides) of.made = 0; // No other view hides the same.
+    if (hides) of.made = 0; // No other view has the same occluded patches.
     *listed->of = of;
 }
 

@@ -1,4 +1,5 @@
-// motion.c - the vertices of the frame before: written vertices that have been shown are kept when others take their place.
+// motion.c - vertices of the previous frame. The vertex cache of a displayed frame is kept when new
+// vertices replace it.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
@@ -45,7 +46,8 @@ void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head
 {
     struct hair_motion* motion = &draw->motion;
     struct hair_was now = {.turn = {0, 0, 0, 1}};
-    if (motion->shown && frame && frame == motion->frame) return; // Another view of it.
+    // This is another view of the same frame.
+    if (motion->shown && frame && frame == motion->frame) return;
     memcpy(now.position, head->position, sizeof now.position);
     motion->still = !motion->shown || motion->shown == draw->expanded.writes;
     motion->before = motion->shown ? motion->last : now;

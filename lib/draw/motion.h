@@ -1,4 +1,5 @@
-// motion.h - what velocities need of the frame before: where vertices were, and the head. Only while they are asked for.
+// motion.h - vertices and head transform of the previous frame, for motion vectors. They take
+// memory only on demand.
 #ifndef HAIR_DRAW_MOTION_H
 #define HAIR_DRAW_MOTION_H
 
@@ -6,18 +7,19 @@
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 
-// Where positions from the head's origin were in the world: turned, since a teleport, and moved.
+// Transform from positions relative to the head's origin to the world in an earlier frame. `turn`
+// is the rotation by teleports since then.
 struct hair_was {
     double position[3];
     hair_quat turn;
 };
 
 struct hair_motion {
-    GLuint buffer, texture; // vertices of the frame before; 0 until they are needed
-    uint32_t frame; // that was drawn last
-    uint32_t shown; // hair_expanded.writes then; 0: none was
-    int still; // vertices are where they were in the frame before
-    struct hair_was last, before; // frame
+    GLuint buffer, texture; // Vertices of the previous frame. 0 until needed.
+    uint32_t frame; // Number of the frame drawn last.
+    uint32_t shown; // Value of hair_expanded.writes in that frame. 0 if none was drawn.
+    int still; // Nonzero if the vertices have not moved since the previous frame.
+    struct hair_was last, before; // Transforms of the frame drawn last and of the frame before it.
 };
 
 #endif

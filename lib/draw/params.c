@@ -1,10 +1,10 @@
-// params.c - matrices that take positions from the head's origin, the eye, the look.
+// params.c - parameters of one draw, such as matrices from the head's origin, the eye and the look.
 #include "lib/draw/params.h"
 #include "lib/draw/fibre.h"
 
 #include <string.h>
 
-// In double, since far out both are large and their sum is small.
+// Sum in double, because far from the world's origin both terms are large and nearly cancel.
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 {
     hair_mat4 out;
@@ -19,8 +19,9 @@ hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
     return out;
 }
 
-// The eye is where the view matrix maps to the origin: -R^-1 t. With an orthographic projection, whose last row is
-// (0, 0, 0, 1), every ray goes one way instead.
+// Return the position that the view matrix maps to the origin, -R^-1 t. An orthographic projection,
+// whose last row is (0, 0, 0, 1), has parallel rays. Return the direction to the eye for it, with w
+// = 0.
 static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;
@@ -33,7 +34,7 @@ static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
     return (hair_vec4){-hair_dot(x, t), -hair_dot(y, t), -hair_dot(z, t), 1};
 }
 
-// Jitter moves what is drawn by so many pixels.
+// Add the jitter to the projection. Jitter shifts the picture by so many pixels.
 void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16])
 {
     GLfloat viewport[4] = {0};
@@ -46,7 +47,8 @@ void hair_draw_project(const struct hair_draw* draw, const hair_view* view, floa
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
 }
 
-#define DIAGONAL 0.70711f // half of a pixel's: a ribbon reaches the pixels whose middles are so far beside it
+// Half of a pixel's diagonal. A ribbon reaches pixels whose centres are at most this far beside it.
+#define DIAGONAL 0.70711f
 
 static void write_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        struct hair_draw_params* out)
@@ -59,7 +61,7 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     if (!hair_draw_covers(view)) return;
     draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     draw->gl->GetIntegerv(GL_SAMPLES, &samples);
-    // With samples, all of a pixel must be within the ribbon.
+    // With multisampling, the ribbon must contain whole pixels.
     out->viewport =
         (hair_vec4){viewport[2], viewport[3], samples > 1 ? 2 * DIAGONAL : DIAGONAL, view->opacity};
     hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->reach.x, draw->reach.y, draw->reach.z));
@@ -69,7 +71,7 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     out->sort.y = HAIR_SORT_BUCKETS / fmaxf(2 * draw->reach.w, 1e-6f);
 }
 
-// Clip space of this frame and of the one before, from the head's origins.
+// Write the matrices from the head's origins to clip space, of this frame and of the previous one.
 static void write_motion(const struct hair_motion* motion, const hair_view* view,
                          struct hair_draw_params* out)
 {
@@ -102,7 +104,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     hair_draw_write_lights(draw, head, view, out);
 }
 
-// Between a set and the next.
+// Return the weights of the map sets. A fractional `set` blends between two neighbours.
 static hair_vec4 weigh_sets(float set, uint32_t sets)
 {
     float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
@@ -113,7 +115,8 @@ static hair_vec4 weigh_sets(float set, uint32_t sets)
     return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
 }
 
-// Chiang et al. 2016, equation 9: what the logarithm of a reflectance is divided by.
+// Write the parameters of fibre shading. The squared logarithm of a reflectance times 1 / d^2 is
+// the absorption, with d from Chiang et al. 2016, equation 9.
 static void write_fibre(const hair_look* look, hair_vec4* out)
 {
     float variance[3], b = look->roughness[1];

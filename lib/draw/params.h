@@ -1,65 +1,76 @@
-// params.h - one draw's parameters, from the application's view and look to the head's own coordinates.
+// params.h - parameters of one draw, from the application's view and look to the head's
+// coordinates.
 #ifndef HAIR_DRAW_PARAMS_H
 #define HAIR_DRAW_PARAMS_H
 
 #include "lib/draw/draw.h"
 
-// `view` NULL: only what places followers.
+// Write all parameters of a draw. NULL `view` writes only those that place followers.
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
 
-// The world matrix `m` for positions from the head's origin: its last column gains m times that origin.
+// Return the world matrix `m` for positions from the head's origin. Its last column gains m times
+// that origin.
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
 
-// The maps of a light of a view: which one, and of OpenGL what it shows of hair and of bodies, 0: nothing.
+// Shadow maps of one light of a view. `light` is the index of the light. `shadow` is the hair
+// shadow map, and `body` the opaque shadow map. 0 means no map.
 struct hair_light_maps {
     uint32_t light;
     GLuint shadow, body;
 };
 
-// A view's projection with the jitter, for the viewport that is set.
+// Compute the projection of a view with its jitter, for the current viewport.
 void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
 
-// window.c: from clip space to the viewport, xy and z in [0, 1]; and of depth that is farther what the host's depth test goes by, 1 or
-// -1. 0: it tells no near from far.
+// Write the matrix from clip space to the viewport, with xy and z in [0, 1]. Defined in window.c.
 void hair_draw_find_unit(struct hair_gl* gl, float to_unit[16]);
+// Return 1 if the application's depth test treats larger depth as farther, -1 if smaller. Return 0
+// if it does not order depths.
 float hair_draw_find_sign(struct hair_gl* gl);
 
-// lights.c: of them what is about light; and the lights that have maps, in their order, and how many there are.
+// Write the parameters of lights. Defined in lights.c.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
+// Write the lights of `view` that have shadow maps, in order. Return their number.
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
 
-// detail.c: side of the cells in which light is found for a view, m; and of them what is about the level of detail. Those about
-// the view are there.
+// Return the cell size of the self-shadow grid for a view, in metres. Defined in detail.c.
 float hair_draw_cell(const struct hair_draw* draw, const hair_view* view);
+// Write the parameters of the level of detail. The matrices of the view must be written before.
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
-// Leave out what the view does not show, though no level of detail does: of paths that ask for each patch in each view.
+// Enable view culling of patches even without a level of detail. Paths that query every patch in
+// each view use this.
 void hair_draw_cull_patches(const struct hair_draw* draw, const hair_view* view,
                             struct hair_draw_params* out);
 
-// solids.c: of what is drawn for debugging, where a slice lies, `place` of the way through the box.
+// Write the plane of a slice, `place` of the way through the box. Defined in solids.c.
 void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, float place,
                            struct hair_shown_params* params);
 
-// cull.c: where a picture of so many pixels ends with what may reach into it, as a multiple of w.
+// Return the edge of a picture of `pixels` as a multiple of w, with a margin for strands that reach
+// into it. Defined in cull.c.
 double hair_draw_edge(float pixels, float jitter);
-// How thick strands are at most, m, which a map and the groom make some thicker than. And what of `window`, the lower corner and the upper of
-// texture coordinates, hair can be in that is held.
+// Return the maximum width of strands in metres, before maps and the groom widen some of them.
 double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod);
+// Shrink `window` to the part that hair can be in while its roots are attached. `window` holds the
+// lower and the upper corner in texture coordinates.
 void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
                            const hair_mat4* to_texture, float window[4]);
 
-// strand.c: of the above, what a look makes of a strand's way; and how far it takes it from there at most, in its lengths
-// and, beside that, in m.
+// Write the look's curves along a strand. Defined in strand.c.
 void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out);
+// Return the maximum distance of a strand from its guided path, as a fraction of its length.
 float hair_look_most_stray(const hair_look* look);
+// Return the maximum distance that curls and frizz add to it, in metres.
 float hair_look_most_aside(const hair_look* look);
+// Return the maximum of a curve.
 float hair_curve_most(const hair_curve* curve);
-// tint.c: what colours strands have.
+// Write the colours of strands. Defined in tint.c.
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out);
-// Whether it kinks, curls or cuts strands, which takes programs of its own.
+// Return nonzero if the look frizzes, curls or cuts strands, which needs program variants. Defined
+// in strand.c.
 int hair_look_is_styled(const hair_look* look);
 
 #endif

@@ -1,17 +1,19 @@
-// path.c - by which path a view is drawn: the one that it asks for, the one that was measured to be the fastest on this
-// driver, or the only one that makes what it wants.
+// path.c - choice of the render path of a view. It is the requested path, the fastest measured path
+// of this driver, or the only one that supports the view.
 #include "lib/draw/draw.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST_EXPANDED 4194304u // vertices, of 24 bytes: beyond, memory is dearer than time
-#define MOST_SAMPLES 33554432.0 // of a viewport, of 8 bytes
+// Maximum vertices, of 24 bytes each. Beyond it, memory costs more than time.
+#define MOST_EXPANDED 4194304u
+#define MOST_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
 
 static const struct {
-    const char* renderer; // is in its name
+    const char* renderer; // Part of the renderer's name.
+    // Paths of ribbons and lines, then of both with level of detail, then of depth without it.
     uint8_t
-        path[5]; // of ribbons, of lines; then with levels of detail; of what has no colour and none of those
+        path[5];
 } fastest[] = {
 #define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth)                                     \
     {renderer,                                                                                               \
@@ -54,7 +56,8 @@ static int has_few_samples(const struct hair_gl* gl)
     return samples <= HAIR_RASTER_SAMPLES && most <= MOST_SAMPLES;
 }
 
-// Pixels that are made by compute are opaque, and of colour or depth alone.
+// Return nonzero if compute rasterisation supports the view. Its pixels are opaque, and hold only
+// colour or depth.
 static int is_computable(const hair_view* view)
 {
     int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
@@ -73,13 +76,15 @@ static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view*
     return view->pass == HAIR_PASS_COLOR ? HAIR_PATH_EXPANDED : HAIR_PATH_TESSELLATION;
 }
 
-// Velocities are those of vertices that are kept, and sorted are segments between such.
+// Return nonzero if the view needs the vertex cache. Motion vectors compare its vertices, and
+// sorted segments index them.
 static int keeps_vertices(const hair_view* view)
 {
     return view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view);
 }
 
-// Levels of detail leave out most vertices, and want others.
+// A level of detail leaves out most vertices of the cache and places others differently, so it uses
+// per-view vertices.
 int hair_draw_stages(const hair_view* view)
 {
     return view->lod && !keeps_vertices(view) &&
@@ -101,7 +106,7 @@ int hair_draw_is_paired(const hair_view* view)
     return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;
 }
 
-// What is staged has a place, a width and a colour.
+// Return nonzero if per-view vertices suffice. They hold a position, a width and a colour.
 static int is_stageable(const hair_view* view)
 {
     return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;

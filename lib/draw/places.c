@@ -1,4 +1,4 @@
-// places.c - where on the scalp roots are, for textures and shaders that go by it.
+// places.c - scalp uvs of roots, for textures and shaders.
 #include "lib/draw/draw.h"
 
 int hair_draw_has_uvs(const struct hair_draw* draw)

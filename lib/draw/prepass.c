@@ -1,8 +1,8 @@
-// prepass.c - the first vertex of each follower that is inside a solid, found as Tariq 2010 does: vertices are drawn as
-// points, those of a follower to one texel, and blending keeps the least.
+// prepass.c - first vertex of each follower inside a collider, by the method of Tariq 2010.
+// Vertices are drawn as points, with one texel per follower, and blending keeps the minimum.
 //
-// Here alone the library draws into a framebuffer of its own, with blending: what that takes of the host's state is put
-// back at once.
+// Only this file draws into a framebuffer of the library's own, with blending. It restores that
+// state of the application at once.
 #include "lib/draw/draw.h"
 
 #define CLIP_DISTANCES 8

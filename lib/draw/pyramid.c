@@ -1,4 +1,5 @@
-// pyramid.c - the farthest depth of what the host has drawn, of ever larger texels: see glsl/hide.glsl.
+// pyramid.c - Hi-Z, the farthest depth of the application's geometry in texels of growing size. See
+// glsl/hide.glsl.
 #include "lib/draw/hidden.h"
 
 static uint32_t next(uint32_t texels)
@@ -6,7 +7,8 @@ static uint32_t next(uint32_t texels)
     return (texels + HAIR_HIDE_NEXT - 1) / HAIR_HIDE_NEXT;
 }
 
-// A box is looked up in HAIR_HIDE_TEXELS texels along each axis: a level that has no more needs none above it.
+// Return the number of levels. A box is looked up in at most HAIR_HIDE_TEXELS texels along each
+// axis, so a level of that size needs none above it.
 uint32_t hair_pyramid_levels(uint32_t columns, uint32_t rows)
 {
     uint32_t levels = 1;

@@ -1,13 +1,13 @@
-// raster.c - pixels made of segments by compute, and composed with what the host has drawn tile by tile: for GPUs of which few units
-// draw, and strands so thin that setting up triangles is most of what they cost.
+// raster.c - compute rasterisation of segments, composited tile by tile into the framebuffer. It is
+// fast on GPUs with few raster units, and for strands so thin that triangle setup dominates.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define BESIDE 2.0f // pixels beyond those that hair is in
+#define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
-// Where samples are in a pixel.
+// Find the positions of the samples in a pixel.
 static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
 {
     GLint samples = 0;
@@ -20,17 +20,20 @@ static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
     }
 }
 
-// The part of a viewport that hair can be in, as whole pixels of the window; along one axis.
+// Return the number of pixels along one axis of the viewport that hair can cover. Set *first to the
+// first of them in the window.
 static uint32_t find_pixels(float origin, float size, float lower, float upper, uint32_t* first)
 {
     float to = fminf(ceilf(origin + upper * size + BESIDE), ceilf(origin + size));
     float from = fmaxf(floorf(origin + lower * size - BESIDE), floorf(origin));
-    from = fmaxf(fminf(from, to), 0); // The window begins there.
+    from = fmaxf(fminf(from, to), 0); // The window begins at 0.
     *first = (uint32_t)from;
     return to > from ? (uint32_t)(to - from) : 0;
 }
 
-// From the head's origin to the viewport, as hair_draw_find_unit() has it, and where in that hair is: the lower corner and the upper.
+// Compute the matrix from the head's origin to the viewport, in the coordinates of
+// hair_draw_find_unit(). Set `window` to the lower and the upper corner of the part that hair can
+// cover.
 static void find_place(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        const float unit[16], float matrix[16], float window[4])
 {
@@ -46,7 +49,7 @@ static void find_place(const struct hair_draw* draw, const struct hair_pose* hea
     if (draw->held) hair_draw_find_window(draw, head, view->lod, &to_viewport, window);
 }
 
-// Clip space of its pixels; and from the head's origin to them.
+// Write the clip-space part that the pixels cover, and the matrix from the head's origin to them.
 static void write_pixels(const float viewport[4], const float unit[16], float matrix[16],
                          struct hair_raster_params* out)
 {
@@ -88,7 +91,8 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
     return 1;
 }
 
-// Hair that comes nearer does not have it made anew each time.
+// Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
+// not reallocate the buffer each time.
 static hair_result need_room(struct hair_gl* gl, const char* label, size_t count, GLuint* buffer,
                              size_t* room)
 {
@@ -112,7 +116,7 @@ static hair_result need_tiles(struct hair_gl* gl, struct hair_raster* raster, si
     return result;
 }
 
-// Numbers of samples, of depth one each.
+// Return how many numbers the samples take. A depth pass has one per sample.
 static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass with)
 {
     return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);

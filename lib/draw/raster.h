@@ -1,13 +1,13 @@
-// raster.h - what the samples of a picture see of segments, found by compute. Only while that path is asked for.
+// raster.h - buffers of compute rasterisation. They exist only while that path is used.
 #ifndef HAIR_DRAW_RASTER_H
 #define HAIR_DRAW_RASTER_H
 
 #include "lib/gl/gl.h"
 
 struct hair_raster {
-    GLuint params, nearest, tile; // buffers, as in shared.h; 0 until they are needed
-    GLuint tile_texture; // of the last
-    size_t room, tile_room; // numbers that there is room for
+    GLuint params, nearest, tile; // Buffers, as in shared.h. 0 until needed.
+    GLuint tile_texture; // Buffer texture of `tile`.
+    size_t room, tile_room; // Capacities of `nearest` and `tile`, in numbers.
 };
 
 #endif

@@ -1,4 +1,4 @@
-// seats.c - followers on a skinned scalp: their roots follow it between the guides.
+// seats.c - followers on a skinned scalp. Their roots follow the scalp between the guides.
 #include "lib/draw/draw.h"
 
 hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim)
@@ -14,7 +14,7 @@ hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim)
     return hair_skin_make(sim);
 }
 
-// Free roots are nowhere.
+// Move the roots of followers with the scalp. Free roots are not attached to it.
 void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim)
 {
     struct hair_gl* gl = draw->gl;

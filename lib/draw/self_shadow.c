@@ -1,11 +1,11 @@
-// self_shadow.c - how much light comes to each vertex of the strands: a grid of how much hair there is, made once for what
-// strands are; and what of each light is left on the way through it and past what shadow maps show.
+// self_shadow.c - light that reaches each vertex of the strands. A density grid is computed once
+// for all views of the same strands. The light is attenuated through the grid and by shadow maps.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
 #include <string.h>
 
-#define NODE_GROUPS 1024 // work groups, whose threads go over all nodes that there are
+#define NODE_GROUPS 1024 // Number of work groups. Their threads loop over all nodes of the grid.
 
 static int is_wanted(const struct hair_draw* draw, const hair_view* view)
 {
@@ -80,7 +80,8 @@ static void fill(struct hair_draw* draw, uint32_t groups)
     own->frame = 0;
 }
 
-// Views of one frame, with the same lights, have the same; what is in shadow maps is the host's.
+// Return nonzero if the light values are valid. Views of one frame with the same lights share them.
+// The contents of shadow maps belong to the application, and may change between frames.
 static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
 {
     struct hair_self_shadow* own = &draw->self_shadow;
@@ -94,8 +95,9 @@ static int is_found(struct hair_draw* draw, const hair_view* view, const struct 
     return same;
 }
 
-// What a level of detail leaves out needs no light, and what is drawn makes up for it in the grid. Of written vertices
-// that views share there are all.
+// Return nonzero if only the vertices that the view draws need light. Strands that a level of
+// detail leaves out need no light. The drawn strands make up for them in the grid. A full vertex
+// cache that views share has all vertices.
 static int is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view)
 {
     return view->lod && !draw->motion.buffer && !hair_draw_is_expanded(draw, smooth);
@@ -115,7 +117,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     whole.lod = NULL; // All views of a step share the grid.
     hair_draw_write_params(draw, head, part ? view : &whole, &params);
     params.drawn_only = (uint32_t)part;
-    params.culls = 0; // What is out of view and hidden casts shadows too.
+    params.culls = 0; // Hair that is out of view or occluded casts shadows too.
     params.skull.w = 0;
     hair_result result = hair_draw_need_expanded(draw, smooth, part ? &params : NULL);
     if (!result) result = make(draw, hair_draw_lit(draw, view));
@@ -130,7 +132,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, strands);
     if (own->filled != draw->expanded.writes) fill(draw, groups);
     if (is_found(draw, view, &params)) return HAIR_OK;
-    if (part) own->frame = 0; // Another view draws others.
+    if (part) own->frame = 0; // Another view draws other vertices.
     if (draw->hits.field) hair_field_bind(draw->hits.field);
     hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT_NODES), NODE_GROUPS);
     hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT), groups);

@@ -1,4 +1,4 @@
-// shaded.c - vertices that are expanded, shaded by compute for one view before it draws them.
+// shaded.c - shading of the cached vertices by compute, for one view before it draws them.
 #include "lib/draw/draw.h"
 
 int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
@@ -32,7 +32,8 @@ void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, 
     struct hair_gl* gl = draw->gl;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, &draw->expanded.shaded);
     hair_gl_run_with(gl, pass, program, draw->patches * chunks);
-    // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+    // Unbind the buffer before it can be deleted. Mesa unbinds a deleted buffer with
+    // glBindBufferBase, which also clears the application's generic binding.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
     gl->BindTextureUnit(HAIR_UNIT_SHADED, draw->expanded.shaded_texture);
 }

@@ -1,8 +1,8 @@
-// solids.c - what hair collides with, drawn for debugging: solids, and a slice of the field through them.
+// solids.c - colliders and a slice of the field, drawn for debugging.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-// Depth in the framebuffer by depth in clip space.
+// Return the offset and scale from depth in clip space to depth in the framebuffer.
 static hair_vec4 find_depth(struct hair_gl* gl)
 {
     GLint mode = GL_NEGATIVE_ONE_TO_ONE;
@@ -37,7 +37,7 @@ static struct hair_shown_solid show(const struct hair_solid_field* field, const 
 {
     hair_vec3 lower, upper;
     struct hair_field_solid own = hair_field_shown(field, solid, i, head, &lower, &upper);
-    hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // A ray begins outside.
+    hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // Rays begin outside the box.
     lower = hair_sub(lower, more);
     upper = hair_add(upper, more);
     return (struct hair_shown_solid){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
@@ -76,7 +76,8 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
                              const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
-    GLuint buffer = 0; // Made each time: who draws no solids has none.
+    // Created for each draw, so that no memory stays when colliders are not drawn.
+    GLuint buffer = 0;
     hair_result result = hair_gl_need(gl, HAIR_GL_SOLIDS);
     if (!result && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
     if (result) return result;
@@ -99,7 +100,7 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
         draw_shapes(draw, field, solids, count, head, buffer, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1,
-                            NULL); // Before it is deleted: see state.c.
+                            NULL); // Unbind the buffer before it is deleted. See state.c.
     }
     hair_gl_free_buffer(gl, &buffer);
     hair_free(&gl->host, params);

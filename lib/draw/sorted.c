@@ -1,5 +1,5 @@
-// sorted.c - segments sorted by compute, by buckets of distance from the eye, and blended. OpenGL blends primitives in the
-// order in which a draw has them.
+// sorted.c - segments sorted by compute with a histogram of distances from the eye, and blended.
+// OpenGL blends primitives in the order of the draw's indices.
 #include "lib/draw/draw.h"
 
 static hair_result make_index(struct hair_draw* draw, size_t segments)

@@ -1,4 +1,5 @@
-// staged.c - vertices of listed strands written for one view, and shaded, before pixels are made of them.
+// staged.c - vertices of listed strands, written and shaded for one view before its pixels are
+// drawn.
 #include "lib/draw/draw.h"
 
 static const struct {
@@ -9,7 +10,8 @@ static const struct {
                               [HAIR_STAGED_TANGENT] = {"hair staged tangents", GL_RGBA16, 8},
                               [HAIR_STAGED_SHADED] = {"hair staged colours", GL_RGBA16F, 8}};
 
-// What is drawn has two sides and no tangent; pixels that compute makes are of tangents. There is room for whichever is more.
+// Return the size of a part in bytes. Drawn ribbons have two sides and no tangent. Compute
+// rasterisation uses tangents. Buffers keep the larger size.
 static size_t size_of(const hair_view* view, int part, size_t vertices)
 {
     if (part == HAIR_STAGED_TANGENT && hair_draw_stages_sides(view)) return 0;
@@ -66,7 +68,8 @@ void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program)
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, HAIR_STAGED_PARTS, staged->buffer);
     hair_gl_run_indirect(gl, pass, program, draw->listed.command,
                          HAIR_STAGE_COMMAND * sizeof(struct hair_draw_command));
-    // Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general binding with it.
+    // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
+    // glBindBufferBase, which also clears the application's generic binding.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, HAIR_STAGED_PARTS, NULL);
     gl->BindTextureUnit(HAIR_UNIT_EXPANDED, staged->texture[HAIR_STAGED_POSITION]);
     if (staged->texture[HAIR_STAGED_TANGENT])

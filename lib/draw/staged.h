@@ -1,4 +1,5 @@
-// staged.h - vertices of the strands that are listed, as one view of levels of detail wants them. Only while one does.
+// staged.h - per-view vertices of the listed strands, for a level of detail. They take memory only
+// while a view uses them.
 #ifndef HAIR_DRAW_STAGED_H
 #define HAIR_DRAW_STAGED_H
 
@@ -7,11 +8,12 @@
 enum { HAIR_STAGED_POSITION, HAIR_STAGED_TANGENT, HAIR_STAGED_SHADED, HAIR_STAGED_PARTS };
 
 struct hair_staged {
+    // Buffers, as at HAIR_BIND_EXPANDED and the two bindings after it in shared.h. 0 until needed.
     GLuint buffer
-        [HAIR_STAGED_PARTS]; // as HAIR_BIND_EXPANDED and the two after it in shared.h; 0 until they are needed
-    GLuint texture[HAIR_STAGED_PARTS]; // of them
-    size_t size[HAIR_STAGED_PARTS]; // bytes
-    size_t vertices; // that there is room for
+        [HAIR_STAGED_PARTS];
+    GLuint texture[HAIR_STAGED_PARTS]; // Buffer textures of `buffer`.
+    size_t size[HAIR_STAGED_PARTS]; // Size of each buffer in bytes.
+    size_t vertices; // Capacity in vertices.
 };
 
 #endif

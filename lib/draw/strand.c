@@ -1,22 +1,25 @@
-// strand.c - what a look makes of a strand's way, as shaders read it: cubics in place of numbers at even places.
+// strand.c - curves of a look along a strand, as cubic polynomials for shaders.
 #include "lib/draw/params.h"
 
-#define SWEEPS 24 // Of Gauss and Seidel over a turn: what is left of an error then is below a float's.
+// Iterations of Gauss-Seidel over a turn. The remaining error is below float precision.
+#define SWEEPS 24
 
-// From a to b, with these slopes at both ends, by the interval.
+// Return the cubic from a to b with these slopes at both ends. The slopes are per interval.
 static hair_vec4 hermite(float a, float b, float slope_a, float slope_b)
 {
     float rise = b - a;
     return (hair_vec4){a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise};
 }
 
-// Fritsch and Butland 1984: the harmonic mean of both sides, so that nothing goes beyond its neighbours.
+// Return the slope between two intervals as the harmonic mean of their rises, which prevents
+// overshoot (Fritsch and Butland 1984).
 static float inner_slope(float before, float after)
 {
     return before * after > 0 ? 2 * before * after / (before + after) : 0;
 }
 
-// At an end, of the parabola that goes on with the slope next to it, as far as that goes beyond nothing.
+// Return the slope at an end, from the parabola that meets the slope next to it. A slope against
+// the rise becomes 0.
 static float end_slope(float rise, float next)
 {
     float slope = 1.5f * rise - 0.5f * next;
@@ -35,7 +38,7 @@ static void write_curve(hair_curve curve, struct hair_strand_look* out, int numb
         out->curve[number * last + i] = hermite(curve.at[i], curve.at[i + 1], slope[i], slope[i + 1]);
 }
 
-// The periodic spline of two continuous derivatives through places at equal distances.
+// Write the periodic spline with two continuous derivatives through equally spaced values.
 static void write_turn(const float at[HAIR_TURN_PLACES], float scale, hair_vec4* out)
 {
     float slope[HAIR_TURN_PLACES] = {0};
@@ -62,7 +65,7 @@ static void write_turns(const hair_look* look, struct hair_strand_look* out)
     write_turn(like ? look->curl_z : circle[1], 1 - look->curl_flatness, out->loop + HAIR_TURN_PLACES);
 }
 
-// Both pure kinds of followers are mixtures of one.
+// Return the clump curve. Single and multi interpolation are its limits 1 and 0.
 static hair_curve clump_of(const hair_look* look)
 {
     if (look->interpolation == HAIR_INTERPOLATION_SINGLE) return hair_curve_line(1, 1);
@@ -77,7 +80,7 @@ float hair_curve_most(const hair_curve* curve)
     return most;
 }
 
-// Across a strand are two axes, along each of which it may go so far.
+// Length of a displacement by 1 along both of the axes across a strand.
 #define DIAGONAL 1.4142136f
 
 float hair_look_most_stray(const hair_look* look)

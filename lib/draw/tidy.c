@@ -1,7 +1,7 @@
-// tidy.c - memory of what views do not ask for any more.
+// tidy.c - release of resources that views no longer use.
 #include "lib/draw/draw.h"
 
-#define LONG 240 // frames: who changes a setting to and fro does not have everything made anew each time
+#define LONG 240 // Frames to keep unused resources, because toggling a setting must not reallocate.
 
 void hair_draw_tidy(struct hair_draw* draw, uint32_t frame)
 {

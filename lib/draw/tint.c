@@ -1,7 +1,7 @@
-// tint.c - the colours of strands as shaders read them; and what water makes of a look.
+// tint.c - colours of strands for shaders, and the effect of water on a look.
 #include "lib/draw/params.h"
 
-#define WET_POWER(wet) (1 + 0.7f * (wet)) // of colours
+#define WET_POWER(wet) (1 + 0.7f * (wet)) // Exponent that darkens colours.
 
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
 {
@@ -26,7 +26,8 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
     out->paint_power = WET_POWER(look->wetness);
 }
 
-// A film of water keeps light in, so that it is absorbed more often, and is smoother than scales are.
+// Darken a colour. A film of water reflects light back into the fibre, which absorbs it more often.
+// The film is also smoother than the scales.
 static void darken(float color[3], float power)
 {
     for (int k = 0; k < 3; ++k) color[k] = powf(color[k], power);

@@ -1,4 +1,5 @@
-// window.c - where OpenGL puts what is in clip space, as the host has set that.
+// window.c - mapping from clip space to the viewport, by the application's clip control and depth
+// test.
 #include "lib/draw/params.h"
 
 #include <string.h>
