@@ -1,9 +1,10 @@
-// buffer.c - buffers and textures, checked: the error flag stays the host's, so sizes are asked back.
+// buffer.c - creation of buffers and textures. The error flag belongs to the application, so
+// success is checked by querying sizes.
 #include "lib/gl/gl.h"
 
-// Memory ----------------------------------------------------------------------------------------------------
+// Memory ------------------------------------------------------------------------------------------
 
-// Whether `size` more bytes may be had, which `label` is to have.
+// Check whether `size` more bytes for `label` stay within the memory limit.
 static hair_result ask(struct hair_gl* gl, const char* label, uint64_t size)
 {
     const struct hair_gl_memory* memory = &gl->memory;
@@ -52,7 +53,7 @@ uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
     return texel_bytes((GLenum)format) * (uint64_t)size[0] * (uint64_t)size[1] * (uint64_t)size[2];
 }
 
-// Buffers ---------------------------------------------------------------------------------------------------
+// Buffers -----------------------------------------------------------------------------------------
 
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
@@ -157,7 +158,7 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
     return HAIR_OK;
 }
 
-// Textures --------------------------------------------------------------------------------------------------
+// Textures ----------------------------------------------------------------------------------------
 
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)

@@ -1,21 +1,22 @@
-// cache.c - programs as the driver has compiled them, in a place that the host keeps.
+// cache.c - compiled programs in a cache that the application provides.
 //
 //   byte  0  "hairprog"
-//         8  u64 the second hash of what the program is made of: the first is the key that the host knows
+//         8  u64 the second hash of the sources. The first is the key of the cache entry.
 //        16  u32 the driver's format
 //        20  the driver's bytes
 //   the end  u64 FNV-1a hash of all bytes before
 //
-// What does not look so, or what the driver does not take, is not there: then the program is compiled, and kept again.
+// An entry of another form, or one that the driver rejects, counts as missing. The program is then
+// compiled and stored again.
 #include "lib/base/bytes.h"
 #include "lib/gl/gl.h"
 
 #define MAGIC "hairprog"
 #define HEADER 20
 #define TRAILER 8
-#define MOST_BYTES (64u << 20) // of one program
+#define MOST_BYTES (64u << 20) // Maximum bytes of one program.
 #define MOST_FORMATS 64
-#define OTHER_HASH 0x9e3779b97f4a7c15u // begins the second
+#define OTHER_HASH 0x9e3779b97f4a7c15u // Initial value of the second hash.
 
 void hair_gl_key_add(struct hair_gl_key* key, const char* text)
 {
@@ -32,7 +33,8 @@ struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl)
     return key;
 }
 
-// A format that the driver does not know would raise the host's error flag.
+// Return nonzero if the driver knows the format. An unknown format would raise the application's
+// error flag.
 static int is_known(struct hair_gl* gl, GLenum format)
 {
     GLint formats[MOST_FORMATS], count = 0;
@@ -66,7 +68,7 @@ int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
     size_t size = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
     if (size <= HEADER + TRAILER || size > MOST_BYTES) return 0;
     unsigned char* bytes = hair_alloc(&gl->host, size, 1);
-    if (!bytes) return 0; // It can be had without.
+    if (!bytes) return 0; // The program can be compiled without the cache.
     int there = cache->get(key.hash, bytes, size, cache->user) == size && is_whole(bytes, size, key) &&
                 load(gl, bytes, size, program);
     hair_free(&gl->host, bytes);

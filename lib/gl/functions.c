@@ -1,9 +1,11 @@
-// functions.c - the host's OpenGL, asked for once per context: a private table, so that no loader collides.
+// functions.c - table of OpenGL functions, loaded once per context. It is private, so that it
+// collides with no loader.
 #include "lib/gl/gl.h"
 
 #include <string.h>
 
-// ISO C has no cast from void* to a function; the bytes are the same wherever there is OpenGL.
+// Load one function. ISO C has no cast from void* to a function pointer, but both have the same
+// bytes wherever there is OpenGL.
 static int find(const hair_context_desc* desc, const char* name, void* function)
 {
     void* address = desc->get_proc(name, desc->get_proc_user);
@@ -22,8 +24,8 @@ static int has_extension(const struct hair_gl* gl, const char* name)
     return 0;
 }
 
-// Whether a work group of 32 is one subgroup, of which compute shaders can do what glsl/sim/mapping.glsl does. Mesa says
-// 32 too, and may run it as two or four.
+// Return nonzero if a work group of 32 threads is one subgroup with the operations of
+// glsl/sim/mapping.glsl. Mesa also reports 32, but may run the group as two or four.
 static int find_subgroup(const struct hair_gl* gl)
 {
     const char* vendor = (const char*)gl->GetString(GL_VENDOR);

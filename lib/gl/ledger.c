@@ -1,4 +1,5 @@
-// ledger.c - passes written down by the work they belong to, between two time stamps for all that follow each other.
+// ledger.c - frame profiler. Passes are counted by their category of work, and consecutive passes
+// of a category share a pair of timestamps.
 #include "lib/gl/ledger.h"
 
 #include <string.h>
@@ -68,7 +69,7 @@ void hair_gl_ledger_end(struct hair_gl* gl, hair_gl_pass pass)
 static int read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
                       float ms[HAIR_GL_WORKS])
 {
-    for (uint32_t i = frame->spans; i-- > 0;) { // What came last is there last.
+    for (uint32_t i = frame->spans; i-- > 0;) { // The last span finishes last.
         GLuint64 there = 0, start = 0, end = 0;
         if (!waits) gl->GetQueryObjectui64v(frame->query[i][1], GL_QUERY_RESULT_AVAILABLE, &there);
         if (!waits && !there) return 0;
@@ -82,7 +83,7 @@ static int read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, int
 int hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
                         float ms[HAIR_GL_WORKS])
 {
-    GLint buffer = 0; // As in pass.c.
+    GLint buffer = 0; // An application's query buffer would receive the results, as in pass.c.
     memset(ms, 0, HAIR_GL_WORKS * sizeof *ms);
     if (!frame->spans) return 1;
     gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);

@@ -1,4 +1,4 @@
-// ledger.h - what an instance has had done in its last frames, and how long that took.
+// ledger.h - frame profiler: the passes of an instance in the last frames and their durations.
 #ifndef HAIR_GL_LEDGER_H
 #define HAIR_GL_LEDGER_H
 
@@ -11,26 +11,26 @@ typedef enum hair_gl_work {
     HAIR_GL_WORKS
 } hair_gl_work;
 
-#define HAIR_GL_FRAMES 4 // that a GPU may be behind, and the one under way
-#define HAIR_GL_SPANS 32 // of time in a frame; work that is done beyond is counted but not timed
+#define HAIR_GL_FRAMES 4 // Frames that a GPU may lag behind, and the current one.
+#define HAIR_GL_SPANS 32 // Timed spans in a frame. Further work is counted, but not timed.
 
 struct hair_gl_frame {
-    uint32_t number; // from 1
+    uint32_t number; // Number of the frame, from 1.
     uint32_t runs[HAIR_GL_WORKS];
-    hair_gl_pass pass[HAIR_GL_WORKS]; // the last that ran
+    hair_gl_pass pass[HAIR_GL_WORKS]; // Last pass that ran, per category.
     uint32_t spans;
-    hair_gl_work work[HAIR_GL_SPANS]; // passes that follow each other and belong to the same
-    GLuint query[HAIR_GL_SPANS][2]; // start and end; 0 until something is timed
+    hair_gl_work work[HAIR_GL_SPANS]; // Category of each span of consecutive passes.
+    GLuint query[HAIR_GL_SPANS][2]; // Start and end of each span. 0 until something is timed.
 };
 
 struct hair_gl_ledger {
     struct hair_gl_frame frame[HAIR_GL_FRAMES];
-    uint32_t number; // of the frame under way
+    uint32_t number; // Number of the current frame.
 };
 
 const char* hair_gl_work_label(hair_gl_work work);
 
-// The next frame begins. No OpenGL.
+// Begin the next frame, without calling OpenGL.
 void hair_gl_ledger_next(struct hair_gl_ledger* ledger);
 void hair_gl_ledger_free(struct hair_gl* gl, struct hair_gl_ledger* ledger);
 
@@ -39,11 +39,13 @@ static inline struct hair_gl_frame* hair_gl_ledger_frame(struct hair_gl_ledger* 
     return &ledger->frame[number % HAIR_GL_FRAMES];
 }
 
-// Bracket a pass, if gl->ledger is there.
+// Begin a pass. Do nothing if gl->ledger is NULL.
 void hair_gl_ledger_begin(struct hair_gl* gl, hair_gl_pass pass);
+// End a pass.
 void hair_gl_ledger_end(struct hair_gl* gl, hair_gl_pass pass);
 
-// Times of the work of a frame, ms. 0: it has not been finished yet, unless that is waited for.
+// Read the durations of a frame's work, in ms. Return 0 if the frame is unfinished, which cannot
+// happen if `waits` is nonzero.
 int hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
                         float ms[HAIR_GL_WORKS]);
 

@@ -1,5 +1,5 @@
-// pass.c - the rows of passes.inl, what has been needed of them, and running one: its program, a debug group with its name,
-// its timer, its barrier.
+// pass.c - rows of passes.inl, their programs, and running a pass with its debug group, timer and
+// memory barrier.
 #include "lib/gl/ledger.h"
 
 #include <ctype.h>
@@ -49,7 +49,7 @@ hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices)
     return (pass & ~HAIR_GL_SIZES) | HAIR_GL_SIZE(size);
 }
 
-// "sim/direct_wind_curved_32"
+// Write a label such as "sim/direct_wind_curved_32".
 static void write_label(hair_gl_pass pass, char* out, size_t size)
 {
     size_t used = (size_t)snprintf(out, size, "%s", hair_gl_row_label(pass));
@@ -113,10 +113,10 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
     struct hair_gl_program* own = hair_gl_find(gl, pass);
     struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
-    // Time stamps rather than an elapsed-time query, of which the host may have one under way.
+    // Use timestamps, because the application may have an elapsed-time query active.
     if (gl->timings) {
         if (!timer->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_TIMER_DEPTH, timer->query[0]);
-        hair_gl_pass_ms(gl, own); // Before the slot is used again.
+        hair_gl_pass_ms(gl, own); // Read the results before the slot is reused.
         gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0], GL_TIMESTAMP);
     }
     hair_gl_ledger_begin(gl, pass);
@@ -190,7 +190,7 @@ static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of)
 {
     if (!of->timer.query[0][0]) return 0;
-    GLint buffer = 0; // While the host has one bound, results go there instead.
+    GLint buffer = 0; // A query buffer that the application has bound would receive the results.
     gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
     if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
     read_timer(gl, &of->timer);

@@ -1,4 +1,4 @@
-// program.c - shaders to programs, with errors that name the file and the line.
+// program.c - compilation of shaders to programs. Errors name the file and the line.
 #include "lib/gl/gl.h"
 
 #include <stdio.h>
@@ -24,17 +24,18 @@ static GLenum stage_of(const char* name)
     return 0;
 }
 
-// Drivers begin a message with the number of the file: "2:50(7): error" (Mesa) or "2(50) : error" (NVIDIA). What the host
-// has written is told by its own name and lines, in the one sentence of the call that it fails.
+// Report a compiler message. Drivers begin it with the number of the file, as in "2:50(7): error"
+// (Mesa) or "2(50) : error" (NVIDIA). An error in the application's text is reported with its own
+// label and lines, as the one sentence of the failing call.
 static hair_result report(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
                           const char* name, const char* message)
 {
     char where[128] = "", *rest = NULL;
     const char* at = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
     long file = strtol(at, &rest, 10);
-    int whose = 0; // the host's
+    int whose = 0; // Nonzero if the error is in the application's text.
     if (own && file == HAIR_GL_MAX_SOURCES)
-        file = 0; // See source.c.
+        file = 0; // See called() in source.c.
     else
         whose = own && file == 0;
     if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
@@ -56,15 +57,15 @@ static hair_result report(struct hair_gl* gl, const struct hair_gl_source* sourc
     return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
-// A program to be: what its stages are, each with its whole text.
+// Inputs of a program, which are its stages with their full texts.
 #define MOST_STAGES 5
 struct recipe {
     struct hair_gl* gl;
-    const struct hair_gl_shader* shader; // NULL: none of the host's
-    hair_gl_pass pass; // of which the features are defined
+    const struct hair_gl_shader* shader; // NULL if there is no shader of the application.
+    hair_gl_pass pass; // Pass whose features are defined.
     const char* label;
-    const char* captured; // NULL: nothing is
-    hair_result result; // of reading it
+    const char* captured; // Transform feedback output, or NULL.
+    hair_result result; // Result of reading the stages.
     char prefix[1024];
     size_t used;
     uint32_t stages;
@@ -85,7 +86,7 @@ static hair_result start_stage(const struct recipe* recipe, struct stage* stage,
     gl->ShaderSource(stage->shader, 1, &text, NULL);
     gl->CompileShader(stage->shader);
     gl->AttachShader(program, stage->shader);
-    gl->DeleteShader(stage->shader); // Lives on while it is attached.
+    gl->DeleteShader(stage->shader); // The shader lives as long as it is attached.
     return HAIR_OK;
 }
 
@@ -110,7 +111,8 @@ static hair_result define(struct recipe* recipe, const char* name)
     return HAIR_OK;
 }
 
-// What no stage says: what the driver is, the features of the pass, whose shading it is.
+// Write the definitions that stages do not name: driver properties, features of the pass, and the
+// kind of the application's shader.
 static hair_result define_all(struct recipe* recipe)
 {
     char threads[32];
@@ -131,7 +133,8 @@ static hair_result define_all(struct recipe* recipe)
     return result;
 }
 
-// A stage's name after "NAME?", or NULL where the pass has not that feature; after "!NAME?", where it has.
+// Return the name of a stage after "NAME?" if the pass has the feature NAME, otherwise NULL.
+// "!NAME?" inverts the condition.
 static const char* wanted_stage(const struct recipe* recipe, const char* word)
 {
     const char* name = strchr(word, '?');
@@ -144,7 +147,7 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
     return NULL;
 }
 
-// Definitions and stages, as in "NAME=1 draw/patch.vert".
+// Read definitions and stages, as in "NAME=1 draw/patch.vert".
 static hair_result read_stages(struct recipe* recipe, const char* stages)
 {
     struct hair_gl* gl = recipe->gl;
@@ -181,7 +184,8 @@ static struct hair_gl_key key_of(const struct recipe* recipe)
     return key;
 }
 
-// The driver is given all that it needs, and asked for nothing: it may compile beside what we do.
+// Give the driver everything it needs to link, and query nothing, so that it may compile in
+// parallel.
 static hair_result start(struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
@@ -203,7 +207,7 @@ static int is_linked(const struct hair_gl* gl, GLuint program)
     return done != 0;
 }
 
-// Of a program that is not linked.
+// Report why a program did not link.
 static hair_result tell_why(const struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
@@ -218,7 +222,7 @@ static hair_result tell_why(const struct recipe* recipe, GLuint program)
                      (int)strcspn(message, "\n"), message);
 }
 
-// A program that is started, or as the host's cache has it: *kept.
+// Start a program, or load it from the application's cache and set *kept.
 static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* kept, GLuint* out)
 {
     struct hair_gl* gl = recipe->gl;
@@ -253,7 +257,7 @@ static hair_result make(struct recipe* recipe, GLuint* out)
     return HAIR_OK;
 }
 
-// NULL: an error, which is told.
+// Read the stages of a program. Return NULL on an error, which is logged.
 static struct recipe* open_recipe(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
                                   const char* label, const char* stages)
 {
@@ -301,7 +305,7 @@ hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* s
     return result;
 }
 
-// What is needed, now or ahead --------------------------------------------------------------------------------
+// Programs compiled on demand or ahead ------------------------------------------------------------
 
 static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own)
 {
@@ -313,7 +317,8 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
     return HAIR_OK;
 }
 
-// What was begun becomes the program, waiting for it; unless it fails, which is told when it is compiled again.
+// Wait for an asynchronous program and use it. If it failed to link, delete it. Compiling it again
+// reports the error.
 static void finish(struct hair_gl* gl, struct hair_gl_program* own)
 {
     if (is_linked(gl, own->begun)) {
@@ -329,7 +334,8 @@ static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
     int kept = 0;
-    if (!gl->parallel && gl->unready++) return HAIR_OK; // The first of them is compiled now.
+    // The first missing program is compiled now.
+    if (!gl->parallel && gl->unready++) return HAIR_OK;
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
     hair_result result = recipe->result ? recipe->result : begin(recipe, &own->key, &kept, &program);

@@ -1,13 +1,13 @@
-// selftest.c - what this driver gets wrong about isolines, found by drawing some and looking at them.
+// selftest.c - tests for driver bugs with isolines, by drawing some and reading them back.
 //
-// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits: beyond 65,536 later patches silently
-// repeat earlier ones. One old driver swaps the two outer levels.
+// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits. Beyond 65,536 vertices,
+// later patches silently repeat earlier ones. One old driver swaps the two outer levels.
 #include "lib/gl/gl.h"
 
 #define LINES 64
 #define SEGMENTS 32
 #define PATCHES 32 // PATCHES * LINES * (SEGMENTS + 1) = 67,584 vertices
-#define SAFE_DRAW_VERTICES 33000u // Under 65,536, and where llvmpipe was measured to be fastest
+#define SAFE_DRAW_VERTICES 33000u // Below 65,536, and in the fastest range of llvmpipe.
 
 struct captured {
     float patch, v;
@@ -44,7 +44,8 @@ static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint fra
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
     gl->UseProgram(program);
     gl->BeginTransformFeedback(GL_LINES);
-    gl->DrawArrays(GL_PATCHES, 1, PATCHES); // Numbers from 1, so that zeros left in the buffer are no patch.
+    // Number patches from 1, so that zeros left in the buffer are no patch.
+    gl->DrawArrays(GL_PATCHES, 1, PATCHES);
     gl->EndTransformFeedback();
     hair_gl_end_capture(gl, &was);
 }

@@ -1,4 +1,5 @@
-// shading.c - programs with the host's text in place of own.glsl. Only what is asked for is compiled, and has memory.
+// shading.c - programs with the application's text in place of own.glsl. Only requested programs
+// are compiled and take memory.
 #include "lib/gl/gl.h"
 
 #include <string.h>
@@ -47,8 +48,10 @@ static hair_result make_room(struct hair_gl* gl, struct hair_gl_shader* shader)
 hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
                              GLuint* out)
 {
-    if (!hair_gl_know(gl, pass)) return HAIR_ERROR_MEMORY; // Its time counts as that of the pass.
-    if (shader->made != gl->made) free_programs(gl, shader); // All shaders have been compiled anew.
+    // The run time counts as that of the pass.
+    if (!hair_gl_know(gl, pass)) return HAIR_ERROR_MEMORY;
+    // All shaders have been compiled again.
+    if (shader->made != gl->made) free_programs(gl, shader);
     shader->made = gl->made;
     for (uint32_t i = 0; i < shader->count; ++i)
         if (shader->own[i].pass == pass) {

@@ -1,11 +1,13 @@
-// source.c - shader text: built in or read from a folder, its includes put in place.
+// source.c - shader sources, built in or read from a folder, with includes inserted.
 #include "lib/gl/gl.h"
 
 #include <stdio.h>
 #include <string.h>
 
+// Names and texts, each ended by a 0. An empty name ends the array. tools/embed.c generates the
+// array.
 extern const unsigned char
-    hair_sources[]; // name, 0, text, 0, and so on; an empty name ends it (tools/embed.c)
+    hair_sources[];
 
 #define MAX_FILE (1u << 20)
 
@@ -46,14 +48,15 @@ static const char* find_built_in(const char* name)
     return NULL;
 }
 
-// *out stays NULL when the file is not there or too long.
+// Read a file. *out stays NULL if the file does not exist or is too long.
 static hair_result read_file(const hair_host* host, const char* folder, const char* name, char** out)
 {
     char path[1024];
     if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, name) >= sizeof path) return HAIR_OK;
     FILE* file = fopen(path, "rb");
     if (!file) return HAIR_OK;
-    char* text = hair_alloc(host, MAX_FILE + 1, 1); // Zeroed, so that the text ends where the file does.
+    // Zeroed, so that the text ends where the file does.
+    char* text = hair_alloc(host, MAX_FILE + 1, 1);
     if (text && fread(text, 1, MAX_FILE, file) < MAX_FILE)
         *out = text;
     else
@@ -62,7 +65,7 @@ static hair_result read_file(const hair_host* host, const char* folder, const ch
     return text ? HAIR_OK : hair_fail_memory(host, "shader text");
 }
 
-// The name between quotes of an #include line, or a length of 0.
+// Find the name between quotes in an #include line. Return its length, or 0 if the line is none.
 static size_t parse_include(const char* line, const char* end, const char** name)
 {
     while (line < end && (*line == ' ' || *line == '\t')) ++line;
@@ -85,8 +88,8 @@ struct reader {
 
 static hair_result read_one(struct reader* reader, const char* name, size_t length);
 
-// What a file is called in directives. One compiler takes some errors in any file for the first one's: that is the host's
-// text, where there is one.
+// Return the number of a file in #line directives. One compiler reports some errors of any file in
+// file 0. If the application has a text, that text is file 0.
 static uint32_t called(const struct reader* reader, uint32_t number)
 {
     if (!reader->own) return number;
@@ -128,7 +131,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
 {
     struct hair_gl_source* out = reader->out;
     uint32_t number = out->files;
-    for (uint32_t i = 0; i < number; ++i) // Each file once.
+    for (uint32_t i = 0; i < number; ++i) // Include each file once.
         if (strlen(out->file[i]) == length && memcmp(out->file[i], name, length) == 0) return HAIR_OK;
     if (length >= sizeof out->file[0] || number == HAIR_GL_MAX_SOURCES)
         return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader %s includes too much", out->file[0]);

@@ -1,5 +1,5 @@
-// state.c - the host's OpenGL comes back as it was. Everything the library's draws and dispatches change is
-// saved here and nowhere else; objects are edited without being bound.
+// state.c - the application's OpenGL state, saved and restored. Everything that draws and
+// dispatches change is saved only here. Objects are edited without binding them.
 #include "lib/gl/gl.h"
 
 static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLsizei count,
@@ -21,14 +21,14 @@ static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, co
                             const GLintptr* firsts, const GLsizeiptr* sizes)
 {
     for (GLsizei i = 0; i < count; ++i) {
-        if (sizes[i] > 0) // A size of 0 stands for the whole buffer.
+        if (sizes[i] > 0) // A size of 0 means the whole buffer.
             gl->BindBuffersRange(target, (GLuint)i, 1, &buffers[i], &firsts[i], &sizes[i]);
         else
             gl->BindBuffersBase(target, (GLuint)i, 1, &buffers[i]);
     }
 }
 
-// What a unit holds that the library binds there.
+// Return the texture target that the library binds at a unit.
 static GLenum target_of(GLuint unit)
 {
     if (unit == HAIR_UNIT_PAINT || unit == HAIR_UNIT_LIGHT) return GL_TEXTURE_BUFFER;
@@ -58,7 +58,8 @@ static void restore_units(struct hair_gl* gl)
 {
     const struct hair_gl_saved* saved = &gl->saved;
     for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
-        // By target: glBindTextureUnit(unit, 0) would empty the unit's other targets too.
+        // Bind by target, because glBindTextureUnit(unit, 0) would also clear the other targets of
+        // the unit.
         gl->ActiveTexture(GL_TEXTURE0 + unit);
         gl->BindTexture(target_of(unit), (GLuint)saved->texture[unit]);
         if (target_of(unit) != GL_TEXTURE_BUFFER) gl->BindSampler(unit, (GLuint)saved->sampler[unit]);
@@ -89,9 +90,9 @@ void hair_gl_enter(struct hair_gl* gl)
                  HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
-// Nothing that the library may delete stays bound. A program that is deleted while current cannot be made current again
-// by whoever restores what was. Mesa unbinds a buffer that is deleted by glBindBufferBase, which takes the host's general
-// binding with it.
+// Unbind everything that the library may delete. A program that is deleted while current cannot be
+// made current again by an application that restores it. Mesa unbinds a deleted buffer with
+// glBindBufferBase, which also clears the application's generic binding.
 static void unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
