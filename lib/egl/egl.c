@@ -1,4 +1,5 @@
-// egl.c - an OpenGL context with no window: every EGL device, hardware first, until one will do.
+// egl.c - windowless OpenGL context on the first usable EGL device. Hardware devices are tried
+// first.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -10,7 +11,7 @@
 #include <string.h>
 
 #define MAX_DEVICES 64
-#define SURFACELESS (-1) // In place of a device's index.
+#define SURFACELESS (-1) // Replaces a device's index.
 
 struct hair_egl {
     hair_host host;
@@ -18,7 +19,7 @@ struct hair_egl {
     EGLContext context;
 };
 
-// What EGL offers, and what has been tried of it.
+// EGL's devices and extensions, and the result of each attempt.
 struct search {
     hair_egl* egl;
     EGLDeviceEXT devices[MAX_DEVICES];
@@ -26,7 +27,7 @@ struct search {
     PFNEGLQUERYDEVICESTRINGEXTPROC device_string;
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display;
     bool surfaceless;
-    char refused[420]; // "device 0 (…): …; device 1 (…): …"
+    char refused[420]; // Reasons, as in "device 0 (...): ...; device 1 (...): ..."
 };
 
 static const char* error_name(EGLint error)
@@ -47,7 +48,7 @@ static const char* error_name(EGLint error)
     }
 }
 
-// Whether the space-separated list holds the whole word.
+// Return true if the space-separated list contains the whole word.
 static bool lists(const char* list, const char* word)
 {
     size_t length = strlen(word);
@@ -68,7 +69,7 @@ static bool is_software(const struct search* search, EGLint device)
     return lists(extensions_of(search, device), "EGL_MESA_device_software");
 }
 
-// As people know it: "/dev/dri/card0", "software".
+// Return the familiar name of a device, such as "/dev/dri/card0" or "software".
 static const char* name_of(const struct search* search, EGLint device)
 {
     if (device == SURFACELESS) return "surfaceless";
@@ -90,7 +91,8 @@ static void label(const struct search* search, EGLint device, char* out, size_t 
 static void find_devices(struct search* search)
 {
     const char* offered =
-        eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS); // NULL before EGL 1.5 without extensions.
+        // NULL before EGL 1.5 without client extensions.
+        eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (lists(offered, "EGL_EXT_platform_base"))
         search->platform_display =
             (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
@@ -106,10 +108,10 @@ static void find_devices(struct search* search)
     if (query && !query(MAX_DEVICES, search->devices, &search->count)) search->count = 0;
 }
 
-// NULL when the display's context is current, else why not.
+// Create a context and make it current. Return NULL on success, or the reason of the failure.
 static const char* make_context(hair_egl* egl)
 {
-    // Core is the profile unless another is asked for.
+    // The core profile is the default.
     static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
 
     const char* offered = eglQueryString(egl->display, EGL_EXTENSIONS);
@@ -131,8 +133,9 @@ static const char* make_context(hair_egl* egl)
     return why;
 }
 
-// All displays of one device are the same object in one process: eglTerminate would take it from every
-// other user of it, so displays stay initialised until the process ends.
+// Open the display of a device. All users of a device in a process share one display, and
+// eglTerminate would close it for all of them. Displays therefore stay initialized until the
+// process ends.
 static const char* open_display(const struct search* search, EGLint device)
 {
     hair_egl* egl = search->egl;
@@ -228,8 +231,8 @@ void hair_egl_destroy(hair_egl* egl)
 hair_result hair_egl_make_current(hair_egl* egl)
 {
     EGLDisplay display = egl ? egl->display : eglGetCurrentDisplay();
-    if (display == EGL_NO_DISPLAY) return HAIR_OK; // None is current already.
-    if (egl) eglBindAPI(EGL_OPENGL_API); // Of the thread, and OpenGL ES until told.
+    if (display == EGL_NO_DISPLAY) return HAIR_OK; // No context is current already.
+    if (egl) eglBindAPI(EGL_OPENGL_API); // The API is bound per thread, and defaults to OpenGL ES.
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl ? egl->context : EGL_NO_CONTEXT))
         return HAIR_OK;
     EGLint error = eglGetError();
@@ -244,6 +247,7 @@ void* hair_egl_get_proc(const char* name, void* user)
     if (!name) return NULL;
     void (*function)(void) = eglGetProcAddress(name);
     void* address;
-    memcpy(&address, &function, sizeof address); // C has no cast between the two kinds of pointer.
+    // C has no cast between function and object pointers.
+    memcpy(&address, &function, sizeof address);
     return address;
 }

@@ -1,18 +1,21 @@
-// bricks.c - which bricks of the field are written again, and which solids reach into each of them.
+// bricks.c - selection of the bricks of the field to write again, and of the colliders that reach
+// into each.
 //
-// A solid is left out of a brick where it is farther than the band, and where another is nearer to every voxel.
+// A collider is left out of a brick if it is farther than the band, or if another is nearer to
+// every voxel.
 #include "lib/field/bricks.h"
 
 #include <string.h>
 
-#define MOST_PAIRS (1u << 18) // at once, unless one brick has more
+#define MOST_PAIRS (1u << 18) // Maximum pairs in a dispatch, unless one brick has more.
 
 static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
 {
     return (z * box->bricks[1] + y) * box->bricks[0] + x;
 }
 
-// What a solid's band touches within the bricks from `first` up to `end`.
+// Bricks from `first` up to, not including, `end`. overlap() returns those that a collider's band
+// touches within a range.
 struct range {
     uint32_t first[3], end[3];
 };
@@ -38,7 +41,8 @@ static struct range all_of(const struct hair_field_box* box)
     return (struct range){{0, 0, 0}, {box->bricks[0], box->bricks[1], box->bricks[2]}};
 }
 
-// What others hide wherever it is in a brick does not change it. Should they move, they mark it themselves.
+// Mark the bricks that a collider changes. If others are nearer everywhere in a brick, the collider
+// does not change it. When those move, they mark the brick themselves.
 void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed)
 {
     const struct hair_field_box* box = &field->box;
@@ -52,7 +56,7 @@ void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* p
     }
 }
 
-// The bricks that hold all that are marked. Returns how many those are.
+// Find the bounds of all marked bricks. Return the number of marked bricks.
 static uint32_t find_dirty(const struct hair_solid_field* field, struct range* out)
 {
     const struct hair_field_box* box = &field->box;
@@ -78,7 +82,7 @@ void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job
     struct range dirty;
     memset(job, 0, sizeof *job);
     if (!find_dirty(field, &dirty)) return;
-    // At most how many members each will have.
+    // Compute an upper bound of each brick's member count.
     memset(field->members, 0, hair_field_bricks(box) * sizeof *field->members);
     for (uint32_t i = 0; i < field->count; ++i) {
         struct range range = overlap(&field->placed[i], &dirty);
@@ -87,12 +91,13 @@ void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job
     job->end = hair_field_bricks(box);
 }
 
+// Collider that may reach into a brick.
 struct pair {
     uint32_t brick, solid;
-    float least; // distance of any voxel
+    float least; // Lower bound of its distance to any voxel.
 };
 
-// Marked bricks from job->next on, until they have as many pairs as fit. Returns where to go on.
+// Add marked bricks from job->next on, while their pairs fit. Return the first brick that is left.
 static uint32_t take_bricks(const struct hair_solid_field* field, const struct hair_field_job* job,
                             uint32_t* bricks, size_t* pairs)
 {
@@ -106,7 +111,7 @@ static uint32_t take_bricks(const struct hair_solid_field* field, const struct h
     return end;
 }
 
-// Solid after solid, brick after brick. Returns how many there are.
+// List the pairs by collider, then by brick. Return their number.
 static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_field_job* job, uint32_t end,
                            struct pair* pairs)
 {
@@ -132,9 +137,10 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
     return count;
 }
 
-#define HAS_FORM 2 // of what is dirty
+#define HAS_FORM 2 // Value of `dirty` for a brick that a collision mesh reaches into.
 
-// Pairs become members, in the order of solids in every brick; bricks that forms reach into come last.
+// Turn pairs into members, in the order of colliders in every brick. Bricks that collision meshes
+// reach into come last.
 static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* job, uint32_t end,
                        const struct pair* pairs, uint32_t count)
 {
@@ -155,7 +161,7 @@ static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* jo
         uint32_t at = field->dirty[b] == HAS_FORM ? job->bricks - ++job->with_forms : plain++;
         job->brick[at] =
             (struct hair_field_brick){.at = x + (y << 10) + (z << 20), .first = first, .count = members};
-        field->members[b] = first; // Where its next goes.
+        field->members[b] = first; // Place of the brick's next member.
         first += members;
         field->dirty[b] = 0;
     }

@@ -1,9 +1,10 @@
-// field.c - the field's textures, and what is dispatched to write them.
+// field.c - textures of the field, and the dispatches that write them.
 #include "lib/field/bricks.h"
 
 #include <string.h>
 
-#define ALIGNMENT 256 // of ranges of storage buffers: the most that a driver may ask for
+// Alignment of ranges in storage buffers, the maximum that a driver may require.
+#define ALIGNMENT 256
 
 void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
                        const struct hair_groom* groom, float voxel)
@@ -14,7 +15,7 @@ void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
     field->box = hair_field_box_of(groom, voxel);
 }
 
-// As hair_field_create left it.
+// Free everything and return to the state after hair_field_create().
 static void clear(struct hair_solid_field* field)
 {
     struct hair_gl* gl = field->gl;
@@ -61,7 +62,7 @@ static hair_result make(struct hair_solid_field* field)
     return HAIR_OK;
 }
 
-// Placing ---------------------------------------------------------------------------------------------------
+// Placing -----------------------------------------------------------------------------------------
 
 static hair_result make_room(struct hair_solid_field* field, uint32_t count)
 {
@@ -77,7 +78,7 @@ static hair_result make_room(struct hair_solid_field* field, uint32_t count)
     return HAIR_OK;
 }
 
-// What is `now` takes the place of what was. The form that both have is not taken again.
+// Replace a placed collider by `now`. Keep the reference if both have the same collision mesh.
 static hair_result replace(struct hair_solid_field* field, struct hair_placed* placed,
                            struct hair_placed* now)
 {
@@ -94,7 +95,8 @@ static hair_result replace(struct hair_solid_field* field, struct hair_placed* p
     return HAIR_OK;
 }
 
-// Where solids are, instead of where they were; what they leave and enter is marked, if there is a field yet.
+// Place all colliders at their current transforms. Mark the bricks that they leave and enter, if
+// the field exists.
 static hair_result place_all(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
                              const struct hair_pose* head)
 {
@@ -118,7 +120,7 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
     return result;
 }
 
-// Writing ---------------------------------------------------------------------------------------------------
+// Writing -----------------------------------------------------------------------------------------
 
 static void write_params(struct hair_solid_field* field, hair_quat rotation)
 {
@@ -138,7 +140,8 @@ static size_t aligned(size_t size)
     return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
-// Solids, members, bricks and those with forms, one after the other in one buffer.
+// Number of parts of the work buffer, which are colliders, members, bricks, and bricks with
+// collision meshes.
 #define PARTS 4
 
 static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bricks, int part,
@@ -209,7 +212,7 @@ static hair_result write_marked(struct hair_solid_field* field)
     }
     hair_field_end(field, &job);
     field->writes += ran != 0;
-    // What is written again must not be overtaken, nor what the host reads of it.
+    // Order these writes before later writes to the field, and before readbacks by the application.
     if (ran) gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     return result;
 }
@@ -250,7 +253,7 @@ struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, c
     if (known && placed.form && known->form == placed.form)
         placed.solid.first = field->forms->pooled[known->place].first;
     else if (solid->shape == HAIR_SHAPE_FORM)
-        *lower = *upper = hair_v3(0, 0, 0); // There is nothing to read it from.
+        *lower = *upper = hair_v3(0, 0, 0); // The mesh has no distance grid to read.
     return placed.solid;
 }
 

@@ -1,7 +1,9 @@
-// field.h - solids voxelised: the distance to the nearest of them and its number, in a box in the head's frame, so that
-// what moves with the head stands still in it.
+// field.h - voxelised distance field of the colliders in a box of the head's frame. It holds the
+// distance to the nearest collider and its number. Colliders that move with the head do not change
+// it.
 //
-// Nothing is made before a solid reaches into the box, and then only what moved is written again.
+// Nothing is created before a collider reaches into the box. Afterwards only bricks that changed
+// are written again.
 #ifndef HAIR_FIELD_FIELD_H
 #define HAIR_FIELD_FIELD_H
 
@@ -11,38 +13,42 @@
 
 struct hair_solid_field {
     struct hair_gl* gl;
-    struct hair_forms* forms; // of the context
+    struct hair_forms* forms; // Pool of the context.
     struct hair_field_box box;
-    GLuint distance; // 3D texture, R16F, m; 0: there is none
-    GLuint number; // 3D texture, R32UI; HAIR_NO_SOLID where none is near
-    GLuint params; // uniform buffer
-    GLuint work; // what the last dispatch was to do
-    GLuint work_texture; // the same
-    hair_quat rotation; // of the head, as the parameters have it
-    struct hair_placed* placed; // as they were written
+    GLuint distance; // 3D texture, R16F, in metres. 0 if there is none.
+    GLuint number; // 3D texture, R32UI. HAIR_NO_SOLID where no collider is near.
+    GLuint params; // Uniform buffer.
+    GLuint work; // Inputs of the last dispatch.
+    GLuint work_texture; // Buffer texture of `work`.
+    hair_quat rotation; // Rotation of the head in `params`.
+    struct hair_placed* placed; // Colliders as written.
     uint32_t count, room;
-    uint32_t near; // of them that reach into the box
-    unsigned char* dirty; // per brick: is to be written
-    uint32_t* members; // per brick
-    uint32_t writes; // how often it has been written or let go
-    float* best; // per brick, as it was written: no voxel is farther from the nearest solid, m
+    uint32_t near; // Number of colliders that reach into the box.
+    unsigned char* dirty; // Per brick, nonzero if it must be written.
+    uint32_t* members; // Member count or place, per brick.
+    uint32_t writes; // Number of times that the field was written or freed.
+    // Per brick, maximum distance of any voxel to the nearest collider as written, in metres.
+    float* best;
 };
 
-// Where the field of this groom is. Neither memory nor OpenGL.
+// Set up the field of a groom, without memory or OpenGL.
 void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
                        const struct hair_groom* groom, float voxel);
 void hair_field_destroy(struct hair_solid_field* field);
 
-// Write what has moved since the last time. On failure there is no field. Where no solid is near, there may be none.
+// Write what has changed since the last update. On failure there is no field. There may be none
+// while no collider is near.
 hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
                               const struct hair_pose* head);
 
-// The i-th of the solids, as shaders know it. With forms of which some other than the last update knows, it has none.
+// Return collider i as shaders read it, and its extent. A collision mesh that differs from the last
+// update has an empty extent.
 struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, const hair_solid* solid,
                                          uint32_t i, const struct hair_pose* head, hair_vec3* lower,
                                          hair_vec3* upper);
 
-// Whether a strand can meet a solid: only then hair_field_bind has something to bind, and glsl/field.glsl to read.
+// Return nonzero if a strand can meet a collider. Only then may hair_field_bind() be called and
+// glsl/field.glsl read the field.
 int hair_field_is_near(const struct hair_solid_field* field);
 void hair_field_bind(const struct hair_solid_field* field);
 

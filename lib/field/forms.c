@@ -1,9 +1,10 @@
-// forms.c - the grids of forms in one buffer. What nobody uses any more goes when the buffer must grow, or with the last.
+// forms.c - distance grids of collision meshes, pooled in one buffer. Unused grids are dropped when
+// the buffer grows, and the buffer is freed with the last one.
 #include "lib/field/forms.h"
 
 #include <string.h>
 
-#define LEAST_ROOM 65536 // nodes
+#define LEAST_ROOM 65536 // Minimum capacity, in nodes.
 
 static size_t count_nodes(const hair_form* form)
 {
@@ -19,7 +20,7 @@ static void upload(struct hair_forms* forms, GLuint buffer, struct hair_pooled_f
     forms->used += count;
 }
 
-// A buffer with all that is used and room for `more` nodes.
+// Make a buffer that holds all used grids and `more` nodes.
 static hair_result make_room(struct hair_forms* forms, size_t more)
 {
     if (forms->nodes && forms->used + more <= forms->room) return HAIR_OK;
@@ -41,7 +42,7 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
     return HAIR_OK;
 }
 
-// A free place among those that there are, or one more.
+// Find a free place, or append one.
 static hair_result find_place(struct hair_forms* forms, uint32_t* place)
 {
     for (*place = 0; *place < forms->count; ++*place)

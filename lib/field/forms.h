@@ -1,4 +1,5 @@
-// forms.h - the grids of forms in one buffer, each there once for all instances of a context that have solids of it.
+// forms.h - pool of the distance grids of collision meshes. All instances of a context share one
+// copy of each grid.
 #ifndef HAIR_FIELD_FORMS_H
 #define HAIR_FIELD_FORMS_H
 
@@ -6,25 +7,26 @@
 #include "lib/gl/gl.h"
 
 struct hair_pooled_form {
-    const hair_form* form; // held; NULL: the place is free
-    uint32_t users; // solids
-    uint32_t first; // of its nodes
+    const hair_form* form; // Referenced mesh. NULL if the place is free.
+    uint32_t users; // Number of colliders that use it.
+    uint32_t first; // First of its nodes.
 };
 
 struct hair_forms {
     struct hair_gl* gl;
-    GLuint nodes; // buffer: float[], m
-    GLuint texture; // the same; 0 until hair_forms_need_texture
-    size_t used, room; // nodes
+    GLuint nodes; // Buffer of floats, in metres.
+    GLuint texture; // Buffer texture of `nodes`. 0 until hair_forms_need_texture().
+    size_t used, room; // Used nodes and capacity.
     struct hair_pooled_form* pooled;
-    uint32_t count, capacity; // of places
+    uint32_t count, capacity; // Number of places, and capacity.
 };
 
-// One solid more that has the form, at `place` for as long as it has.
+// Add a user of `form`. Its place stays `place` until hair_forms_drop().
 hair_result hair_forms_take(struct hair_forms* forms, const hair_form* form, uint32_t* place);
+// Remove a user.
 void hair_forms_drop(struct hair_forms* forms, uint32_t place);
 
-// For passes that have no storage buffer to spare.
+// Create the buffer texture, for passes that have no storage buffer left.
 hair_result hair_forms_need_texture(struct hair_forms* forms);
 
 #endif

@@ -1,12 +1,13 @@
-// place.c - the field's box, and solids in it.
+// place.c - box of the field, and colliders placed in it.
 #include "lib/field/place.h"
 #include "lib/collide/distance.h"
 
 #include <string.h>
 
-#define SWING 0.25f // of the longest strand: how far beyond its rest shape hair is looked for
-#define STILL 0.01f // of a voxel: a solid that moves less has not moved; errors of rounding do no more
-#define EVERYWHERE 1e9f // m
+#define SWING 0.25f // Margin around the rest shape, as a fraction of the longest strand.
+// Movement of a collider that is ignored, in voxels. Rounding errors stay below it.
+#define STILL 0.01f
+#define EVERYWHERE 1e9f // Distance beyond everything, in metres.
 
 static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
 {
@@ -16,10 +17,10 @@ static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upp
                      fmaxf(upper->z, at.z + around));
 }
 
-// Hair is within a strand's length of its roots, and most of it, most of the time, near its rest shape: a box of all that
-// it can reach is several times as long as that of long hair at rest, and mostly empty. So it is the rest shape and a
-// quarter of the longest strand around it, as far as that can be reached. What swings farther finds no solid there;
-// guides do not depend on it.
+// Compute the bounds of the field. They are those of the rest shape and SWING times the longest
+// strand around it, but never beyond the reach of strands. Hair mostly stays near its rest shape. A
+// box of everything in reach would be several times as long for long hair, and mostly empty. Hair
+// that swings farther meets no collider there, but guides do not depend on the field.
 static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_vec3* upper)
 {
     hair_vec3 reach[2] = {{EVERYWHERE, EVERYWHERE, EVERYWHERE}, {-EVERYWHERE, -EVERYWHERE, -EVERYWHERE}};
@@ -66,15 +67,15 @@ struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float vo
     return box;
 }
 
-// Solids ----------------------------------------------------------------------------------------------------
+// Colliders ---------------------------------------------------------------------------------------
 
 static hair_quat quat_of(hair_vec4 q)
 {
     return (hair_quat){q.x, q.y, q.z, q.w};
 }
 
-// The box around a solid in its own axes, without what comes to that on all sides, `around`. A sphere is its centre and
-// its radius around it, so that no turn makes it larger.
+// Compute the box around a collider in its own axes, without the margin `around` on all sides. A
+// sphere is its centre with its radius as the margin, so that no rotation enlarges it.
 static void find_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper, float* around)
 {
     const struct hair_field_solid* solid = &placed->solid;
@@ -172,7 +173,8 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     if (from->form != to->form || a->shape != b->shape || a->number != b->number ||
         a->position.w != b->position.w || memcmp(&a->size, &b->size, sizeof a->size))
         return 1;
-    // A point moves by its centre's way and by the turn times its distance from it, of which only that in the box counts.
+    // A point moves at most by the centre's translation plus the rotation times its distance from
+    // the centre. Only points in the box count.
     hair_vec3 half = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 centre = hair_v3(a->position.x, a->position.y, a->position.z);
@@ -197,7 +199,8 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     return !(hair_length(way) + 2 * sqrtf(turn) * arm <= STILL * box->voxel);
 }
 
-// Distances change no faster than place does, but for those between the nodes of a form by a little.
+// Return bounds of a collider's distance to the voxels of a brick. Distances are 1-Lipschitz,
+// except slightly between the nodes of a collision mesh.
 struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
                                           uint32_t x, uint32_t y, uint32_t z)
 {

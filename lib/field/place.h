@@ -1,4 +1,4 @@
-// place.h - where the field is, and where solids are in it.
+// place.h - box of the field, and colliders placed in it.
 #ifndef HAIR_FIELD_PLACE_H
 #define HAIR_FIELD_PLACE_H
 
@@ -6,19 +6,20 @@
 #include "lib/collide/form.h"
 #include "lib/groom/groom.h"
 
-#define HAIR_FIELD_BAND 4 // voxels around a solid that know how far it is
-#define HAIR_FIELD_SHORTEST 32 // voxels along the longest side,
+#define HAIR_FIELD_BAND 4 // Voxels around a collider that hold its distance.
+#define HAIR_FIELD_SHORTEST 32 // Minimum number of voxels along the longest side.
+// Maximum number of voxels along the longest side.
 #define HAIR_FIELD_LONGEST 256
-#define HAIR_FIELD_LEAST 1e-4f // m: a voxel
+#define HAIR_FIELD_LEAST 1e-4f // Minimum size of a voxel, in metres.
 
 struct hair_field_box {
-    hair_vec3 lower; // corner, m, in the head's frame
-    float voxel; // m
-    float far; // m: stands for every distance beyond it
+    hair_vec3 lower; // Lower corner in the head's frame, in metres.
+    float voxel; // Size of a voxel, in metres.
+    float far; // Distance in metres that stands for all greater ones.
     uint32_t bricks[3];
 };
 
-// The box in which hair of the groom is, as a rule: see place.c.
+// Return the box that usually contains the hair of a groom. See place.c.
 struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float voxel);
 
 static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
@@ -26,26 +27,27 @@ static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
     return box->bricks[0] * box->bricks[1] * box->bricks[2];
 }
 
-// A solid in the head's frame, and the bricks from `first` up to, not including, `end` that the band around it touches:
-// none where they are alike.
+// Collider in the head's frame. The band around it touches the bricks from `first` up to, not
+// including, `end`. Equal bounds mean no bricks.
 struct hair_placed {
     struct hair_field_solid solid;
-    const hair_form* form; // NULL: it is none, or one without its mesh
-    uint32_t place; // of the form among hair_forms
+    const hair_form* form; // NULL if the collider is no collision mesh, or one without data.
+    uint32_t place; // Place of the mesh in hair_forms.
     uint16_t first[3], end[3];
 };
 
 struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_solid* solid,
                                     uint32_t number, const struct hair_pose* head);
 
-// Whether a solid has moved or changed by more than a field can show.
+// Return nonzero if a collider has moved or changed by more than the field can resolve.
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed* from,
                          const struct hair_placed* to);
 
-// The box around a solid in its own axes; of a plane, as much as is worth drawing.
+// Compute the box around a collider in its own axes. A plane gets a part that is worth drawing.
 void hair_field_shown_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper);
 
-// From the centres of a brick's voxels to the solid's surface: no less and no more than this. m, below 0 inside.
+// Bounds of the distances from the voxel centres of a brick to a collider's surface, in metres.
+// Distances inside are negative.
 struct hair_field_span {
     float least, most;
 };

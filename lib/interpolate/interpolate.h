@@ -1,4 +1,4 @@
-// interpolate.h - guides smoothed into buffers that everything that draws reads, and followers read back.
+// interpolate.h - guides smoothed into buffers that every draw reads.
 #ifndef HAIR_INTERPOLATE_INTERPOLATE_H
 #define HAIR_INTERPOLATE_INTERPOLATE_H
 
@@ -7,20 +7,21 @@
 
 struct hair_smooth {
     struct hair_gl* gl;
-    GLuint buffer[3]; // position, tangent, frame
-    GLuint texture[3]; // the same, for stages that are promised no storage buffers
-    hair_gl_pass pass; // the size of smooth.comp that the longest guide needs
-    uint32_t vertices; // in all
-    uint32_t runs; // so far
-    int done; // since the guides were last moved
+    GLuint buffer[3]; // Position, tangent and frame.
+    GLuint texture[3]; // Their buffer textures, for stages without storage buffers.
+    hair_gl_pass pass; // Variant of smooth.comp in the size that the longest guide needs.
+    uint32_t vertices; // Total number of vertices.
+    uint32_t runs; // Number of runs so far.
+    int done; // Nonzero if the guides have not moved since the last run.
 };
 
 hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim);
 void hair_smooth_destroy(struct hair_smooth* smooth);
 
-// Smooth the guides as the last step left them; reads the step buffer. `need`: unless that is done. Who moves the guides
-// sets `done` to 0: only what is drawn or read needs to be smoothed.
+// Smooth the guides as the last step left them. This reads the step buffer.
 void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim);
+// Smooth the guides unless `done` is nonzero. Code that moves the guides sets `done` to 0, so that
+// guides are smoothed only if drawn or read.
 void hair_smooth_need(struct hair_smooth* smooth, struct hair_sim* sim);
 
 #endif

@@ -1,4 +1,4 @@
-// smooth.c - the smoothed guides: structure of arrays, one buffer and one texture each.
+// smooth.c - smoothed guides as a structure of arrays, with a buffer and a texture for each.
 #include "lib/interpolate/interpolate.h"
 
 hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
