@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-// Write the matrix from the head's origin to a shadow map. xy map from [-1, 1] to [0, 1], and z as
+// Write the matrix from the head's origin to a shadow map. Map xy from [-1, 1] to [0, 1], and z as
 // the application's clip control says. In perspective the rows of z and w are parallel in xyz.
 // Depth is then its value at infinity minus a term that falls with the distance.
 static void write_map(const struct hair_draw* draw, const struct hair_pose* head, const hair_light* light,

@@ -16,7 +16,7 @@ struct hair_field_job {
     uint32_t next, end;
 };
 
-// Mark the bricks that the band around a solid touches.
+// Mark the bricks that the band around a collider touches.
 void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed);
 
 // Begin the dispatches for all marked bricks.

@@ -1,4 +1,4 @@
-// air.c - what the solvers read of the wind.
+// air.c - parameters of the wind that the solvers read.
 #include "lib/wind/air.h"
 
 #include "lib/wind/gusts.h"
@@ -6,10 +6,11 @@
 #include <string.h>
 
 #define PI 3.14159265358979
-#define LARGEST 0.5f // m: radius of a solid that air is taken to go around as around a ball
+#define LARGEST 0.5f // Maximum radius in metres of a collider that shelters like a ball.
 
-// How the texture of gusts lies in the world. No axis of the one is near an axis, or a diagonal, of the other: so what the
-// wind brings along any axis of the world is far in the texture from what it brought before.
+// Orientation of the gust texture in the world. No axis of one is near an axis or a diagonal of the
+// other. Air that the wind brings along a world axis is thus far in the texture from the air that
+// came before.
 static const hair_quat lie = {0.2896f, 0.4133f, 0.1497f, 0.8501f};
 
 static int blows(const hair_wind* wind)
@@ -67,9 +68,10 @@ void hair_air_free(struct hair_air* air, struct hair_gl* gl)
     hair_gl_free_texture(gl, &air->gusts);
 }
 
-// Balls -----------------------------------------------------------------------------------------------------
+// Balls -------------------------------------------------------------------------------------------
 
-// Into at most HAIR_WIND_BALLS, the largest first, of which none has its centre in a larger one.
+// Insert a ball into at most HAIR_WIND_BALLS, the largest first. Leave out a ball with its centre
+// in a larger one.
 static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius)
 {
     uint32_t place = 0;
@@ -83,7 +85,7 @@ static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius
     params->ball[place] = (hair_vec4){at.x, at.y, at.z, radius};
 }
 
-// Of about as much face to the wind: the two larger of its half sides.
+// Add a collider as a ball of about the same frontal area, from the two larger of its half sides.
 static void add_solid(struct hair_wind_params* params, const hair_solid* solid, const struct hair_pose* head)
 {
     hair_vec3 middle, half;
@@ -111,7 +113,7 @@ static void write_balls(const struct hair_air* air, const struct hair_air_now* n
         add_solid(params, &now->solids->now.solid[i], &now->head);
 }
 
-// The rest --------------------------------------------------------------------------------------------------
+// The rest ----------------------------------------------------------------------------------------
 
 static void write_sources(const struct hair_air_now* now, struct hair_wind_params* params)
 {
@@ -129,7 +131,7 @@ static void write_sources(const struct hair_air_now* now, struct hair_wind_param
     params->sources = now->wind->source_count;
 }
 
-// In doubles: the wind may have carried them far.
+// Compute in double, because the wind may have carried the gusts far.
 struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair_wind* wind,
                                           const struct hair_pose* head)
 {
@@ -175,7 +177,8 @@ static int has_volume(const struct hair_gl* gl, const hair_wind* wind)
     return target == GL_TEXTURE_3D;
 }
 
-// From the head's origin at the end of the dispatch: the transform after a shift by it.
+// Write the transform to the texture of velocities. It applies to positions from the head's origin
+// at the end of the dispatch.
 static void write_volume(const struct hair_gl* gl, const struct hair_air_now* now,
                          struct hair_wind_params* params)
 {
@@ -205,7 +208,7 @@ static void write_starts(const struct hair_air_now* now, struct hair_wind_params
 static void bind(const struct hair_air* air, struct hair_gl* gl, GLuint volume)
 {
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &air->params);
-    if (air->gusts) { // None would take what a host has of other kinds off the unit.
+    if (air->gusts) { // Binding 0 would also unbind the application's textures of other targets.
         gl->BindTextureUnit(HAIR_UNIT_GUST, air->gusts);
         gl->BindSampler(HAIR_UNIT_GUST, 0);
     }

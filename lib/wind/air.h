@@ -1,53 +1,57 @@
-// air.h - the wind as the solvers feel it: see glsl/wind/air.glsl.
+// air.h - parameters of the wind as the solvers feel it. See glsl/wind/air.glsl.
 #ifndef HAIR_WIND_AIR_H
 #define HAIR_WIND_AIR_H
 
 #include "lib/collide/solid.h"
 #include "lib/gl/gl.h"
 
-struct hair_air { // But for `ball` and `moved` all 0 while there is no wind.
-    GLuint params; // buffer, as in shared.h
-    hair_vec4 box; // of the fluid, likewise
-    GLuint gusts; // texture; 0: there are none
-    uint32_t gust_seed; // that it was made of
-    hair_vec4 ball; // under the hair: xyz: in the head's frame, m; w: radius, m; 0: there is none
-    hair_wind_source source[HAIR_WIND_SOURCES]; // what the wind's are copied to
-    double moved[3]; // how far the wind has carried gusts, at the end of the last substep. m
+// State of the wind. Except `ball` and `moved`, all is 0 while there is no wind.
+struct hair_air {
+    GLuint params; // Buffer, as in shared.h.
+    hair_vec4 box; // Box of the fluid, as in shared.h.
+    GLuint gusts; // Texture of gusts. 0 if there are none.
+    uint32_t gust_seed; // Seed of that texture.
+    // Sphere under the hair, in the head's frame. xyz is the centre, w the radius in metres. 0 if
+    // there is none.
+    hair_vec4 ball;
+    hair_wind_source source[HAIR_WIND_SOURCES]; // Copies of the wind's sources.
+    double moved[3]; // Displacement of gusts by the wind at the end of the last substep, in metres.
 };
 
-// Where a dispatch of substeps leads, which step->substep has.
+// Inputs of a dispatch of substeps. step->substep holds the motion of the head.
 struct hair_air_now {
     const hair_wind* wind;
     const hair_physics* physics;
     const struct hair_solids* solids;
     const struct hair_step_params* step;
-    struct hair_pose head; // at its end
+    struct hair_pose head; // Head at the end of the dispatch.
     uint32_t substeps;
-    double substep; // s
+    double substep; // Length of a substep, in s.
 };
 
-// Gusts as shaders find them: see hair_wind_params.
+// Gusts as shaders read them. See hair_wind_params.
 struct hair_air_gusts {
-    GLuint texture; // 0: there are none
+    GLuint texture; // 0 if there are none.
     hair_vec4 turn, from;
-    float speed; // standard deviation, m/s
+    float speed; // Standard deviation, in m/s.
 };
 
 int hair_wind_is_on(const hair_wind* wind);
-int hair_wind_is_unsteady(const hair_wind* wind); // 1: air changes though nothing is set anew
+// Return nonzero if the air changes although no setting does.
+int hair_wind_is_unsteady(const hair_wind* wind);
 
-// What such a wind takes; nothing if there is none.
+// Create the resources that `wind` needs. Free them if there is no wind.
 hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);
 void hair_air_free(struct hair_air* air, struct hair_gl* gl);
 
-// As far as they have gone, seen from a head.
+// Return the gusts as carried so far, relative to a head.
 struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair_wind* wind,
                                           const struct hair_pose* head);
 
-// What the next dispatch of a solver reads; gusts go on by its time.
+// Write and bind the parameters of a solver's next dispatch. Advance the gusts by its duration.
 void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_air_now* now);
 
-// The same for who looks at it afterwards, where there is any.
+// Bind the parameters again for passes after the solver, if there is wind.
 void hair_air_bind(const struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);
 
 #endif

@@ -1,13 +1,15 @@
-// fluid.c - the fluid's buffers, and its steps.
+// fluid.c - buffers of the fluid, and its steps.
 #include "lib/wind/fluid.h"
 
 #include <string.h>
 
-#define ALIGNMENT 256 // of ranges of uniform buffers: the most that a driver may ask for
-#define MOST_MOVING 65536u // solids whose velocity is known; those of higher numbers are taken to be at rest
-#define FASTEST 1000.0f // m/s: of a solid
+// Alignment of ranges in uniform buffers, the maximum that a driver may require.
+#define ALIGNMENT 256
+// Maximum number of colliders with a velocity. Colliders with higher numbers count as resting.
+#define MOST_MOVING 65536u
+#define FASTEST 1000.0f // Maximum speed of a collider, in m/s.
 
-// Making ----------------------------------------------------------------------------------------------------
+// Making ------------------------------------------------------------------------------------------
 
 hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
                                    struct hair_fluid_buffer* out)
@@ -22,7 +24,8 @@ void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* 
     hair_gl_free_buffer(fluid->gl, &buffer->buffer);
 }
 
-// Halved until the coarsest is small enough. Returns how many slots they have together.
+// Halve the grid until the coarsest level is small enough. Return the number of slots of all
+// levels.
 static uint32_t find_levels(struct hair_fluid* fluid)
 {
     struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
@@ -36,7 +39,8 @@ static uint32_t find_levels(struct hair_fluid* fluid)
     return at.slot;
 }
 
-// The share that suits; of relaxation by the slowest wave that the box holds (Young 1954).
+// Return the relaxation factor. The default for relaxation is optimal for the slowest wave in the
+// box (Young 1954).
 static float suitable(const struct hair_fluid_desc* desc)
 {
     if (desc->relax > 0) return desc->relax;
@@ -44,7 +48,7 @@ static float suitable(const struct hair_fluid_desc* desc)
     return desc->method == HAIR_FLUID_JACOBI ? 1 : 1.15f;
 }
 
-// Written once: a part for each level and color.
+// Write the level parameters once, with a part for each level and color.
 static hair_result make_levels(struct hair_fluid* fluid)
 {
     unsigned char bytes[2 * HAIR_FLUID_LEVELS * ALIGNMENT] = {0};
@@ -125,16 +129,17 @@ void hair_fluid_forget(struct hair_fluid* fluid)
     fluid->fresh = 1;
 }
 
-// Passes ----------------------------------------------------------------------------------------------------
+// Passes ------------------------------------------------------------------------------------------
 
 static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
 {
     struct hair_gl* gl = fluid->gl;
-    // What is carried along comes into the next, and corrected into the one after.
+    // Advection writes the next velocity buffer, and correction the one after it.
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
     carried = &fluid->velocity[(fluid->now + 1) % 3];
     next = &fluid->velocity[(fluid->now + 2) % 3];
-    // Solids leave faces as open as they do; all that comes later goes by what hair makes of that.
+    // The first pass computes how open colliders leave faces. All later passes use the openness
+    // that hair leaves.
     int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
     const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
     const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
@@ -171,16 +176,17 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
     if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
 }
 
-// A step ----------------------------------------------------------------------------------------------------
+// A step ------------------------------------------------------------------------------------------
 
 static hair_vec3 limited(hair_vec3 v)
 {
     float length = hair_length(v);
     if (length <= FASTEST) return v;
-    return length < INFINITY ? hair_scale(v, FASTEST / length) : hair_v3(0, 0, 0); // NaN too
+    // NaN also gives 0.
+    return length < INFINITY ? hair_scale(v, FASTEST / length) : hair_v3(0, 0, 0);
 }
 
-// Of a turn, the vector about which and by how much, shortest way.
+// Return the rotation vector of the shortest turn between two orientations, in radians.
 static hair_vec3 turn_between(const float before[4], const float now[4])
 {
     hair_quat a = {before[0], before[1], before[2], before[3]}, b = {now[0], now[1], now[2], now[3]};
@@ -224,7 +230,7 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
     return HAIR_OK;
 }
 
-// While all solids stand still, what is there stays.
+// Write the velocities of colliders. While all of them rest, the buffer stays as it is.
 static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     static const struct hair_fluid_motion still;
@@ -240,7 +246,7 @@ static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* 
         hair_gl_write_uniform(fluid->gl, fluid->motion, fluid->room * sizeof still, fluid->motion_of);
 }
 
-// The box's middle goes with the head, by whole cells.
+// Move the centre of the box with the head, by whole cells.
 static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now, float shift[3])
 {
     double cell = (double)hair_fluid_cell(fluid);
@@ -249,7 +255,7 @@ static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now
     for (int k = 0; k < 3; ++k) {
         double middle = now->head.position[k] + (double)from[k];
         double origin = floor(middle / cell + 0.5) - fluid->desc.cells / 2;
-        double most = 8.0 * fluid->desc.cells; // Farther off nothing of it is left.
+        double most = 8.0 * fluid->desc.cells; // Farther off, nothing of the old box is left.
         shift[k] = (float)fmin(fmax(origin - fluid->origin[k], -most), most);
         if (fluid->fresh) shift[k] = (float)most;
         fluid->origin[k] = origin;
@@ -267,7 +273,7 @@ static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_pa
            (!params->solids || fluid->writes == field->writes);
 }
 
-// In a cubic metre, by the mass at a node.
+// Return the metres of strands in a cubic metre for a unit of mass at a node.
 static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     double node = (double)fluid->desc.side / hair_fluid_nodes(fluid);
@@ -277,7 +283,7 @@ static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_n
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     float shift[3], cell = hair_fluid_cell(fluid);
-    int moved = fluid->moving; // Then its walls do until they are written again.
+    int moved = fluid->moving; // Walls keep these velocities until they are written again.
     write_motion(fluid, now);
     place_box(fluid, now, shift);
     hair_vec3 wind = limited(now->wind);
@@ -338,14 +344,14 @@ void hair_fluid_carry(struct hair_fluid* fluid)
     hair_fluid_run(fluid, HAIR_GL_FLUID_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
 }
 
-// What is next becomes what is.
+// Publish the next velocities and make them current.
 static void show_next(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     uint32_t n = fluid->desc.cells;
     gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
-    // What is written again, or cleared, must not be overtaken.
+    // Order these writes before later writes or clears of the texture.
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fluid->now = (fluid->now + 2) % 3;
 }
@@ -358,7 +364,8 @@ void hair_fluid_project(struct hair_fluid* fluid)
 
 void hair_fluid_show(struct hair_fluid* fluid)
 {
-    struct hair_fluid_params params = {.cells = fluid->desc.cells}; // It may not have made a step.
+    // The fluid may not have made a step.
+    struct hair_fluid_params params = {.cells = fluid->desc.cells};
     hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
     fluid->now = (fluid->now + 1) % 3;
     show_next(fluid);

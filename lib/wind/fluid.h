@@ -1,9 +1,12 @@
-// fluid.h - air around the head as a fluid without viscosity or density of its own, on a grid of cells whose faces have
-// velocities (Harlow and Welch 1965): carried along, then freed of what would press it together.
+// fluid.h - air around the head as an inviscid, incompressible fluid, on a staggered grid with
+// velocities at the faces of cells (Harlow and Welch 1965). A step advects the velocities, then
+// projects them to be free of divergence. Pressures are stored as changes of velocity, so no
+// density appears.
 //
-// The grid is a cube along the world's axes that goes with the head by whole cells. Around it is the wind. Solids are what
-// the field says, each with its own velocity; a face is as open as the field says of sixteen parts of it, and as hair leaves
-// it, where the fluid is to know of hair: see glsl/wind/porous.comp.
+// The grid is a cube along the world's axes that follows the head by whole cells. The wind
+// surrounds it. Colliders are given by the field, each with its own velocity. The field is sampled
+// at sixteen parts of a face to find its open fraction. If the fluid couples to hair, hair closes
+// faces further. See glsl/wind/porous.comp.
 #ifndef HAIR_WIND_FLUID_H
 #define HAIR_WIND_FLUID_H
 
@@ -12,110 +15,121 @@
 #include "lib/gl/gl.h"
 #include "lib/wind/air.h"
 
-#define HAIR_FLUID_LEVELS 5 // from 128 cells along an axis to 8
+#define HAIR_FLUID_LEVELS 5 // From 128 cells along an axis to 8.
+// Maximum nodes along an axis of the grid of hair. A guide stands for a lock about as wide as the
+// finest spacing.
 #define HAIR_FLUID_NODES                                                                                     \
-    32 // of the grid of hair, along an axis, at most: guides stand for locks as wide as that is fine
+    32
 
-// How air is kept from being pressed together.
+// Pressure projection method.
 typedef enum hair_fluid_method {
-    HAIR_FLUID_MULTIGRID = 0, // V-cycles: a sweep before, three after; see lib/wind/solve.c
-    HAIR_FLUID_RELAXATION, // sweeps of Gauss and Seidel that go beyond
-    HAIR_FLUID_JACOBI // sweeps of Jacobi
+    // V-cycles with one sweep before and three after. See lib/wind/solve.c.
+    HAIR_FLUID_MULTIGRID = 0,
+    HAIR_FLUID_RELAXATION, // Sweeps of successive over-relaxation.
+    HAIR_FLUID_JACOBI // Sweeps of Jacobi.
 } hair_fluid_method;
 
 struct hair_fluid_desc {
-    uint32_t cells; // along an axis: a multiple of 16, up to 128
-    float side; // of the box. m
+    uint32_t cells; // Cells along an axis, a multiple of 16 up to 128.
+    float side; // Side of the box, in metres.
     hair_fluid_method method;
-    uint32_t cycles; // of multigrid; else sweeps
-    float relax; // share of what fits a cell that a sweep takes; 0: what suits the method
-    int closed; // nothing goes in or out
+    uint32_t cycles; // Number of multigrid cycles, or of sweeps.
+    float relax; // Relaxation factor of a sweep. 0 selects the default of the method.
+    int closed; // Nonzero if nothing flows in or out.
 };
 
-// A buffer, and the same as shaders read it.
+// Buffer, and its buffer texture for shaders.
 struct hair_fluid_buffer {
     GLuint buffer, texture;
 };
 
-// Hair in the way of air. There is none of it until it is asked for.
+// Coupling of hair to the fluid. Its buffers exist only on demand.
 struct hair_fluid_hair {
-    struct hair_fluid_buffer grid; // where its mass and momentum are, as in the crowd's
-    struct hair_fluid_buffer wall, open; // in place of the fluid's own, which are as solids leave them
+    struct hair_fluid_buffer grid; // Mass and momentum of hair, as in the hair-hair grid.
+    // Walls and openness with hair. The fluid's own buffers hold those without hair.
+    struct hair_fluid_buffer wall, open;
 };
 
 struct hair_fluid_level_at {
-    uint32_t cells, slot, cell; // as in hair_fluid_level
+    uint32_t cells, slot, cell; // As in hair_fluid_level.
 };
 
 struct hair_fluid {
-    struct hair_gl* gl; // NULL: there is none
+    struct hair_gl* gl; // NULL if there is no fluid.
     struct hair_fluid_desc desc;
     struct hair_fluid_level_at level[HAIR_FLUID_LEVELS + 1];
     uint32_t levels;
-    struct hair_fluid_buffer velocity[3]; // of which
-    uint32_t now; // is where the last step left it
+    // Current, advected and next velocities, in rotating order.
+    struct hair_fluid_buffer velocity[3];
+    uint32_t now; // Index of the velocities after the last step.
     struct hair_fluid_buffer wall, open, right;
-    struct hair_fluid_buffer pressure[2]; // the second of Jacobi only
-    uint32_t pressed; // which of them is the later one
+    struct hair_fluid_buffer pressure[2]; // The second exists only for Jacobi.
+    uint32_t pressed; // Index of the newer pressures.
     struct hair_fluid_hair hair;
     GLuint params, level_params, motion;
-    GLuint air; // 3D texture, RGBA16F: velocity at the middles of cells, m/s
-    int fresh; // there is no past: the first step begins with the wind everywhere
-    double origin[3]; // of the box, in cells from the world's origin: whole
-    hair_vec3 wind; // of the last step,
-    GLuint gusts; // and their texture
-    hair_vec3 lower; // of the box, from the head's origin. m
-    struct hair_fluid_motion* motion_of; // of solids, `room` of them at most
+    GLuint air; // 3D texture, RGBA16F. Velocity at the centres of cells, in m/s.
+    int fresh; // Nonzero if there is no past. The first step starts with the wind everywhere.
+    double origin[3]; // Corner of the box, in whole cells from the world's origin.
+    hair_vec3 wind; // Wind in the last step.
+    GLuint gusts; // Texture of gusts in the last step.
+    hair_vec3 lower; // Corner of the box from the head's origin, in metres.
+    struct hair_fluid_motion* motion_of; // Motions of colliders, at most `room`.
     uint32_t room;
-    int moving; // some solid was in the last step
-    struct hair_fluid_params made_for; // what the faces are open for,
-    uint32_t writes; // and the field
+    int moving; // Nonzero if a collider moved in the last step.
+    struct hair_fluid_params made_for; // Parameters that the openness of faces was computed for.
+    uint32_t writes; // Value of hair_solid_field.writes that it was computed for.
 };
 
-// What there is of hair in a step, if the grid has any.
+// Hair in a step, if the fluid couples to hair.
 struct hair_fluid_strands {
-    double metres; // of strands that a unit of the grid's mass stands for
-    float per_speed; // Reynolds number of a strand by the speed of air, s/m
-    float viscous; // drag of strands by a viscous force, m^2/s
+    double metres; // Metres of strands per unit of the grid's mass.
+    float per_speed; // Reynolds number of a strand per speed of the air, in s/m.
+    float viscous; // Drag of strands by a viscous force, in m^2/s.
 };
 
-// Where all is in a step.
+// Inputs of a step.
 struct hair_fluid_now {
-    struct hair_pose head; // at its end
-    hair_vec3 middle; // of the box, in the head's frame
-    hair_vec3 wind; // m/s
-    struct hair_air_gusts gusts; // at its start
+    struct hair_pose head; // Head at the end of the step.
+    hair_vec3 middle; // Centre of the box, in the head's frame.
+    hair_vec3 wind; // Velocity of the wind, in m/s.
+    struct hair_air_gusts gusts; // Gusts at the start of the step.
     struct hair_fluid_strands strands;
-    double dt; // s
+    double dt; // Duration of the step, in s.
     const struct hair_solid_field* field;
-    const struct hair_solids* solids; // which move from `before` to `now`
-    double solids_dt; // in this time, s
+    const struct hair_solids* solids; // Colliders, which move from `before` to `now`.
+    double solids_dt; // Duration of their motion, in s.
 };
 
 hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous);
 
-// On failure nothing is left.
+// Create a fluid. On failure nothing is left.
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc);
 void hair_fluid_destroy(struct hair_fluid* fluid);
 
-// Room for the velocities of so many solids, before a step that has them.
+// Make room for the velocities of `solids` colliders, before a step that has them.
 hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids);
 void hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now);
 
-// The same in two: between them the grid of hair is filled, which is along the world's axes all over the box.
+// Run the first half of a step. The grid of hair, which spans the box along the world's axes, is
+// filled between the halves.
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+// Run the second half of a step.
 void hair_fluid_move(struct hair_fluid* fluid);
 
-void hair_fluid_forget(struct hair_fluid* fluid); // the past: the next step is the first
-void hair_fluid_show(struct hair_fluid* fluid); // the air as it is, where that was put there
-void hair_fluid_bind(const struct hair_fluid* fluid); // the air, at HAIR_UNIT_AIR
+// Forget the past. The next step is the first.
+void hair_fluid_forget(struct hair_fluid* fluid);
+// Publish the current velocities, after other code has written them.
+void hair_fluid_show(struct hair_fluid* fluid);
+// Bind the air's velocities at HAIR_UNIT_AIR.
+void hair_fluid_bind(const struct hair_fluid* fluid);
 
 static inline float hair_fluid_cell(const struct hair_fluid* fluid)
 {
     return fluid->desc.side / (float)fluid->desc.cells;
 }
-static inline size_t hair_fluid_slots(const struct hair_fluid* fluid) // of the finest level
+// Return the number of slots of the finest level.
+static inline size_t hair_fluid_slots(const struct hair_fluid* fluid)
 {
     return (size_t)(fluid->desc.cells + 1) * (fluid->desc.cells + 1) * (fluid->desc.cells + 1);
 }
@@ -125,26 +139,31 @@ static inline uint32_t hair_fluid_nodes(const struct hair_fluid* fluid)
     return fluid->desc.cells < HAIR_FLUID_NODES ? fluid->desc.cells : HAIR_FLUID_NODES;
 }
 
-// The parts of a step, in order: `place` writes what they are to know of it and opens faces if that is another than it was.
+// Compute how open faces are. hair_fluid_place() writes the inputs of all parts of a step, and
+// calls this if the openness changes.
 void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+// Advect the velocities.
 void hair_fluid_carry(struct hair_fluid* fluid);
+// Subtract the pressure gradient and publish the velocities.
 void hair_fluid_project(struct hair_fluid* fluid);
 
-// porous.c: what hair takes; and how open it leaves faces.
+// Create the buffers of hair coupling, or free them if `wanted` is 0. Defined in porous.c.
 hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted);
 void hair_fluid_free_hair(struct hair_fluid* fluid);
+// Reduce the openness of faces by hair.
 void hair_fluid_let_through(struct hair_fluid* fluid);
 
-// solve.c: pressures that fit, from what flows into cells.
+// Compute the pressures that cancel the divergence of cells. Defined in solve.c.
 void hair_fluid_solve(struct hair_fluid* fluid);
 
-// Of so many numbers.
+// Create a buffer of `count` numbers, and its buffer texture.
 hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
                                    struct hair_fluid_buffer* out);
 void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer);
-void hair_fluid_coarsen(struct hair_fluid* fluid); // how open faces are, where a method wants it
+// Compute how open faces of coarser levels are, if the method needs it.
+void hair_fluid_coarsen(struct hair_fluid* fluid);
 
-// One pass over a level.
+// Run one pass over a level.
 void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
                     uint32_t threads);
 

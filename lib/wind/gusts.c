@@ -1,4 +1,5 @@
-// gusts.c - waves of random direction and phase, summed by Fourier's transform, an axis at a time.
+// gusts.c - turbulence from waves of random direction and phase, summed by a Fourier transform
+// along one axis at a time.
 #include "lib/wind/gusts.h"
 
 #include "lib/base/math.h"
@@ -6,7 +7,7 @@
 #define N HAIR_GUST_NODES
 #define COUNT (N * N * N)
 #define PI 3.14159265358979
-#define SCALE 0.7468 // sqrt(pi) Gamma(5/6) / Gamma(1/3): of L by l
+#define SCALE 0.7468 // sqrt(pi) Gamma(5/6) / Gamma(1/3), the ratio of L to l.
 
 struct wave {
     float re, im;
@@ -17,12 +18,12 @@ static int wave_number(int i)
     return i < N / 2 ? i : i - N;
 }
 
-// Of one wave: across its direction, by an angle and a phase.
+// Write one wave. Its velocity is perpendicular to its direction, with a random angle and phase.
 static void make_wave(struct wave* const* field, int at, const int n[3], uint32_t* random)
 {
     double size = sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
     double kl = 2 * PI * size / (HAIR_GUST_LENGTHS * SCALE);
-    double amplitude = kl / pow(1 + kl * kl, 17.0 / 12); // sqrt(E) / k
+    double amplitude = kl / pow(1 + kl * kl, 17.0 / 12); // This is sqrt(E) / k.
     hair_vec3 along = hair_scale(hair_v3((float)n[0], (float)n[1], (float)n[2]), (float)(1 / size));
     hair_vec3 a = hair_perpendicular(along), b = hair_cross(along, a);
     float angle = 2 * (float)PI * hair_random(random), phase = 2 * (float)PI * hair_random(random);
@@ -39,12 +40,13 @@ static void make_waves(struct wave* const* field, uint32_t seed)
     uint32_t random = hair_hash(seed);
     for (int i = 0; i < COUNT; ++i) {
         const int n[3] = {wave_number(i % N), wave_number(i / N % N), wave_number(i / N / N)};
-        int is_highest = n[0] == -N / 2 || n[1] == -N / 2 || n[2] == -N / 2; // It has no direction.
+        // The highest wave number has no direction.
+        int is_highest = n[0] == -N / 2 || n[1] == -N / 2 || n[2] == -N / 2;
         if (i > 0 && !is_highest) make_wave(field, i, n, &random);
     }
 }
 
-// In place, of N numbers that are `stride` apart.
+// Transform N numbers in place, which are `stride` apart.
 static void transform_line(struct wave* line, int stride, const struct wave* turn)
 {
     struct wave out[N];
@@ -71,7 +73,8 @@ static void transform(struct wave* field)
             if (i / strides[axis] % N == 0) transform_line(field + i, strides[axis], turn);
 }
 
-// Mean square of the real part where it is read linearly between texels: each with itself and with its neighbours.
+// Return the mean square of the real part when read linearly between texels. It sums weighted
+// products of each texel with itself and with its neighbours.
 static double mean_square(const struct wave* field)
 {
     static const double share[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};

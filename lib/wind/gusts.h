@@ -1,17 +1,19 @@
-// gusts.h - turbulence as a texture that repeats: homogeneous, alike every way, free of divergence.
+// gusts.h - turbulence as a repeating texture. It is homogeneous, isotropic and free of divergence.
 #ifndef HAIR_WIND_GUSTS_H
 #define HAIR_WIND_GUSTS_H
 
 #include "lib/base/host.h"
 #include "glsl/shared.h"
 
-// A sum of waves whose energies are von Karman's (1948), with L the integral length scale along the wind,
+// Return a sum of waves with the energy spectrum of von Karman (1948). L is the integral length
+// scale along the wind.
 //
 //   E(k) ~ k^4 / (1 + (k l)^2)^(17/6),  l = L / 0.7468
 //
-// as far as the texture holds them: HAIR_GUST_NODES^3 texels, xyz and a 0, over HAIR_GUST_LENGTHS L; what it does not hold
-// the others make up for. Read linearly, its components have a standard deviation of 1, all three together. From the seed
-// alone. NULL: no memory.
+// The spectrum is cut off to what the texture can hold, HAIR_GUST_NODES^3 texels over
+// HAIR_GUST_LENGTHS L. A texel holds xyz and a 0. The waves are scaled to make up for the missing
+// ones. Read linearly, the components have a standard deviation of 1, taken over all three. The
+// result depends only on the seed. NULL means out of memory.
 float* hair_gusts_make(const hair_host* host, uint32_t seed);
 
 #endif

@@ -1,4 +1,4 @@
-// porous.c - hair in the way of the fluid: it closes faces in part.
+// porous.c - hair as an obstacle that closes faces of the fluid in part.
 #include "lib/wind/fluid.h"
 
 hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
@@ -6,7 +6,7 @@ hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
     struct hair_fluid_hair* hair = &fluid->hair;
     size_t nodes = hair_fluid_nodes(fluid);
     if (!wanted == !hair->grid.buffer) return HAIR_OK;
-    fluid->made_for.cells = 0; // Coarser faces go by hair, or no longer.
+    fluid->made_for.cells = 0; // Coarser faces depend on hair from now on, or no longer.
     hair_fluid_free_hair(fluid);
     hair_result result = HAIR_OK;
     if (wanted) result = hair_fluid_need_programs(fluid->gl, fluid->desc.method, 1);

@@ -1,4 +1,4 @@
-// solve.c - pressures: cycles of multigrid, or sweeps over the one grid.
+// solve.c - pressure solvers, by cycles of multigrid or by sweeps over a single grid.
 #include "lib/wind/fluid.h"
 
 static int takes(hair_fluid_method method, hair_gl_pass pass)
@@ -32,9 +32,10 @@ static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
     hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, 1 - first, cells);
 }
 
-// Coarser cells take on what eight finer ones have left, and give back their pressure as it is: with the right sides halved
-// that goes as far as a smooth error needs, and where solids are in the way it has nothing to mix up. One sweep before and
-// three after were the fewest in all to a share of 1e-3 over balls, plates and slits.
+// Run a V-cycle. Coarse cells take over the residuals of eight finer cells, and return their
+// pressures by injection. With halved right sides, the correction is as large as a smooth error
+// needs. Injection mixes no pressures across colliders. One sweep before and three after were the
+// fewest sweeps that reached a fraction of 1e-3 over balls, plates and slits.
 static void cycle(struct hair_fluid* fluid)
 {
     uint32_t last = fluid->levels - 1;
@@ -42,7 +43,8 @@ static void cycle(struct hair_fluid* fluid)
         sweep(fluid, i, 0);
         hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));
     }
-    hair_fluid_run(fluid, HAIR_GL_FLUID_BOTTOM, last, 0, HAIR_GROUP_SIZE); // One group, whatever its size.
+    // One group, whatever its size.
+    hair_fluid_run(fluid, HAIR_GL_FLUID_BOTTOM, last, 0, HAIR_GROUP_SIZE);
     for (uint32_t i = last; i-- > 0;) {
         hair_fluid_run(fluid, HAIR_GL_FLUID_PROLONG, i, 0, cubed(fluid->level[i].cells));
         for (int k = 0; k < 3; ++k) sweep(fluid, i, 1);
