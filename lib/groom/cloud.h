@@ -1,22 +1,23 @@
-// cloud.h - points of any dimension, cut into halves and searched: the k-d tree (Bentley 1975) and its step.
+// cloud.h - k-d tree over points of any dimension (Bentley 1975), and the split that builds it.
 #ifndef HAIR_GROOM_CLOUD_H
 #define HAIR_GROOM_CLOUD_H
 
 #include "lib/base/host.h"
 
-#define HAIR_CLOUD_DIMENSIONS 12 // At most.
+#define HAIR_CLOUD_DIMENSIONS 12 // Maximum number of dimensions.
 
 struct hair_cloud {
     const float* points; // finite
     uint32_t dimensions;
 };
 
-// The axis along which the points that `order` names reach farthest.
+// Return the axis along which the points named by `order` have the largest extent.
 uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint32_t count);
 
-// Reorder so that the front lies before the back along the axis. The front is as long as it can be while its
-// weights add up to no more than `target`, and the back begins with its nearest; but neither is ever empty.
-// `weights` by point; NULL: 1 each. count >= 2. Returns the length of the front.
+// Reorder so that the front lies before the back along `axis`. Return the length of the front. The
+// front is as long as possible while its weights add up to at most `target`. Neither part is empty.
+// The back begins with its lowest point along the axis. Requires count >= 2. `weights` is indexed
+// by point. NULL gives every point the weight 1.
 uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t count, uint32_t axis,
                           const uint32_t* weights, uint64_t target);
 
@@ -28,22 +29,23 @@ struct hair_plane {
 struct hair_tree {
     struct hair_cloud cloud;
     uint32_t* order;
-    struct hair_plane* plane; // where `order` is split, by the place of the back's first
+    // Planes that split `order`, indexed by the position of the first point behind each.
+    struct hair_plane* plane;
     uint32_t count;
 };
 
-// The cloud's points must outlive the tree.
+// Build the tree. The points must outlive it.
 hair_result hair_tree_build(const hair_host* host, struct hair_cloud cloud, uint32_t count,
                             struct hair_tree* tree);
 void hair_tree_free(const hair_host* host, struct hair_tree* tree);
 
 struct hair_near {
     uint32_t index;
-    float squared; // distance
+    float squared; // squared distance
 };
 
-// The `wanted` points nearest to `point`, nearest first. `near` holds `found` of them already, which the
-// search may only better (0: none). Returns how many there are.
+// Find the `wanted` points nearest to `point`, nearest first. Return how many were found. `near`
+// already holds `found` of them. The search only replaces those by nearer ones. 0 starts afresh.
 uint32_t hair_tree_nearest(const struct hair_tree* tree, const float* point, struct hair_near* near,
                            uint32_t found, uint32_t wanted);
 

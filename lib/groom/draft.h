@@ -1,4 +1,4 @@
-// draft.h - a groom in the making: what the steps of hair_groom_build hand on to each other.
+// draft.h - a groom under construction: the data that the steps of hair_groom_build pass on.
 #ifndef HAIR_GROOM_DRAFT_H
 #define HAIR_GROOM_DRAFT_H
 
@@ -6,94 +6,104 @@
 #include "lib/groom/cloud.h"
 #include "lib/groom/groom.h"
 
-// Points of a strand that stand for its shape: at 0, 1/3, 2/3 and 1 of its length.
+// Number of points that represent the shape of a strand, at 0, 1/3, 2/3 and 1 of its length.
 #define HAIR_MARKS 4
 
-// Where on the scalp a root sits.
+// The closest point on the scalp to a root.
 struct hair_spot {
     uint32_t triangle;
-    float weight[3]; // of its corners
+    float weight[3]; // barycentric, per corner
 };
 
 struct hair_draft {
     const hair_host* host;
     const hair_groom_desc* desc;
     const hair_import* import;
-    struct hair_groom* groom; // what is made
+    struct hair_groom* groom; // the result
 
-    struct hair_strands strands; // made fit
-    uint32_t* first; // vertex of each strand
-    float* length; // of each strand. m.
+    struct hair_strands strands; // after cleaning
+    uint32_t* first; // first vertex of each strand
+    float* length; // length of each strand, m
     float* marks; // xyz, HAIR_MARKS per strand
 
-    float* scalp; // xyz per vertex, as the strands. NULL: none
+    float* scalp; // xyz per vertex, in the space of the strands. NULL without a scalp.
     float* density; // mean over each triangle
 
     uint32_t* chosen; // strand of each guide
-    uint32_t* owner; // guide of each strand, a near one. Only where all strands are given
+    uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRANDS_ALL
 
-    // A sprout is a follower before it has its place among the others. It grows on a plot, a scalp triangle
-    // or a guide; the sprouts of a plot are neighbours.
+    // A candidate is a follower before its place in the draw order is known. It grows on a root
+    // bin, which is a scalp triangle or a guide. The candidates of a root bin are neighbours.
     uint32_t plot_count;
-    uint32_t* plot_sprouts; // how many, of each plot
-    uint32_t* plot_first; // the first of them
-    float* plot_centres; // xyz
-    const float* plot_density; // NULL: 1
+    uint32_t* plot_sprouts; // number of candidates of each root bin
+    uint32_t* plot_first; // first candidate of each root bin
+    float* plot_centres; // xyz of each root bin
+    const float* plot_density; // of each root bin. NULL means 1.
     uint32_t sprout_count;
-    bool is_scattered; // any run of a plot's sprouts is spread evenly over it, a triangle
-    uint32_t* strand_of; // of each sprout, where all strands are given
-    uint32_t* place; // of each sprout: its follower
+    // True if root bins are triangles and any run of candidates of one is spread evenly over it.
+    bool is_scattered;
+    uint32_t* strand_of; // strand of each candidate, only with HAIR_STRANDS_ALL
+    uint32_t* place; // follower of each candidate
 
-    struct hair_spot* spots; // of each sprout, where there is a scalp that has a triangle. NULL: none
-    hair_vec4* map_density; // of each sprout, by each set of maps. NULL: there are no maps
-    float* map_thickness; // of each sprout, the most of all sets
-    hair_vec4* map_share; // and of that, by each set
+    // Closest point on the scalp of each candidate. NULL without a scalp that has a usable
+    // triangle.
+    struct hair_spot* spots;
+    hair_vec4* map_density; // of each candidate, one component per set of maps. NULL without maps.
+    float* map_thickness; // of each candidate, the maximum over all sets
+    hair_vec4* map_share; // thickness in each set as a fraction of map_thickness
 };
 
-// The steps, in order. Each fails with one sentence and leaves what it has made in the draft.
+// Steps, in order. Each reports a failure by one sentence and leaves its results in the draft.
 hair_result hair_draft_strands(struct hair_draft* draft);
 hair_result hair_draft_scalp(struct hair_draft* draft);
 hair_result hair_draft_guides(struct hair_draft* draft);
 hair_result hair_draft_rest(struct hair_draft* draft);
-// Then of the three sources of followers the one that the desc asks for: full strands (bind.c), the guides
-// themselves and what surrounds them (grow.c), the scalp (scalp.c). First all sprouts are counted, by plot;
-// patches give them their places; then followers are made of them.
+// Sources of followers. The desc selects one: full strands (bind.c), the guides and the space
+// around them (grow.c), or the scalp (scalp.c). First all candidates are counted per root bin. Then
+// the patches give them places. Then followers are made from them.
 hair_result hair_strand_sprouts(struct hair_draft* draft);
 hair_result hair_guide_sprouts(struct hair_draft* draft);
 hair_result hair_scalp_sprouts(struct hair_draft* draft);
+// Find the closest point on the scalp of all candidates. The candidates of scalp.c have theirs
+// already.
 hair_result
-hair_draft_spots(struct hair_draft* draft); // roots of all sprouts, but of scalp.c, which has them
-hair_result hair_draft_maps(struct hair_draft* draft); // what maps say of all sprouts
-void hair_thicken(struct hair_draft* draft); // followers, by maps
+hair_draft_spots(struct hair_draft* draft);
+hair_result hair_draft_maps(struct hair_draft* draft); // Read the maps for all candidates.
+void hair_thicken(struct hair_draft* draft); // Scale the radii of followers by the maps.
 hair_result hair_draft_patches(struct hair_draft* draft);
 hair_result hair_strand_followers(struct hair_draft* draft);
 hair_result hair_guide_followers(struct hair_draft* draft);
 hair_result hair_scalp_followers(struct hair_draft* draft);
-hair_result hair_draft_paint(struct hair_draft* draft); // followers, by what strands bring along
-hair_result hair_draft_seats(struct hair_draft* draft); // of guides and followers on the scalp
+// Give followers the radii and colours of strands.
+hair_result hair_draft_paint(struct hair_draft* draft);
+hair_result hair_draft_seats(struct hair_draft* draft); // Bind guides and followers to the scalp.
 
-// sorts.c: what maps make of the sprouts that `queue` names, neighbours. Split: reorder them so that those in front
-// are to be in another patch than those behind; returns how many are in front, 0: all may be in one. Patch: put what
-// is one in the order in which it is cut short, and fill in what its maps say.
+// Reorder the neighbouring candidates in `queue` so that the front needs another patch than the
+// back. Return the length of the front, or 0 if maps allow one patch for all.
 uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_t count);
+// Put the candidates of one patch in density order and fill in the map values of the patch.
 void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair_patch* patch);
-void hair_sort_queue(uint32_t* queue, float* from, uint32_t count); // both, by where each is to be drawn from
+// Sort both arrays by `from`, the density fraction from which on each candidate is drawn.
+void hair_sort_queue(uint32_t* queue, float* from, uint32_t count);
 
-// Plots without sprouts (plots.c); and once these are counted, the first of each.
+// Create root bins without candidates, one per guide or one per scalp triangle.
 hair_result hair_guide_plots(struct hair_draft* draft);
 hair_result hair_scalp_plots(struct hair_draft* draft);
+// Number the candidates: set the first candidate of each root bin from the counts.
 void hair_number_sprouts(struct hair_draft* draft);
 
-hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32_t sprout); // not of scalp.c
+// Return the root of a candidate. Not valid for the candidates of scalp.c.
+hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32_t sprout);
 hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide);
 hair_vec3 hair_scalp_corner(const struct hair_draft* draft, uint32_t triangle, uint32_t corner);
 
-// The start of a sprout's random choices.
+// Return the seed of a candidate's random choices.
 uint32_t hair_sprout_random(const struct hair_draft* draft, uint32_t sprout);
 
-// A follower that is its guide, but for what is random; and one grown from `offset` off the guide's root, in
-// the root frame, that clumps towards it.
+// Return a follower equal to its guide, except for its random values.
 struct hair_follower hair_own_follower(uint32_t guide, uint32_t* random);
+// Return a follower that clumps towards its guide. `offset` leads from the guide's root to its
+// root, in the root frame.
 struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint32_t* random);
 
 #endif

@@ -1,4 +1,4 @@
-// groom.h - a haircut at rest: guides to simulate, followers bound to them, patches to draw them by.
+// groom.h - a haircut at rest: simulated guides, followers bound to them, and patches for drawing.
 #ifndef HAIR_GROOM_GROOM_H
 #define HAIR_GROOM_GROOM_H
 
@@ -13,20 +13,28 @@ struct hair_groom {
     struct hair_rest* rest; // info.guide_vertex_count
     struct hair_follower* followers; // info.follower_count
     struct hair_patch* patches; // info.patch_count
-    uint16_t* paint; // rgb and nothing at HAIR_STRAND_COLORS places of each follower, 65535 for 1; NULL: none
-    hair_vec4 skull; // a ball under the hair: xyz: m; w: radius, m, 0 where there is none
-    uint32_t most_vertices; // of a guide
+    // rgb and an unused value at HAIR_STRAND_COLORS points of each follower. 65535 stands for 1.
+    // NULL disables.
+    uint16_t* paint;
+    // A sphere inside the head. xyz is its centre and w its radius, m. A radius of 0 means no
+    // sphere.
+    hair_vec4 skull;
+    uint32_t most_vertices; // maximum of all guides
     uint32_t map_sets;
-    struct hair_seats* seats; // NULL: there is no scalp, or no triangle of it has three corners
+    // NULL without a scalp that has a triangle with three different corners.
+    struct hair_seats* seats;
 };
 
-// `desc` is whole and has been checked, but for what its arrays hold. On failure *out is untouched.
+// Build a groom. `desc` is complete and checked, except the contents of its arrays. On failure *out
+// is untouched.
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              hair_groom** out);
 void hair_groom_free(hair_groom* groom);
 
-// extent.c, once there are followers: how far each patch gets; and the ball under the hair.
+// Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);
+// Return the sphere inside the head: xyz is its centre, w its radius, m. The radius is 0 if none
+// fits.
 hair_vec4 hair_find_skull(const struct hair_groom* groom);
 
 #endif

@@ -1,4 +1,4 @@
-// seats.h - the scalp at rest, and where on it roots sit: what it takes to let them ride on one that is skinned.
+// seats.h - the scalp at rest and the root bindings to it, as scalp motion needs them.
 #ifndef HAIR_GROOM_SEATS_H
 #define HAIR_GROOM_SEATS_H
 
@@ -7,19 +7,20 @@
 #include "lib/base/host.h"
 #include "glsl/shared.h"
 
-// Immutable once made, but for how many hold it: a groom may be gone while instances still ride.
+// Immutable once made, except the reference count. A groom may be freed before its instances.
 struct hair_seats {
-    hair_host host; // whose memory it is
+    hair_host host; // owner of the memory
     atomic_uint holders;
     uint32_t vertex_count;
     uint32_t count; // guides, then followers
-    float* positions; // xyz per vertex of the scalp, as the strands
+    float* positions; // xyz per vertex of the scalp, in the space of the strands
     struct hair_seat* seat;
-    float* uv; // per follower, of its root; NULL: the scalp has none
+    float* uv; // of the root of each follower. NULL without scalp UVs.
 };
 
-// One holder more, one less; the last one frees it. Any thread. NULL is none.
+// Add a reference. Any thread. NULL is ignored. Return `seats`.
 struct hair_seats* hair_seats_hold(struct hair_seats* seats);
+// Remove a reference and free `seats` with the last one. Any thread. NULL is ignored.
 void hair_seats_release(struct hair_seats* seats);
 
 #endif

@@ -1,4 +1,4 @@
-// smoothed.h - a guide at rest as it is drawn: the twin of smooth.comp and follower.glsl.
+// smoothed.h - a guide at rest as it is drawn. The CPU version of smooth.comp and follower.glsl.
 #ifndef HAIR_GROOM_SMOOTHED_H
 #define HAIR_GROOM_SMOOTHED_H
 
@@ -20,7 +20,8 @@ struct hair_smoothed_point {
 
 void hair_smooth_guide(const struct hair_groom* groom, uint32_t guide, struct hair_smoothed* out);
 
-// u from 0 at the root to 1 at the tip; beyond, the guide goes on straight.
+// Return the point at u, which runs from 0 at the root to 1 at the tip. Beyond 1 the guide is
+// extended straight.
 struct hair_smoothed_point hair_smoothed_at(const struct hair_smoothed* smoothed, float u);
 
 #endif

@@ -1,13 +1,14 @@
-// style_course.h - a guide as it grows: its points, where they may wander, how they curl.
+// style_course.h - a guide as it grows: its points, random variation and curls.
 #ifndef HAIR_GROOM_STYLE_COURSE_H
 #define HAIR_GROOM_STYLE_COURSE_H
 
 #include "lib/base/math.h"
 
-#define HAIR_COURSE_POINTS 2048 // Most points of a course.
-#define HAIR_COURSE_STRIDE 0.002f // Between them, m: a tenth of the sharpest bend of the built-in haircuts.
+#define HAIR_COURSE_POINTS 2048 // Maximum number of points of a course.
+// Distance between points, m. A tenth of the sharpest bend radius of the built-in haircuts.
+#define HAIR_COURSE_STRIDE 0.002f
 
-// More points than the guide will have, root first.
+// Points of a guide, root first. There are more points than the guide will have.
 struct hair_course {
     hair_vec3 point[HAIR_COURSE_POINTS];
     uint32_t count;
@@ -30,23 +31,26 @@ static inline hair_vec3 hair_tangential(hair_vec3 v, hair_vec3 normal)
     return hair_sub(v, hair_scale(normal, hair_dot(v, normal)));
 }
 
-// Value noise in [-1, 1] that changes over `scale` metres: neighbouring roots get near values.
+// Return value noise in [-1, 1] that varies over `scale` metres. Neighbouring roots get similar
+// values.
 float hair_noise(hair_vec3 p, float scale, uint32_t seed);
 
-// A point nearer to the last than a micrometre, or one too many, is left out.
+// Append a point. Skip a point within a micrometre of the last one, and any point beyond the
+// maximum.
 void hair_course_add(struct hair_course* course, hair_vec3 p);
 
-// Take off what is longer than `most` metres, a stride or less.
+// Shorten the course to `most` metres. At most one stride is removed.
 void hair_course_trim(struct hair_course* course, float most);
 
 struct hair_curl {
     float radius, pitch; // m
-    float start, full; // distance from the root where it begins, and where the radius is reached, m
+    // Distances from the root at which the curl starts and at which its radius is reached, m.
+    float start, full;
     float phase; // radians
-    float flat; // 1: a helix; 0: a wave in one plane
+    float flat; // 1 gives a helix, 0 a plane wave.
 };
 
-// Lay a helix round a course, in a frame carried along it without twist, clear of the bust.
+// Wind the course into a helix, in a frame transported along it without twist, outside the bust.
 void hair_course_wind(struct hair_course* course, const struct hair_curl* curl);
 
 #endif

@@ -1,4 +1,4 @@
-// style_grow.h - how the guides of each built-in haircut run from root to tip.
+// style_grow.h - paths of the guides of each built-in haircut, from root to tip.
 #ifndef HAIR_GROOM_STYLE_GROW_H
 #define HAIR_GROOM_STYLE_GROW_H
 
@@ -8,14 +8,14 @@
 
 struct hair_parting hair_style_parting(hair_style style);
 
-// Vertices of a guide that show the style's curls.
+// Return the number of vertices of a guide that resolves the curls of the style.
 uint32_t hair_style_vertices(hair_style style);
 
-// `scale`: of the style's own length.
+// Grow a guide. `scale` multiplies the length of the style.
 void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
                      struct hair_course* course);
 
-// One of them, in its own file.
+// Grow a guide of the ponytail. Defined in style_ponytail.c.
 void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course);
 
 #endif
