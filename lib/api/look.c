@@ -133,7 +133,7 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     return HAIR_GIVE(&silent, hair_look, &own, look);
 }
 
-// Curls like an example's -----------------------------------------------------------------------------------
+// Curls like an example's -------------------------------------------------------------------------
 
 struct example {
     const float* positions;

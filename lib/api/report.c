@@ -34,7 +34,7 @@ void hair_begin_frame(hair_instance* hair)
     *hair_asked_now(hair) = (struct hair_asked){0};
 }
 
-// Reasons ---------------------------------------------------------------------------------------------------
+// Reasons -----------------------------------------------------------------------------------------
 
 // Of what is made for views.
 static hair_why why_not_shown(const struct hair_asked* asked)
@@ -109,7 +109,7 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
     }
 }
 
-// Memory ----------------------------------------------------------------------------------------------------
+// Memory ------------------------------------------------------------------------------------------
 
 // Buffers of an instance by what they are for; those that are not there are 0.
 static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
@@ -163,7 +163,7 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
     return bytes;
 }
 
-// The report ------------------------------------------------------------------------------------------------
+// The report --------------------------------------------------------------------------------------
 
 static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, float ms[HAIR_GL_WORKS])
 {

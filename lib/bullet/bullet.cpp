@@ -131,7 +131,7 @@ hair_result hair_bullet_take_object(hair_bullet* bullet, const btCollisionObject
     return take_object(bullet, object, false);
 }
 
-// Worlds ----------------------------------------------------------------------------------------------------
+// Worlds ------------------------------------------------------------------------------------------
 
 namespace
 {

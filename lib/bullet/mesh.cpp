@@ -9,7 +9,7 @@
 #define MOST_TRIANGLES 16777216u // of a form
 #define DEPTH 0.1f // of a height field below its lowest point, as a share of its longest side
 
-// Meshes ----------------------------------------------------------------------------------------------------
+// Meshes ------------------------------------------------------------------------------------------
 
 void hair_mesh::add_vertex(const btVector3& at)
 {
@@ -102,7 +102,7 @@ struct gatherer : btTriangleCallback {
 };
 } // namespace
 
-// Height fields ---------------------------------------------------------------------------------------------
+// Height fields -----------------------------------------------------------------------------------
 
 // Walls down from its rim, and a floor: closed, so that it has an inside.
 static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
@@ -142,7 +142,7 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
     }
 }
 
-// Forms -----------------------------------------------------------------------------------------------------
+// Forms -------------------------------------------------------------------------------------------
 
 // What of a shape can be looked at in no time: its bounds and its scale.
 static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, const btVector3& upper)

@@ -8,7 +8,7 @@ uint32_t hair_member_rounds(uint32_t member)
     return member & HAIR_MEMBER_WALKED ? WALK : 0;
 }
 
-// Room ------------------------------------------------------------------------------------------------------
+// Room --------------------------------------------------------------------------------------------
 
 static hair_result make_room(const hair_host* host, struct hair_cells* cells, uint32_t count)
 {
@@ -38,7 +38,7 @@ void hair_cells_free(const hair_host* host, struct hair_cells* cells)
     *cells = (struct hair_cells){0};
 }
 
-// Contacts --------------------------------------------------------------------------------------------------
+// Contacts ----------------------------------------------------------------------------------------
 
 // At the start or the end of the step, without rounding.
 static struct hair_cell_bounds box_around(const struct hair_contact* contact, const hair_solid* solid,

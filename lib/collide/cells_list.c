@@ -91,7 +91,7 @@ static float reach_of(const struct hair_cells* cells, const struct hair_cells_de
            (1 - desc->share_start) * moved + 0.87f * cells->size;
 }
 
-// Pairs -----------------------------------------------------------------------------------------------------
+// Pairs -------------------------------------------------------------------------------------------
 
 struct pairs {
     uint32_t *cell, *contact; // each contact with all of its cells, one after the other
@@ -299,7 +299,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
     return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
 }
 
-// The whole -------------------------------------------------------------------------------------------------
+// The whole ---------------------------------------------------------------------------------------
 
 static int is_still(const struct hair_contact* contact)
 {

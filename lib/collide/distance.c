@@ -113,7 +113,7 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
     }
 }
 
-// Forms -----------------------------------------------------------------------------------------------------
+// Forms -------------------------------------------------------------------------------------------
 
 // Within the grid.
 static double interpolate(const hair_form* form, const double at[3], double slope[3])
@@ -157,7 +157,7 @@ double hair_distance_to_form(const hair_form* form, const double point[3], doubl
     return direction(away, up, out);
 }
 
-// In the world ----------------------------------------------------------------------------------------------
+// In the world ------------------------------------------------------------------------------------
 
 // By the unit quaternion q; `sign` -1: back.
 static void rotate(const float q[4], double sign, const double v[3], double out[3])

@@ -29,7 +29,7 @@ static hair_result check_arrays(const hair_host* host, const hair_form_desc* des
     return HAIR_OK;
 }
 
-// The grid --------------------------------------------------------------------------------------------------
+// The grid ----------------------------------------------------------------------------------------
 
 static float longest(hair_vec3 size)
 {
@@ -176,7 +176,7 @@ static hair_result measure(hair_form* form, struct hair_triangles* t)
     return result;
 }
 
-// Sides -----------------------------------------------------------------------------------------------------
+// Sides -------------------------------------------------------------------------------------------
 
 enum { UNKNOWN, OUTSIDE, INSIDE };
 
@@ -243,7 +243,7 @@ static void thicken(hair_form* form)
     for (size_t i = 0; i < nodes; ++i) form->distance[i] -= form->info.thickness / 2;
 }
 
-// The whole -------------------------------------------------------------------------------------------------
+// The whole ---------------------------------------------------------------------------------------
 
 static uint64_t mark_of(const hair_form* form)
 {

@@ -75,7 +75,7 @@ static hair_solid solid_at(const hair_solid* from, uint32_t i, size_t stride)
     return solid;
 }
 
-// Lists -----------------------------------------------------------------------------------------------------
+// Lists -------------------------------------------------------------------------------------------
 
 static hair_result reserve(const hair_host* host, struct hair_solid_list* list, uint32_t count)
 {

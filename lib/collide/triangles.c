@@ -27,7 +27,7 @@ static int same(hair_vec3 a, hair_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-// Order -----------------------------------------------------------------------------------------------------
+// Order -------------------------------------------------------------------------------------------
 
 // The lowest ten bits, each two places from the next.
 static uint32_t spread(uint32_t x)
@@ -92,7 +92,7 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
     return HAIR_OK;
 }
 
-// Nodes -----------------------------------------------------------------------------------------------------
+// Nodes -------------------------------------------------------------------------------------------
 
 // The leaves of a complete tree lie on two levels; those of the lower one come first along the curve.
 static uint32_t leaf_of(const struct hair_triangles* t, uint32_t node)
@@ -198,7 +198,7 @@ void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles
     *triangles = (struct hair_triangles){0};
 }
 
-// Distance --------------------------------------------------------------------------------------------------
+// Distance ----------------------------------------------------------------------------------------
 
 static float squared_to_segment(hair_vec3 p, hair_vec3 a, hair_vec3 b)
 {
@@ -271,7 +271,7 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
     *nearest = found;
 }
 
-// Winding ---------------------------------------------------------------------------------------------------
+// Winding -----------------------------------------------------------------------------------------
 
 #define FROM_AFAR 3.0f // radii: from there on a dipole stands for its triangles
 #define PI_4 12.56637061f
@@ -311,7 +311,7 @@ float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
     return sum / PI_4;
 }
 
-// Closed ----------------------------------------------------------------------------------------------------
+// Closed ------------------------------------------------------------------------------------------
 
 // Murmur3's final mixing.
 static uint64_t mix(uint64_t x)

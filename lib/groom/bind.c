@@ -1,13 +1,13 @@
-// bind.c - followers of full strands: each bound to the guide that runs nearest to it all along.
+// bind.c - followers of full strands, each bound to the guide nearest to it along its whole length.
 //
-// A follower is its guide and a cubic Bezier curve in the guide's frame, fitted here by least squares to
-// where the strand is at rest. The root is exact.
+// A follower is its guide plus a cubic Bezier curve in the guide's frame. The curve is fitted to
+// the strand at rest by least squares. The root is exact.
 #include "lib/groom/draft.h"
 #include "lib/groom/smoothed.h"
 
 #include <string.h>
 
-#define SAMPLES 16 // Of a strand beside its root. Twice as many change no fit of the test's strands by 1 %.
+#define SAMPLES 16 // Samples of a strand besides its root. More samples hardly change the fit.
 #define AXES (3 * HAIR_MARKS)
 
 static float distance_squared(const float* a, const float* b)
@@ -31,7 +31,7 @@ static hair_result find_owners(struct hair_draft* draft, const float* marks)
         hair_tree_build(draft->host, (struct hair_cloud){marks, AXES}, draft->groom->info.guide_count, &tree);
     if (result) return result;
     for (uint32_t i = 0; i < draft->strands.strand_count; ++i) {
-        // The guide of the strand's cell is near: the search need only look whether another is nearer.
+        // The guide of the strand's cell is near, so the search only has to find a nearer one.
         const float* own = draft->marks + AXES * (size_t)i;
         struct hair_near near = {draft->owner[i],
                                  distance_squared(own, marks + AXES * (size_t)draft->owner[i])};
@@ -43,7 +43,7 @@ static hair_result find_owners(struct hair_draft* draft, const float* marks)
     return HAIR_OK;
 }
 
-// By guide: a counting sort.
+// Sort strands by guide with a counting sort.
 static void sort_strands(struct hair_draft* draft)
 {
     uint32_t strands = draft->strands.strand_count;
@@ -71,8 +71,9 @@ hair_result hair_strand_sprouts(struct hair_draft* draft)
     return result;
 }
 
-// Control points 1 to 3 of a cubic Bezier curve are `weight` times its values at even t up to 1, less what
-// control point 0 gives there: the solution of the normal equations, the same for every strand.
+// Least-squares fit of a cubic Bezier curve to values at even t up to 1, with control point 0
+// given. Control points 1 to 3 are `weight` times the values minus the contribution of control
+// point 0. `weight` solves the normal equations and is equal for all strands.
 struct fit {
     float root[SAMPLES]; // Bernstein polynomial of control point 0
     float weight[3][SAMPLES];
@@ -84,7 +85,7 @@ static void bernstein(double t, double basis[4])
     basis[0] = s * s * s, basis[1] = 3 * s * s * t, basis[2] = 3 * s * t * t, basis[3] = t * t * t;
 }
 
-// Of a symmetric matrix, by cofactors.
+// Invert a symmetric matrix by cofactors.
 static void invert(double m[3][3], double out[3][3])
 {
     double cofactor[3][3];

@@ -1,9 +1,9 @@
-// build.c - a groom from strands: the steps in order.
+// build.c - construction of a groom from strands, step by step.
 #include "lib/groom/draft.h"
 
 #include <float.h>
 
-// Where followers come from.
+// Source of followers.
 enum source { FROM_STRANDS, FROM_GUIDES, FROM_SCALP };
 
 static enum source find_source(const hair_groom_desc* desc)

@@ -1,4 +1,5 @@
-// cloud.c - points sorted into halves, and the tree of halves searched for the nearest.
+// cloud.c - the k-d tree: splitting points into halves, and searching the tree for the nearest
+// points.
 #include "lib/groom/cloud.h"
 
 #include "lib/base/math.h"
@@ -6,7 +7,9 @@
 #include <float.h>
 #include <stdbool.h>
 
-#define LEAF 8 // Points that are scanned rather than split: 4 takes as long, 16 a tenth longer.
+// Maximum number of points in a leaf, which are scanned. Smaller leaves are no faster, larger ones
+// are slower.
+#define LEAF 8
 
 static float coordinate(struct hair_cloud cloud, uint32_t point, uint32_t axis)
 {
@@ -39,7 +42,8 @@ uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint3
     return widest;
 }
 
-// Points [low, equal) lie before the pivot, [equal, after) on it, [after, high) behind it.
+// Result of a partition. Points [low, equal) lie before the pivot, [equal, after) on it and [after,
+// high) behind it.
 struct thirds {
     uint32_t equal, after;
     uint64_t weight_before, weight_equal;
@@ -48,7 +52,7 @@ struct thirds {
 static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t low, uint32_t high,
                             uint32_t axis, const uint32_t* weights)
 {
-    // A pivot at random, so that no order of the points is slow.
+    // Use a random pivot, so that no order of the points is slow.
     uint32_t at = low + hair_hash(low ^ hair_hash(high)) % (high - low);
     float pivot = coordinate(cloud, order[at], axis);
     struct thirds thirds = {.equal = low, .after = high};
@@ -71,7 +75,7 @@ static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t l
 uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t count, uint32_t axis,
                           const uint32_t* weights, uint64_t target)
 {
-    // Hoare's selection: only the part where the target falls is divided further.
+    // Hoare's selection divides only the part that contains the target.
     uint32_t low = 0, high = count;
     while (low < high) {
         struct thirds thirds = divide(cloud, order, low, high, axis, weights);
@@ -155,7 +159,7 @@ static void consider(struct search* search, uint32_t index)
     }
     if (!(squared < limit)) return;
     for (uint32_t i = 0; i < search->found; ++i)
-        if (search->near[i].index == index) return; // Known from before the search.
+        if (search->near[i].index == index) return; // Found before the search.
     if (search->found < search->wanted) ++search->found;
     uint32_t i = search->found - 1;
     for (; i > 0 && search->near[i - 1].squared > squared; --i) search->near[i] = search->near[i - 1];

@@ -1,18 +1,21 @@
-// extent.c - how far the followers of each patch can get, and the ball that a head under the hair is: what tells where
-// there is no hair to be seen.
+// extent.c - bounds of the hair: the reach of each patch, and the sphere inside the head. They tell
+// where no hair is visible.
 #include "lib/groom/draft.h"
 
 #include <string.h>
 
-#define WITHIN 0.95 // of the ball that the nearest root touches
-#define UNEVEN 0.5 // roots are nearer to its middle than this share of the mean: they are on no ball
+// Radius of the sphere as a fraction of the distance of the nearest root.
+#define WITHIN 0.95
+// Minimum distance of a root from the centre, as a fraction of the mean. Nearer roots lie on no
+// sphere.
+#define UNEVEN 0.5
 
 static hair_vec3 xyz(hair_vec4 v)
 {
     return hair_v3(v.x, v.y, v.z);
 }
 
-// Of a follower, along one of its guides, from `from`.
+// Return a bound of the distance of a follower from `from`, along one of its guides.
 static float reach_along(const struct hair_groom* groom, const struct hair_follower* follower, uint32_t guide,
                          hair_vec3 from)
 {
@@ -20,7 +23,8 @@ static float reach_along(const struct hair_groom* groom, const struct hair_follo
            follower->length_ratio * groom->guides[guide].arc_length;
 }
 
-// A follower is where its guides are, and no farther from there than its control points.
+// Return a bound of the distance of a follower from `from`. The follower is at most as far from its
+// guides as its control points.
 static float reach_of(const struct hair_groom* groom, const struct hair_follower* follower, hair_vec3 from)
 {
     const hair_vec4* offset = follower->offset;
@@ -50,7 +54,7 @@ void hair_measure_patches(struct hair_groom* groom)
     }
 }
 
-// Gaussian elimination with pivots. False: there is no one solution.
+// Solve by Gaussian elimination with pivoting. Return false if there is no unique solution.
 static bool solve(double m[4][5], double out[4])
 {
     for (int k = 0; k < 4; ++k) {
@@ -74,8 +78,9 @@ static bool solve(double m[4][5], double out[4])
     return true;
 }
 
-// The ball nearest to all roots: |x|^2 = 2 c x + k in least squares. From the first root and in units of the greatest
-// distance from there, so that nothing is lost to rounding.
+// Fit a sphere to all roots by least squares: |x|^2 = 2 c x + k, with the centre c and k = r^2 -
+// |c|^2. Roots are taken relative to the first root and in units of the greatest distance from it,
+// which limits rounding.
 static bool fit(const struct hair_groom* groom, double center[3])
 {
     double m[4][5] = {{0}}, x[4], unit = 0;

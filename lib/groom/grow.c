@@ -1,4 +1,5 @@
-// grow.c - followers that are not given: of guides themselves, and around them where there is no scalp.
+// grow.c - followers that are not given: the guides themselves, or grown around the guides without
+// a scalp.
 #include "lib/groom/draft.h"
 
 #define GOLDEN_ANGLE 2.39996323f
@@ -12,11 +13,12 @@ struct hair_follower hair_own_follower(uint32_t guide, uint32_t* random)
 {
     struct hair_follower follower = {.guide0 = guide, .guide1 = guide, .guide2 = guide, .length_ratio = 1};
     follower.seed = hair_hash(*random);
-    follower.offset[0].w = 0.8f + 0.4f * hair_random(random); // Diameters on one head vary about so.
+    follower.offset[0].w = 0.8f + 0.4f * hair_random(random); // Typical variation on one head.
     return follower;
 }
 
-// Most strands are about as long as their guide; one in twenty-five is much shorter: hair grows anew.
+// Return a random length ratio. Most strands are about as long as their guide. One in 25 is much
+// shorter, because it is growing anew.
 static float draw_length(uint32_t* random)
 {
     if (hair_random(random) < 0.04f) return 0.6f + 0.25f * hair_random(random);
@@ -25,9 +27,11 @@ static float draw_length(uint32_t* random)
 
 struct hair_follower hair_grown_follower(uint32_t guide, hair_vec3 offset, uint32_t* random)
 {
-    static const float share[4] = {1, 0.8f, 0.5f, 0.25f}; // Of the offset, from root to tip: a clump.
+    // Fractions of the offset from root to tip, which form a clump.
+    static const float share[4] = {1, 0.8f, 0.5f, 0.25f};
     struct hair_follower follower = hair_own_follower(guide, random);
-    float deviation = 0.12f * hair_length(offset); // From the profile, so that clumps are not cones.
+    // Deviation from the profile, so that clumps are not cones.
+    float deviation = 0.12f * hair_length(offset);
     follower.length_ratio = draw_length(random);
     for (int i = 0; i < 4; ++i) {
         float x = i ? deviation * (2 * hair_random(random) - 1) : 0;
@@ -51,13 +55,15 @@ hair_result hair_guide_sprouts(struct hair_draft* draft)
     return HAIR_OK;
 }
 
-// The i-th of `count` offsets in a disc at right angles to the guide: Vogel's spiral, the first in the
-// middle, with the radii of a normal distribution cut off at two standard deviations, the disc's edge.
+// Return the i-th of `count` offsets in a disc perpendicular to the guide. The offsets form Vogel's
+// spiral, with the first at the centre. Their radii have a normal distribution, cut off at the edge
+// of the disc, which is at two standard deviations.
 static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
 {
     float edge = 1 - expf(-2);
     float r = 0.5f * radius * sqrtf(-2 * logf(1 - edge * (float)i / (float)count));
-    float angle = turn + GOLDEN_ANGLE * (float)(i % 65536); // Beyond, floats lose the angle.
+    // Floats lose the angle of larger indices.
+    float angle = turn + GOLDEN_ANGLE * (float)(i % 65536);
     return hair_v3(r * cosf(angle), 0, r * sinf(angle));
 }
 

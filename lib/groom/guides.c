@@ -1,17 +1,18 @@
-// guides.c - which strands are simulated.
+// guides.c - selection of the strands that are simulated.
 //
-// Of full strands the guides are chosen so that they represent the haircut. The marks of a strand make it a
-// point of 12 dimensions; the distance of two points is how far two strands lie apart along their length. The
-// set is cut in two at the mean of the axis along which it varies most, and each half again, down to one
-// guide per cell: the strand nearest to the mean of its cell (Heckbert 1982, "Color image quantization for
-// frame buffer display").
+// From full strands the guides are chosen so that they represent the haircut. The marks of a strand
+// form a point in 12 dimensions. The distance between two points measures how far two strands are
+// apart along their length. The set is split at the mean of the axis of largest variance. The
+// halves are split again, down to one guide per cell. The guide is the strand nearest to the mean
+// of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
 #include "lib/groom/draft.h"
 
 #include <float.h>
 #include <string.h>
 
 #define AXES (3 * HAIR_MARKS)
-#define DEEPEST 48 // Cuts by the mean, after which sets are halved: bounds the recursion on any input.
+// Number of cuts at the mean, after which sets are halved. It bounds the recursion on any input.
+#define DEEPEST 48
 
 _Static_assert(AXES <= HAIR_CLOUD_DIMENSIONS, "a strand's marks are one point");
 
@@ -44,10 +45,12 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
     return cell;
 }
 
-// How many guides a cell deserves, up to a factor. The error of the best n representatives of a density f in
-// d dimensions is least when they lie as f^(d/(d+2)) (Zador 1982); for a cell of `count` strands about r
-// apart that is count^(d/(d+2)) (r^d)^(2/(d+2)), and with d = 4, two for the root and two for the shape,
-// (count r^2)^(2/3).
+// Return the weight of a cell, which is proportional to the number of guides it should get.
+//
+// The error of the best n representatives of a density f in d dimensions is minimal if their
+// density is proportional to f^(d/(d+2)) (Zador 1982). A cell of N strands at a distance of about r
+// has f = N / r^d and the volume r^d, so its weight is N^(d/(d+2)) (r^d)^(2/(d+2)). With d = 4, two
+// dimensions for the root and two for the shape, the weight is (N r^2)^(2/3).
 static double weigh(const struct cell* cell)
 {
     double sum = 0;
@@ -82,7 +85,7 @@ static uint32_t widest(const struct cell* cell)
     return axis;
 }
 
-// Strands before the mean to the front. Returns how many.
+// Move the strands before the mean to the front. Return their number.
 static uint32_t cut(const struct choice* choice, const struct cell* cell)
 {
     uint32_t axis = widest(cell), front = 0;
@@ -95,7 +98,8 @@ static uint32_t cut(const struct choice* choice, const struct cell* cell)
     return front;
 }
 
-// Of `guides`, those for the first of two cells: no cell without, and none with more than it has strands.
+// Return the number of `guides` for the first of two cells. Each cell gets at least one and at most
+// one per strand.
 static uint32_t share_out(const struct cell* front, const struct cell* back, uint32_t guides)
 {
     double a = weigh(front), b = weigh(back);

@@ -1,14 +1,15 @@
-// intake.c - the caller's strands and scalp, copied, checked, in metres and +y up.
+// intake.c - import of the caller's strands and scalp: copied, checked, and converted to metres and
+// +y up.
 #include "lib/groom/draft.h"
 
 #include <string.h>
 
-#define FARTHEST 1e6f // m from the origin, as for strands.
+#define FARTHEST 1e6f // Maximum distance from the origin, m, as for strands.
 
 static hair_result count_vertices(const struct hair_draft* draft, uint32_t* out)
 {
     const hair_groom_desc* desc = draft->desc;
-    uint64_t sum = 0; // 2^22 strands of 2^32 vertices fit.
+    uint64_t sum = 0; // fits 2^22 strands of 2^32 vertices
     for (uint32_t i = 0; i < desc->strand_count; ++i) sum += desc->strand_vertices[i];
     if (sum > UINT32_MAX)
         return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
@@ -22,14 +23,14 @@ static hair_result check_numbers(const struct hair_draft* draft, const char* wha
                                  size_t count, float most)
 {
     for (size_t i = 0; i < count; ++i)
-        if (!(numbers[i] >= 0 && numbers[i] <= most)) // NaN too.
+        if (!(numbers[i] >= 0 && numbers[i] <= most)) // NaN fails too.
             return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.%s[%zu] is %g, not in [0, %g]", what, i, (double)numbers[i],
                              (double)most);
     return HAIR_OK;
 }
 
-// What strands have beside their vertices.
+// Copy the radii and colours of strands.
 static hair_result copy_rest(struct hair_draft* draft)
 {
     const hair_groom_desc* desc = draft->desc;
@@ -94,7 +95,7 @@ static hair_result clean(struct hair_draft* draft)
     return HAIR_OK;
 }
 
-// Where each strand begins, how long it is, and its marks.
+// Compute the first vertex, the length and the marks of each strand.
 static void measure(struct hair_draft* draft)
 {
     const struct hair_strands* strands = &draft->strands;
@@ -150,7 +151,7 @@ static hair_result place_scalp(struct hair_draft* draft)
     for (size_t i = 0; i < desc->scalp_vertex_count; ++i) {
         const float* p = desc->scalp_positions + 3 * i;
         hair_vec3 at = hair_import_point(draft->import, hair_load3(p));
-        if (!(hair_length(at) <= FARTHEST)) // NaN too.
+        if (!(hair_length(at) <= FARTHEST)) // NaN fails too.
             return hair_fail(
                 draft->host, HAIR_ERROR_ARGUMENT,
                 "hair_groom_desc.scalp_positions: vertex %zu is (%g, %g, %g), not within %g m of the origin",

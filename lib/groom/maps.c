@@ -1,7 +1,9 @@
-// maps.c - how densely hair grows and how thick it is, where maps on the scalp say so.
+// maps.c - density and thickness of hair, read from maps on the scalp.
 #include "lib/groom/draft.h"
 
-#define LARGEST 16384u // an image, along a side
+// Maximum number of values along a side of an image.
+#define LARGEST 16384u
+// Maximum value of a thickness map.
 #define THICKEST 4.0f
 
 static uint32_t count_sets(const hair_groom_desc* desc)
@@ -46,7 +48,7 @@ static hair_result check_map(const struct hair_draft* draft, uint32_t set, const
     }
     uint64_t count = count_values(desc, map);
     for (uint64_t i = 0; i < count; ++i)
-        if (!(map->values[i] >= 0 && map->values[i] <= most)) // NaN too.
+        if (!(map->values[i] >= 0 && map->values[i] <= most)) // NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.map_sets[%u]->%s.values[%llu] is %g, not in [0, %g]", set, name,
                              (unsigned long long)i, (double)map->values[i], (double)most);
@@ -69,10 +71,12 @@ static hair_result check_maps(const struct hair_draft* draft, uint32_t sets)
     return result;
 }
 
-// The value before a place along a side, the one after it, and what share that has.
+// Find the values before and after a coordinate along a side. `share` is the weight of the second
+// value.
 static void find_between(float uv, uint32_t size, uint32_t at[2], float* share)
 {
-    float place = fminf(fmaxf(uv * (float)size - 0.5f, 0), (float)(size - 1)); // Values are in the middles.
+    // Values are at the texel centres.
+    float place = fminf(fmaxf(uv * (float)size - 0.5f, 0), (float)(size - 1));
     at[0] = (uint32_t)place;
     at[1] = at[0] + 1 < size ? at[0] + 1 : at[0];
     *share = place - (float)at[0];
@@ -107,14 +111,14 @@ static float value_at(const struct hair_draft* draft, const hair_map* map, const
     return map->of == HAIR_MAP_IMAGE ? look_up(map, sum[0], sum[1]) : sum[0];
 }
 
-// What the last set says is meant by those that there are not.
+// Read all maps at a candidate. The last set stands for all missing sets.
 static void read_maps(struct hair_draft* draft, uint32_t sets, uint32_t sprout)
 {
     const struct hair_spot* spot = &draft->spots[sprout];
     float density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], most = 0;
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
         const hair_map_set* set = draft->desc->map_sets[i < sets ? i : sets - 1];
-        density[i] = fminf(fmaxf(value_at(draft, &set->density, spot), 0), 1); // Rounding.
+        density[i] = fminf(fmaxf(value_at(draft, &set->density, spot), 0), 1); // Correct rounding.
         thickness[i] = fmaxf(value_at(draft, &set->thickness, spot), 0);
         most = fmaxf(most, thickness[i]);
     }

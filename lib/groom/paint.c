@@ -1,13 +1,13 @@
-// paint.c - what strands bring along beside their shape, handed on to followers: how thick they are, and their colours. A
-// follower of one strand has what that has, one between guides a mean by its weights.
+// paint.c - radii and colours of followers, taken from strands. A follower of one strand has the
+// values of that strand. A follower between guides has their weighted mean.
 #include "lib/groom/draft.h"
 
 _Static_assert(HAIR_STRAND_COLORS == HAIR_CURVE_INTERVALS + 1,
                "shaders look for colours at the places of a curve");
 
-#define THICKEST 4.0f // times the mean
+#define THICKEST 4.0f // Maximum radius as a multiple of the mean.
 
-// Strands that a follower is made of.
+// Strands that a follower is made of, with their weights.
 struct mix {
     uint32_t strand[3];
     float weight[3];
@@ -36,7 +36,8 @@ static float mean_radius(const struct hair_draft* draft)
     return (float)(sum / draft->strands.strand_count);
 }
 
-// Chance adds what followers have of their own, not those that are strands of the groom.
+// Scale the radius of a follower by the radii of its strands. Random variation is kept unless the
+// follower is itself a strand of the groom.
 static void widen(const struct hair_draft* draft, const struct mix* mix, float mean,
                   struct hair_follower* follower)
 {

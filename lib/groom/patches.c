@@ -1,16 +1,16 @@
-// patches.c - followers in the order they are drawn: patches of neighbours, each well filled.
+// patches.c - followers in draw order: patches of neighbours, each well filled.
 //
-// Plots are cut in two along the axis where they reach farthest, in proportion to the patches that either
-// side will fill, and each half again until it fits into one: the packing of an R-tree (Leutenegger et al.
-// 1997, "STR").
+// Root bins are split along the axis of largest extent, in proportion to the patches that each side
+// will fill. The halves are split again until each fits into one patch. This is the packing of an
+// R-tree (Leutenegger et al. 1997, "STR").
 #include "lib/groom/draft.h"
 
-#define ALIKE (1.0f / 16) // Densities that differ by no more may share a patch.
+#define ALIKE (1.0f / 16) // Maximum difference of densities within a patch.
 
 struct layout {
     struct hair_draft* draft;
     struct hair_cloud centres;
-    uint32_t* queue; // sprouts in the order of their followers
+    uint32_t* queue; // candidates in the order of their followers
     uint32_t queued;
     struct hair_patch* patches;
     uint32_t patch_count;
@@ -39,7 +39,7 @@ static bool are_alike(const struct layout* layout, const uint32_t* order, uint32
     return most - least <= ALIKE;
 }
 
-// Cutting off the end of a patch must thin it evenly.
+// Shuffle the candidates, because cutting off the end of a patch must thin it evenly.
 static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 {
     for (uint32_t i = count; i > 1; --i) {
@@ -50,8 +50,11 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
     }
 }
 
-// Plots are scattered so that any run of their sprouts is spread evenly, which thins a patch more evenly than chance does:
-// what is of one plot stays in its order, of several each adds its own at even distances, from a start by chance.
+// Interleave the candidates of scattered root bins.
+//
+// Any run of candidates of a root bin is spread evenly over it, which thins a patch more evenly
+// than a random order. So the candidates of one root bin keep their order. Each root bin
+// contributes its candidates at even distances, from a random start.
 static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
 {
     float from[HAIR_MAX_ISOLINES];
@@ -63,12 +66,13 @@ static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t coun
     hair_sort_queue(queue, from, count);
 }
 
-// Into one patch, or when they are more than it holds into the fewest of even size.
+// Make one patch, or the minimum number of patches of even size if one cannot hold all.
 static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
     if (layout->draft->is_scattered && total <= HAIR_MAX_ISOLINES)
         merge(layout->draft, layout->queue + first, total);
-    else if (!layout->draft->is_scattered || layout->draft->map_density) // Else one plot, and in its order.
+    // One root bin keeps its order.
+    else if (!layout->draft->is_scattered || layout->draft->map_density)
         shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
     uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
     for (uint32_t i = 0; i < parts; ++i) {
@@ -80,7 +84,8 @@ static void make_patches(struct layout* layout, uint32_t first, uint32_t total, 
     }
 }
 
-// Where maps differ too much among sprouts for one patch, by what differs most.
+// Split the candidates by the map value that differs too much, until maps allow one patch for each
+// part.
 static void part(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
     for (;;) {
@@ -127,7 +132,7 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
     }
 }
 
-// Plots where something grows. Returns how many.
+// List the root bins that have candidates. Return their number.
 static uint32_t list_plots(const struct hair_draft* draft, uint32_t* order)
 {
     uint32_t count = 0;
@@ -138,7 +143,8 @@ static uint32_t list_plots(const struct hair_draft* draft, uint32_t* order)
 
 hair_result hair_draft_patches(struct hair_draft* draft)
 {
-    // No more patches than plots, but for plots of more than one patch; and where there are maps, for any number.
+    // There is at most one patch per root bin, plus the further patches of large root bins. With
+    // maps, there is at most one patch per candidate.
     uint32_t most = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
     if (draft->map_density) most = draft->sprout_count;
     struct hair_groom* groom = draft->groom;

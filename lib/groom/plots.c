@@ -1,4 +1,4 @@
-// plots.c - what followers grow on: guides or scalp triangles.
+// plots.c - root bins, which followers grow on. They are guides or scalp triangles.
 #include "lib/groom/draft.h"
 
 static hair_result make_room(struct hair_draft* draft, uint32_t count)

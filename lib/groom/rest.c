@@ -1,16 +1,20 @@
-// rest.c - the rest shape of guides: vertices, lengths, frames, directions in the frame of the segment before.
+// rest.c - the rest shape of guides: vertices, lengths, frames, and directions in the previous
+// segment's frame.
 //
 //   F_0 = root frame, y along the first segment       direction_0 = (0, 1, 0)
-//   F_i = T_i F_(i-1), where T_i is the least rotation from segment i-1 to segment i
-//   direction_i = F_(i-1)^-1 d_i, with d_i the unit direction of segment i
+//   F_i = T_i F_(i-1), where T_i is the smallest rotation from segment i-1 to segment i
+//   direction_i = F_(i-1)^-1 d_i, where d_i is the unit direction of segment i
 //
-// The tip, where no segment begins, has the frame of the last.
+// No segment begins at the tip, so the tip has the frame of the last segment.
 #include "lib/groom/draft.h"
 
 #include <string.h>
 
-#define FEWEST 4 // Vertices, where guide_vertices allows: the scalp pins two, and two that are free can bend.
-#define CLOSEST 0.1 // two vertices of a guide are, of the mean distance
+// Minimum number of vertices, if guide_vertices allows it. The scalp pins two, and two free
+// vertices can bend.
+#define FEWEST 4
+// Minimum distance of neighbouring vertices of a guide, as a fraction of the mean distance.
+#define CLOSEST 0.1
 #define Y_AXIS hair_v3(0, 1, 0)
 
 static hair_vec3 vertex(const float* p, size_t i)
@@ -31,8 +35,9 @@ static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
     return vertices < most ? vertices : most;
 }
 
-// Drop vertices nearer to the one before than a tenth of the mean distance: solvers do not know how to turn what is
-// that short, and their substeps would have to be as much shorter. The tip stays.
+// Drop vertices closer to the previous one than a tenth of the mean distance. Keep the tip. Return
+// the new count. Solvers cannot determine how shorter segments turn, and would need substeps as
+// much shorter.
 static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
 {
     float least = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
@@ -47,16 +52,20 @@ static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
     return kept;
 }
 
-// A strand with `count` vertices. Those that it has are kept where they are enough and apart: its shape and length
-// stay. Where they are too many they are replaced by others at equal distances: then each arc of length s and
-// radius r is cut short to its chord, by (s/r)^2 / 24 of its length.
+// Write a strand as `count` vertices.
+//
+// If the strand does not have more, the vertices that are far enough apart are kept and segments
+// are split. This preserves shape and length. If the strand has more, vertices at equal distances
+// replace them. Each arc of length s and radius r is then shortened to its chord, by (s/r)^2 / 24
+// of its length.
 static void sample(const float* positions, uint32_t vertices, float* out, uint32_t count)
 {
     uint32_t have = vertices;
     if (vertices > count) {
         hair_strand_resample(positions, vertices, out, count);
         have = hair_strand_merge(out, count);
-        // A strand that runs to and fro may have all its samples in one place: its first part will do.
+        // All samples of a strand that runs back and forth may coincide. Use its first vertices
+        // instead.
         if (!hair_strand_is_fit(out, have)) {
             memcpy(out, positions, 3 * (size_t)count * sizeof *out);
             have = count;
@@ -68,8 +77,9 @@ static void sample(const float* positions, uint32_t vertices, float* out, uint32
     hair_strand_split(out, have, count);
 }
 
-// The mean direction of first segments: what root frames are turned from, so that they vary smoothly over the
-// scalp and the one direction around which they cannot, its opposite, is where no hair grows.
+// Return the mean direction of first segments. Root frames are turned from this direction, so they
+// vary smoothly over the scalp. Their only singularity is the opposite direction, in which no hair
+// grows.
 static hair_vec3 mean_direction(const struct hair_draft* draft)
 {
     hair_vec3 sum = {0};
@@ -78,8 +88,8 @@ static hair_vec3 mean_direction(const struct hair_draft* draft)
     return hair_normalize(sum, Y_AXIS);
 }
 
-// The frame whose y axis is `to`, least turned from that of the mean direction. Twice: near opposite
-// directions the first turn is only about right.
+// Return the frame whose y axis is `to`, by the smallest rotation from the frame of the mean
+// direction. Rotate twice, because the first rotation is inaccurate for nearly opposite directions.
 static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
 {
     hair_quat frame = hair_quat_between(Y_AXIS, mean);

@@ -1,11 +1,13 @@
-// scalp.c - followers grown all over the scalp, between three guides each.
+// scalp.c - followers grown all over the scalp, each between three guides.
 #include "lib/groom/draft.h"
 
 #define NONE UINT32_MAX
-#define COINCIDE 1e-3f // m; a guide this near to a scalp vertex is rooted there.
-#define NEAR 8 // Guides among which three are found that surround a root.
+// Maximum distance between a guide's root and the scalp vertex at which it is rooted, m.
+#define COINCIDE 1e-3f
+// Number of nearest guides among which three that surround a root are searched.
+#define NEAR 8
 
-// Where hair grows. m^2.
+// Return the area of a triangle, m^2, or 0 if no hair grows on it.
 static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
 {
     if (draft->density[triangle] <= 0) return 0;
@@ -15,8 +17,9 @@ static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
     return 0.5 * (double)hair_length(hair_cross(b, c));
 }
 
-// The i-th point of a triangle as barycentric coordinates: the R2 sequence (Roberts 2018, "The unreasonable
-// effectiveness of quasirandom sequences"), with what falls beyond the diagonal of the square folded back.
+// Compute the i-th point of a triangle in barycentric coordinates, by the R2 sequence (Roberts
+// 2018, "The unreasonable effectiveness of quasirandom sequences"). Points beyond the diagonal of
+// the square are folded back.
 static void scatter(uint32_t i, double start_u, double start_v, float out[3])
 {
     double u = start_u + 0.7548776662466927 * i, v = start_v + 0.5698402909980532 * i;
@@ -42,8 +45,8 @@ static hair_result scatter_sprouts(struct hair_draft* draft)
     return HAIR_OK;
 }
 
-// Triangle after triangle takes whole sprouts off the running sum of areas: none is more than one off its
-// share, and small triangles are not starved together.
+// Distribute the candidates over the triangles by the running sum of areas. Each triangle is at
+// most one candidate off its fraction. Small triangles are not all rounded down to none.
 hair_result hair_scalp_sprouts(struct hair_draft* draft)
 {
     uint32_t triangles = draft->desc->scalp_triangle_count;
@@ -70,18 +73,18 @@ hair_result hair_scalp_sprouts(struct hair_draft* draft)
 struct scalp {
     struct hair_draft* draft;
     struct hair_tree roots; // of the guides
-    float* points; // their positions
-    uint32_t* guide_at; // each vertex of the scalp; NONE: none
+    float* points; // positions of these roots
+    uint32_t* guide_at; // guide rooted at each vertex of the scalp, or NONE
 };
 
-// Three guides around a root, as barycentric weights.
+// Three guides around a root, with barycentric weights.
 struct trio {
     uint32_t guide[3];
     float weight[3];
 };
 
-// The guide of the same number first: where vertices of the scalp coincide, as along a parting, it is the one
-// meant.
+// Return the guide rooted at a scalp vertex, or NONE. The guide with the number of the vertex has
+// priority, because several vertices of the scalp coincide along a parting.
 static uint32_t find_guide_at(const struct scalp* scalp, uint32_t vertex)
 {
     const struct hair_groom* groom = scalp->draft->groom;
@@ -101,21 +104,23 @@ static void normalize(float weight[3])
     for (int i = 0; i < 3; ++i) weight[i] /= sum;
 }
 
-// Barycentric coordinates in the triangle abc of p's foot in its plane. False where the triangle is a sliver.
+// Compute the barycentric coordinates of p, projected onto the plane of the triangle abc. Return
+// false for a sliver.
 static bool find_barycentric(hair_vec3 a, hair_vec3 b, hair_vec3 c, hair_vec3 p, float out[3])
 {
     hair_vec3 u = hair_sub(b, a), v = hair_sub(c, a), w = hair_sub(p, a);
     hair_vec3 normal = hair_cross(u, v);
     float squared = hair_dot(normal, normal);
     float uu = hair_dot(u, u), vv = hair_dot(v, v);
-    if (!(squared > 0.01f * uu * vv)) return false; // Less than 6 degrees between them.
+    if (!(squared > 0.01f * uu * vv)) return false; // The edges enclose less than 6 degrees.
     out[1] = hair_dot(hair_cross(w, v), normal) / squared;
     out[2] = hair_dot(hair_cross(u, w), normal) / squared;
     out[0] = 1 - out[1] - out[2];
     return true;
 }
 
-// Where no three surround the root: the nearer the heavier.
+// Return the nearest guides, weighted by the inverse square of their distance. Used if no three
+// guides surround the root.
 static struct trio weigh_by_distance(const struct hair_near* near, uint32_t found)
 {
     struct trio trio;
@@ -124,12 +129,12 @@ static struct trio weigh_by_distance(const struct hair_near* near, uint32_t foun
         trio.guide[i] = own->index;
         trio.weight[i] = i < found ? near[0].squared / fmaxf(own->squared, 1e-20f) : 0;
     }
-    trio.weight[0] = 1; // Also where the root is the guide's own.
+    trio.weight[0] = 1; // Also correct at the root of a guide.
     normalize(trio.weight);
     return trio;
 }
 
-// The nearest three guides that surround the root.
+// Return the nearest three guides that surround the root.
 static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
 {
     const struct hair_groom* groom = scalp->draft->groom;
@@ -151,13 +156,13 @@ static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
     return weigh_by_distance(near, found);
 }
 
-// Guide 0 is drawn by weight, so that the borders of clumps are soft.
+// Draw guide 0 at random by weight, so that the borders of clumps are soft.
 static void draw_first(struct trio* trio, uint32_t* random)
 {
     int heaviest = trio->weight[0] >= trio->weight[1] ? 0 : 1;
     float r = hair_random(random);
     int first = r < trio->weight[0] ? 0 : r < trio->weight[0] + trio->weight[1] ? 1 : 2;
-    if (!(trio->weight[first] > 0)) first = heaviest; // Rounding.
+    if (!(trio->weight[first] > 0)) first = heaviest; // Correct rounding.
     uint32_t guide = trio->guide[first];
     float weight = trio->weight[first];
     trio->guide[first] = trio->guide[0];
@@ -172,15 +177,16 @@ static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
     return hair_sub(hair_v3(tip.x, tip.y, tip.z), hair_guide_root(groom, guide));
 }
 
-// Whether two guides lie on different sides of a parting: what is between them would hang in the middle of
-// nowhere or pass through the head.
+// Return whether two guides lie on different sides of a parting. A blend of the two would hang in
+// empty space or pass through the head.
 static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
 {
     hair_vec3 a = root_to_tip(groom, i), b = root_to_tip(groom, j);
     float mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
     if (hair_distance(a, b) > 0.6f * mean) return true;
     float product = hair_length(a) * hair_length(b);
-    if (product < 0.01f * mean * mean) return false; // Curled up: the tip says little about the way.
+        // The tip of a curled guide tells little about its direction.
+        if (product < 0.01f * mean * mean) return false;
     return hair_dot(a, b) < 0.342f * product; // More than 70 degrees.
 }
 

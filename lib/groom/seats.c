@@ -1,4 +1,4 @@
-// seats.c - the roots of guides and followers bound to the scalp's triangles.
+// seats.c - root bindings: the roots of guides and followers bound to the scalp's triangles.
 #include "lib/groom/seats.h"
 #include "lib/groom/surface.h"
 
@@ -44,7 +44,7 @@ static void seat_followers(const struct hair_draft* draft, struct hair_seat* sea
             uint32_t sprout = draft->plot_first[plot] + i;
             const struct hair_spot* spot = &draft->spots[sprout];
             hair_vec3 root = {0};
-            if (draft->plot_density) // Plots are triangles: it is on one.
+            if (draft->plot_density) // Root bins are triangles, so the root is on one.
                 for (uint32_t k = 0; k < 3; ++k)
                     root = hair_add(root,
                                     hair_scale(hair_scalp_corner(draft, spot->triangle, k), spot->weight[k]));

@@ -1,10 +1,11 @@
 // smoothed.c - a guide at rest, sampled at equal distances along the spline through its vertices.
 //
-// The spline is cubic Hermite, with the tangents of the parabola through three neighbours, so that segments
-// of unequal length make no overshoot.
+// The spline is cubic Hermite, with the tangents of the parabola through three neighbours. These
+// tangents prevent overshoot at segments of unequal length.
 #include "lib/groom/smoothed.h"
 
-// A guide by its vertices: position, distance from the root, and per segment direction and frame.
+// A guide as a polyline: position and distance from the root per vertex, direction and frame per
+// segment.
 struct polyline {
     hair_vec3 vertex[HAIR_MAX_GUIDE_VERTICES];
     float from_root[HAIR_MAX_GUIDE_VERTICES];
@@ -33,7 +34,7 @@ static void unpack(const struct hair_groom* groom, uint32_t number, struct polyl
     }
 }
 
-// Derivative by length at vertex j.
+// Return the derivative of the position by arc length at vertex j.
 static hair_vec3 slope(const struct polyline* line, uint32_t j)
 {
     if (j == 0) return line->direction[0];
@@ -52,7 +53,8 @@ static void evaluate(const struct polyline* line, uint32_t j, float s, struct ha
     hair_vec3 chord = hair_sub(line->vertex[j + 1], line->vertex[j]);
     hair_vec3 bend0 = hair_sub(hair_scale(slope(line, j), l), chord);
     hair_vec3 bend1 = hair_sub(hair_scale(slope(line, j + 1), l), chord);
-    // Hermite, written as the chord and what bends away from it: floats keep the small part.
+    // The Hermite curve is evaluated as the chord plus a deviation, so that floats keep the small
+    // part.
     hair_vec3 away = hair_sub(hair_scale(bend0, 1 - w), hair_scale(bend1, w));
     out->position[k] =
         hair_add(line->vertex[j], hair_add(hair_scale(chord, w), hair_scale(away, w * (1 - w))));

@@ -1,15 +1,17 @@
-// sorts.c - which followers may share a patch where there are maps, and in which order it is cut short.
+// sorts.c - patches and density order of followers where there are maps.
 //
-// The k-th follower of a patch of n, in an order by chance, is to be drawn as soon as the share L that is asked for
-// makes L d n > k, with d the density at its own root. That is so from L = k / (n d) on: so followers are put in the
-// order of k / d, and cutting off the end leaves each place the density that it should have, at every L. As d is the
-// mean of all sets, blending sets changes no strand's place in that order.
+// Let L be the requested fraction of the hair. Follower k of a patch of n, in a random order, is
+// drawn as soon as L d n > k, where d is the density at its root. This holds from L = k / (n d) on.
+// So followers are sorted by k / d. Cutting off the end then leaves every place the density that it
+// should have, at every L. d is the mean of all sets, so blending sets does not change the order of
+// strands.
 #include "lib/groom/draft.h"
 
 #include <float.h>
 
-// Ranges that patches may span.
+// Maximum range of densities in a patch.
 #define DENSITIES 0.25f
+// Maximum range of relative thicknesses in a patch.
 #define SHARES 0.125f
 
 #define VALUES (2 * HAIR_MAP_SETS)
@@ -25,7 +27,8 @@ static float value_of(const struct hair_draft* draft, uint32_t sprout, uint32_t 
     return v->w;
 }
 
-// Where nothing grows there are patches of nothing else.
+// Return the value of map component `which` at which to split. `excess` receives the range relative
+// to its limit. Candidates without hair get patches of their own.
 static float find_cut(const struct hair_draft* draft, const uint32_t* queue, uint32_t count, uint32_t which,
                       float* excess)
 {

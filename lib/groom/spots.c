@@ -1,4 +1,4 @@
-// spots.c - where on the scalp roots sit: the foot of each on the nearest triangle.
+// spots.c - the closest point on the scalp to each root.
 #include "lib/groom/surface.h"
 
 #include <float.h>
@@ -10,7 +10,8 @@ static float share_along(hair_vec3 a, hair_vec3 b, hair_vec3 p)
     return squared > 0 ? fminf(fmaxf(hair_dot(hair_sub(p, a), way) / squared, 0), 1) : 0;
 }
 
-// Of p's foot on the triangle, which may have no area.
+// Compute the barycentric weights of the point of a triangle closest to p. The triangle may have no
+// area.
 static void find_foot(const hair_vec3 corner[3], hair_vec3 p, float weight[3])
 {
     hair_vec3 u = hair_sub(corner[1], corner[0]), v = hair_sub(corner[2], corner[0]),
@@ -72,7 +73,8 @@ struct hair_spot hair_surface_spot(struct hair_surface* surface, hair_vec3 root)
 
 hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32_t sprout)
 {
-    if (!draft->strand_of) return hair_guide_root(draft->groom, plot); // What surrounds it is there too.
+    // Followers around a guide count as rooted there.
+    if (!draft->strand_of) return hair_guide_root(draft->groom, plot);
     return hair_load3(draft->strands.positions + 3 * (size_t)draft->first[draft->strand_of[sprout]]);
 }
 
@@ -83,7 +85,7 @@ hair_result hair_draft_spots(struct hair_draft* draft)
     hair_result result = hair_surface_build(draft, &surface);
     draft->spots = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->spots);
     if (!result && !draft->spots) result = hair_fail_memory(draft->host, "the roots of followers");
-    int there = !result && surface.triangles.count > 0; // All may be degenerate.
+    int there = !result && surface.triangles.count > 0; // All triangles may be degenerate.
     for (uint32_t plot = 0; plot < draft->plot_count && there; ++plot)
         for (uint32_t i = 0; i < draft->plot_sprouts[plot]; ++i) {
             uint32_t sprout = draft->plot_first[plot] + i;

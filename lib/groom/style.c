@@ -1,4 +1,4 @@
-// style.c - the built-in haircuts as assets: a guide from every vertex of the built-in scalp.
+// style.c - the built-in haircuts as assets, with one guide per vertex of the built-in scalp.
 #include "lib/groom/style.h"
 #include "lib/groom/style_grow.h"
 

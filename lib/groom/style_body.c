@@ -1,5 +1,6 @@
-// style_body.c - the bust under the built-in haircuts, as a smooth union of ellipsoids and capsules.
-// Based on: Quilez, "Distance functions" and "Smooth minimum"; proportions of an adult head, 0.23 m high.
+// style_body.c - the bust of the built-in haircuts, as a smooth union of ellipsoids and capsules.
+// Based on Quilez, "Distance functions" and "Smooth minimum". The proportions are those of an adult
+// head, 0.23 m high.
 #include "lib/groom/style_body.h"
 
 struct ellipsoid {
@@ -15,16 +16,18 @@ static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X,
 static const struct ellipsoid cheeks = {{0, 1.580f, 0.038f}, {0.060f, 0.063f, 0.053f}};
 static const struct ellipsoid jaw = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
 static const struct ellipsoid chest = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
-static const struct ellipsoid room = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.060f}}; // before the face
+// In front of the face.
+static const struct ellipsoid room = {{0, 1.565f, 0.085f}, {0.055f, 0.130f, 0.060f}};
 
-// On the left side; the bust is symmetrical, so they are met by |x|.
+// Parts of the left side. The bust is symmetric, so they are evaluated at |x|.
 static const struct ellipsoid breast = {{0.062f, 1.330f, 0.045f}, {0.082f, 0.077f, 0.038f}};
 static const struct ellipsoid blade = {{0.055f, 1.345f, -0.062f}, {0.087f, 0.087f, 0.039f}};
 static const struct capsule neck = {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.048f};
 static const struct capsule shoulder = {{0.030f, 1.434f, -0.032f}, {0.158f, 1.370f, -0.025f}, 0.044f};
 static const struct capsule arm = {{0.162f, 1.362f, -0.025f}, {0.182f, 1.200f, -0.020f}, 0.043f};
 
-// First order: |p/a| (|p/a| - 1) / |p/a^2|, exact on the surface.
+// Return the distance to first order, |p/a| (|p/a| - 1) / |p/a^2| with semi-axes a. It is exact on
+// the surface.
 static float ellipsoid_distance(const struct ellipsoid* e, hair_vec3 p)
 {
     hair_vec3 q = hair_sub(p, e->center);
@@ -42,7 +45,7 @@ static float capsule_distance(const struct capsule* c, hair_vec3 p)
     return hair_distance(p, hair_lerp(c->a, c->b, fminf(fmaxf(t, 0), 1))) - c->radius;
 }
 
-// With a fillet of about k metres.
+// Return the smooth minimum of two distances, with a fillet of about k metres.
 static float blend(float a, float b, float k)
 {
     float h = fmaxf(k - fabsf(a - b), 0) / k;
@@ -75,21 +78,22 @@ static float face_distance(const hair_vec3* m)
 float hair_body_distance(hair_vec3 p)
 {
     hair_vec3 m = {fabsf(p.x), p.y, p.z};
-    if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&skull, m)); // Far above the rest.
+    // The other parts are far below.
+    if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&skull, m));
     float d = ellipsoid_distance(&chest, m);
     d = blend(d, capsule_distance(&arm, m), 0.05f);
     d = blend(d, capsule_distance(&shoulder, m), 0.06f);
     d = blend(d, ellipsoid_distance(&breast, m), 0.07f);
     d = blend(d, ellipsoid_distance(&blade, m), 0.04f);
     d = blend(d, capsule_distance(&neck, m), 0.05f);
-    if (p.y < 1.42f) return d; // Far below the head.
+    if (p.y < 1.42f) return d; // The head is far above.
     d = blend(d, face_distance(&m), 0.016f);
-    return fminf(d, ellipsoid_distance(&skull, m)); // No fillet here: roots stay on the surface.
+    return fminf(d, ellipsoid_distance(&skull, m)); // Without a fillet, roots stay on the surface.
 }
 
 static hair_vec3 gradient(float (*distance)(hair_vec3), hair_vec3 p)
 {
-    // By four points of a tetrahedron (Quilez).
+    // Sample the four corners of a tetrahedron (Quilez).
     const float h = 5e-4f;
     float a = distance(hair_v3(p.x + h, p.y - h, p.z - h)), b = distance(hair_v3(p.x - h, p.y - h, p.z + h));
     float c = distance(hair_v3(p.x - h, p.y + h, p.z - h)), d = distance(hair_v3(p.x + h, p.y + h, p.z + h));

@@ -1,33 +1,36 @@
-// style_grow.c - guides of the built-in haircuts, walked from root to tip.
+// style_grow.c - guides of the built-in haircuts, traced from root to tip.
 //
-// A walk turns its direction by a pull (the comb near the root, gravity further on) and is pushed out of the
-// bust to a clearance that grows along the strand: hair that comes from higher up lies over hair from below.
+// A guide turns towards a pull, which is the comb near the root and gravity farther along. It is
+// pushed out of the bust to a clearance that grows along the strand. So hair from higher up lies
+// over hair from below.
 #include "lib/groom/style_grow.h"
 #include "lib/groom/style_body.h"
 
 #define PI 3.14159265f
-#define CUSHION 0.020f // Height above the clearance from which on hair turns along the bust. m.
-#define BESIDE 0.025f // As far from a parting hair runs along it at first. m.
+// Height above the clearance below which hair turns along the bust, m.
+#define CUSHION 0.020f
+// Distance from a parting within which hair runs along it at first, m.
+#define BESIDE 0.025f
 #define STRIDE HAIR_COURSE_STRIDE
 
-// How the hair of one root runs.
+// Path of the hair of one root.
 struct walk {
     hair_vec3 comb; // tangent to the skull at the root
-    float rise; // share of the root's direction that is the skull's normal
-    float clearance; // from the bust, far from the root, m
-    float lift; // distance over which it is reached, m
-    float gravity; // turn towards down, 1/m, far from the root
+    float rise; // fraction of the skull's normal in the root's direction
+    float clearance; // distance from the bust, far from the root, m
+    float lift; // distance over which the clearance is reached, m
+    float gravity; // turn rate towards down, far from the root, 1/m
     float hold; // distance over which the comb gives way to gravity, m
-    float press; // share of what it is above the clearance that a step removes
-    float inward; // turn towards the neck near the tip, 1/m
-    float inward_below; // height from which on, m
-    float split; // turn to the front or the back of the shoulder, 1/m
-    float floor; // height that the hair is cut at, m
+    float press; // fraction of the height above the clearance that a step removes
+    float inward; // turn rate towards the neck near the tip, 1/m
+    float inward_below; // height below which hair turns inwards, m
+    float split; // turn rate to the front or the back of the shoulder, 1/m
+    float floor; // height at which the hair is cut, m
     float face; // distance kept from the face, m
-    float most; // length, m
+    float most; // maximum length, m
 };
 
-// Parted hair ----------------------------------------------------------------------------------------------
+// Parted hair -------------------------------------------------------------------------------------
 
 struct hair_parting hair_style_parting(hair_style style)
 {
@@ -40,26 +43,29 @@ struct hair_parting hair_style_parting(hair_style style)
     }
 }
 
-// Where a comb drawn from the parting goes: to the side at the forehead, ever more to the back towards the
-// crown, and evenly round the back of the head behind it.
+// Return the direction of a comb drawn from the parting. It runs sideways at the forehead and
+// increasingly backwards towards the crown. Behind the crown it spreads evenly around the back of
+// the head.
 static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, float back_front,
                                    float back_crown)
 {
     hair_vec3 normal = hair_skull_normal(p);
     float along = (HAIR_PARTING_FRONT_Z - p.z) / (HAIR_PARTING_FRONT_Z - parting.crown_z);
-    float width = hair_mix(0.0005f, 0.045f, hair_smooth(0.9f, 1.5f, along)); // Over which sides change.
+    // Width over which the side changes, m.
+    float width = hair_mix(0.0005f, 0.045f, hair_smooth(0.9f, 1.5f, along));
     float away = p.x - hair_parting_x(parting, p.z), side = fminf(fmaxf(away / width, -1), 1);
     float back = hair_mix(back_front, back_crown, hair_smooth(0, 1, along));
-    // Beside the parting it runs along it for a while, and hides the skin there.
+    // Beside the parting, hair first runs along the parting and covers the skin there.
     float beside = hair_smooth(BESIDE, 0, fabsf(away)) * hair_smooth(1.2f, 0.9f, along);
     side *= 1 - 0.5f * beside, back += 0.4f * beside;
-    float above = hair_smooth(1.57f, 1.67f, p.y); // On the underside of the skull, back would be up.
+    // On the underside of the skull, back would point up.
+    float above = hair_smooth(1.57f, 1.67f, p.y);
     hair_vec3 v = {side * above, -0.7f, -back * above};
     return hair_normalize(hair_tangential(v, normal), hair_tangential(hair_v3(0, -1, 0), normal));
 }
 
-// Hair that comes down on the ridge of a shoulder slides off to the front or to the back: 1 or -1 on either
-// side of it, fading away from it.
+// Return 1 in front of the ridge of a shoulder and -1 behind it, with a smooth transition. Hair
+// that comes down on the ridge slides off to that side. The value fades away from the ridge.
 static float split_at_shoulder(hair_vec3 p)
 {
     float off = (p.z + 0.034f) / 0.020f;
@@ -79,14 +85,15 @@ static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
     return v;
 }
 
-// Turns hair that comes down on a shoulder before it meets it, so that it bends and does not break.
+// Turn hair before it meets a shoulder, so that it bends without a kink.
 static hair_vec3 cushion(hair_vec3 d, hair_vec3 normal, float over)
 {
     float into = -hair_dot(d, normal), near = 1 - over / CUSHION;
     return into > 0 ? hair_normalize(hair_add(d, hair_scale(normal, into * near * 70 * STRIDE)), d) : d;
 }
 
-// The normal is asked for only near the clearance: most of a long hair hangs free.
+// Return the next point, outside the bust and the face. The normal is computed only near the
+// clearance, because most of a long hair hangs free.
 static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_vec3 d, float s)
 {
     float wanted = walk->clearance * (1 - expf(-s / walk->lift));
@@ -129,7 +136,8 @@ static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_
     hair_course_trim(course, length);
 }
 
-// A cut at a height gives every root its own length; `scale` then lengthens or shortens that.
+// Trace hair that is cut at a height, so that every root has its own length. `scale` then
+// multiplies that length.
 static void run_cut(struct walk* walk, hair_vec3 root, float scale, float least, struct hair_course* course)
 {
     walk->most = 0.6f;
@@ -138,19 +146,19 @@ static void run_cut(struct walk* walk, hair_vec3 root, float scale, float least,
     run_to(walk, root, fmaxf(course->length, least) * scale, course);
 }
 
-// 0 at the hairline of nape and sides, 1 at the crown: how far up in the layers of hair a root is.
+// Return the layer of a root: 0 at the hairline of nape and sides, 1 at the crown.
 static float layer(hair_vec3 root)
 {
     return hair_smooth(1.55f, 1.72f, root.y);
 }
 
-// 1 in front of the ears, 0 behind.
+// Return 1 in front of the ears and 0 behind them.
 static float frontness(hair_vec3 root)
 {
     return hair_smooth(-0.012f, 0.030f, root.z);
 }
 
-// Styles ---------------------------------------------------------------------------------------------------
+// Styles ------------------------------------------------------------------------------------------
 
 static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
@@ -232,7 +240,7 @@ static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_c
     hair_course_wind(course, &curl);
 }
 
-// From the root outwards to a sphere, in a tight helix.
+// Grow a tight helix from the root outwards to a sphere.
 static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
 {
     const hair_vec3 center = {0, 1.648f, -0.014f};
@@ -240,7 +248,7 @@ static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_co
     hair_vec3 normal = hair_skull_normal(root);
     hair_vec3 out = hair_normalize(hair_sub(root, center), normal);
     hair_vec3 tip = hair_add(center, hair_scale(out, radius * (1 + 0.03f * hair_noise(root, 0.02f, seed))));
-    // Scaled about the root; the way there starts along the normal.
+    // Scale the tip about the root. The path starts along the normal.
     tip = hair_lerp(root, tip, scale);
     hair_vec3 control = hair_add(root, hair_scale(normal, 0.4f * hair_distance(root, tip)));
     uint32_t count = 600;
@@ -254,7 +262,7 @@ static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_co
     hair_course_wind(course, &curl);
 }
 
-// ----------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 uint32_t hair_style_vertices(hair_style style)
 {

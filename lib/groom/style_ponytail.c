@@ -1,4 +1,5 @@
-// style_ponytail.c - guides combed back to a tie behind the crown, and falling from it as a tail.
+// style_ponytail.c - guides combed back to a hair tie behind the crown, from which they fall as a
+// tail.
 #include "lib/groom/style_grow.h"
 #include "lib/groom/style_body.h"
 
@@ -8,7 +9,7 @@
 #define TAIL_LENGTH 0.28f
 
 static const hair_vec3 tie = {0, 1.672f, -0.106f};
-static const hair_vec3 tie_axis = {0, 0.243f, -0.970f}; // out of the head, unit
+static const hair_vec3 tie_axis = {0, 0.243f, -0.970f}; // unit vector out of the head
 
 static void comb_to_tie(hair_vec3 root, struct hair_course* course)
 {
@@ -32,7 +33,7 @@ static void comb_to_tie(hair_vec3 root, struct hair_course* course)
     }
 }
 
-// A cubic from the end of the course through the tie (Hermite form).
+// Append a cubic Hermite curve from the end of the course through the hair tie.
 static void gather(hair_vec3 through, hair_vec3 normal, struct hair_course* course)
 {
     hair_vec3 a = course->point[course->count - 1];
@@ -48,7 +49,8 @@ static void gather(hair_vec3 through, hair_vec3 normal, struct hair_course* cour
     }
 }
 
-// All hairs share the tail's middle line and keep their place around it; the tail swells, then tapers.
+// Append the tail. All hairs follow its centre line and keep their place around it. The tail
+// swells, then tapers.
 static void fall(hair_vec3 offset, float length, struct hair_course* course)
 {
     hair_vec3 p = tie, d = tie_axis;
@@ -72,7 +74,8 @@ void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct
     hair_vec3 normal = hair_skull_normal(root);
     course->count = 0, course->length = 0;
     comb_to_tie(root, course);
-    // Hair from far away comes in over hair from near by: its place in the tie is further from the middle.
+    // Hair from far away lies over hair from near by, so it is farther from the centre of the hair
+    // tie.
     hair_vec3 side = hair_sub(course->point[course->count - 1], tie);
     float away = fminf(hair_distance(root, tie) / 0.22f, 1);
     hair_vec3 offset =

@@ -1,19 +1,24 @@
-// style_scalp.c - an even mesh of the hair-bearing part of the skull: outline, inner vertices, triangles.
+// style_scalp.c - an even mesh of the hair-bearing part of the skull: outline, inner vertices,
+// triangles.
 //
-// The outline is spaced evenly along the hairline (and along the parting, there and back); inner vertices are
-// put where the largest gap is, then moved to the middle of their triangles a few times.
-// Based on: Gonzalez 1985, "Clustering to minimize the maximum intercluster distance" (farthest points).
+// The outline is spaced evenly along the hairline and along both sides of the parting. Inner
+// vertices are added at the largest gap, then moved a few times to the centroid of their triangles.
+// Based on Gonzalez 1985, "Clustering to minimize the maximum intercluster distance", for the
+// farthest points.
 #include "lib/groom/style_scalp.h"
 #include "lib/groom/style_body.h"
 
 #include <string.h>
 
 #define PI 3.14159265f
-#define FINE 1024 // Samples of the hairline that the outline is measured by.
-#define CANDIDATES 4 // Places tried per vertex.
-#define RELAXATIONS 6 // The spacing of 166 vertices is even to a fifth after as many.
-#define CLEARANCE 0.65f // Of inner vertices from the middle of an edge of the outline, in its lengths.
-#define PARTING_HALF 0.0010f // Half its width at the hairline, m: a comb's line.
+#define FINE 1024 // Number of samples of the hairline, by which the outline is measured.
+#define CANDIDATES 4 // Positions tried per vertex.
+// Number of relaxations. They make the spacing of 166 vertices even within a fifth.
+#define RELAXATIONS 6
+// Minimum distance of inner vertices from the middle of an outline edge, as a fraction of its
+// length.
+#define CLEARANCE 0.65f
+#define PARTING_HALF 0.0010f // Half the width of a parting at the hairline, m. A comb's line.
 
 struct build {
     const hair_host* host;
@@ -21,16 +26,19 @@ struct build {
     uint32_t seed;
     float spacing;
     struct hair_scalp scalp;
-    uint32_t outline_count; // vertices, first in the scalp, clockwise seen from above
+    // Number of vertices of the outline. They are the first of the scalp, clockwise seen from
+    // above.
+    uint32_t outline_count;
     hair_vec3* candidates;
-    float* gap; // from each candidate to the nearest vertex
+    float* gap; // squared distance from each candidate to the nearest vertex, m^2
     uint32_t candidate_count;
-    hair_vec3* sum; // of the middles of a vertex's triangles, by area
+    hair_vec3* sum; // sum of the centroids of each vertex's triangles, weighted by area
     float* area;
     double* plane;
 };
 
-// Azimuth in degrees, height in metres: forehead, the corner above the temple, sideburn, round the ear, nape.
+// Knots of the hairline: azimuth in degrees, height in metres. They follow the forehead, the corner
+// above the temple, the sideburn, the ear and the nape.
 static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
                                     {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
                                     {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
@@ -42,7 +50,7 @@ float hair_scalp_hairline(float azimuth)
     float degrees = fabsf(remainderf(azimuth, 2 * PI)) * (180 / PI);
     int i = 0;
     while (i < HAIRLINE_KNOTS - 2 && hairline[i + 1][0] < degrees) ++i;
-    // Catmull and Rom 1974, with level ends.
+    // Interpolate by the spline of Catmull and Rom (1974), with level ends.
     float p = hairline[i > 0 ? i - 1 : 1][1], q = hairline[i][1], r = hairline[i + 1][1];
     float s = hairline[i + 2 < HAIRLINE_KNOTS ? i + 2 : i][1];
     float t = (degrees - hairline[i][0]) / (hairline[i + 1][0] - hairline[i][0]);
@@ -61,20 +69,21 @@ static int bears_hair(hair_vec3 unit)
     return hair_skull_point(unit).y > hair_scalp_hairline(atan2f(unit.x, unit.z));
 }
 
-// Outline --------------------------------------------------------------------------------------------------
+// Outline -----------------------------------------------------------------------------------------
 
 static void add_vertex(struct build* build, hair_vec3 p)
 {
     hair_store3(build->scalp.positions + 3 * build->scalp.vertex_count++, p);
 }
 
-// Azimuth at which the parting meets the hairline, on either side of it.
+// Return the azimuth at which the parting meets the hairline. `side` selects the edge of the
+// parting.
 static float parting_azimuth(const struct build* build, float side)
 {
     float x = build->parting.front + side * PARTING_HALF;
     float azimuth = 0;
     for (int i = 0; i < 4;
-         ++i) { // The hairline is nearly level there: a few turns settle it to a micrometre.
+         ++i) { // The hairline is nearly level there, so this converges to a micrometre.
         float y = (hair_scalp_hairline(azimuth) - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y;
         azimuth = asinf(x / (HAIR_SKULL_X * sqrtf(1 - y * y)));
     }
@@ -87,7 +96,7 @@ static uint32_t pieces(float length, float spacing, uint32_t least)
     return count > least ? count : least;
 }
 
-// From one azimuth up to another. Adds the first end and not the last.
+// Add the hairline from one azimuth up to another, with the first end and without the last.
 static void add_hairline(struct build* build, float from, float to)
 {
     float along[FINE + 1] = {0};
@@ -113,7 +122,8 @@ float hair_parting_x(struct hair_parting parting, float z)
     return parting.front + (parting.crown - parting.front) * fminf(fmaxf(t, 0), 1);
 }
 
-// t: 0 at the hairline, 1 at the crown; side: -1, 1, or 0 for the line itself.
+// Return a point of the parting. t is 0 at the hairline and 1 at the crown. side is -1 or 1 for an
+// edge and 0 for the centre line.
 static hair_vec3 parting_point(const struct build* build, float t, float side)
 {
     float front = hairline_point(parting_azimuth(build, side)).z;
@@ -142,9 +152,10 @@ static void add_outline(struct build* build)
     build->outline_count = build->scalp.vertex_count;
 }
 
-// Inner vertices -------------------------------------------------------------------------------------------
+// Inner vertices ----------------------------------------------------------------------------------
 
-// Evenly by area: a direction is kept in proportion to how much the skull stretches the sphere there.
+// Draw candidates evenly by area: keep a direction in proportion to the area stretch of the skull
+// there. `share` receives the fraction of directions that were kept.
 static void draw_candidates(struct build* build, float* share)
 {
     const float most = HAIR_SKULL_Y * HAIR_SKULL_Z;
@@ -167,7 +178,7 @@ static hair_vec3 vertex_at(const struct build* build, uint32_t i)
     return hair_load3(build->scalp.positions + 3 * (size_t)i);
 }
 
-// Returns the candidate with the widest gap left.
+// Update the gaps for a new vertex p. Return the candidate with the widest gap.
 static uint32_t shrink_gaps(struct build* build, hair_vec3 p)
 {
     uint32_t widest = 0;
@@ -194,10 +205,11 @@ static void fill_gaps(struct build* build, uint32_t vertex_count)
     }
 }
 
-// Triangles ------------------------------------------------------------------------------------------------
+// Triangles ---------------------------------------------------------------------------------------
 
-// Seen from below through the sphere, which keeps angles and has all of the scalp on the near side; the first
-// coordinate is z, so that counter-clockwise in the plane is counter-clockwise from outside.
+// Project the vertices stereographically from below. This preserves angles and places all of the
+// scalp on the near side. The first coordinate is z, so that counter-clockwise in the plane is
+// counter-clockwise from outside.
 static void project(struct build* build)
 {
     for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
@@ -236,7 +248,8 @@ static hair_result triangulate(struct build* build)
     return HAIR_OK;
 }
 
-// An edge of the outline is sure to be in the triangulation when no vertex lies in the circle round it.
+// Move p out of the circles around the edges of the outline. An edge of the outline is in the
+// triangulation if no vertex lies in the circle around it.
 static hair_vec3 clear_outline(const struct build* build, hair_vec3 p)
 {
     for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
@@ -271,9 +284,10 @@ static void relax(struct build* build)
                         clear_outline(build, hair_scale(build->sum[i], 1 / build->area[i])));
 }
 
-// Whole ----------------------------------------------------------------------------------------------------
+// Whole -------------------------------------------------------------------------------------------
 
-// In a hexagonal lattice a vertex has sqrt(3)/2 spacing^2 to itself; one on the outline has half of that.
+// Choose the spacing. In a hexagonal lattice a vertex covers sqrt(3)/2 spacing^2. A vertex on the
+// outline covers half of that.
 static void choose_spacing(struct build* build, float area, uint32_t vertex_count)
 {
     build->spacing = sqrtf(area * 1.1547f / (float)vertex_count);
@@ -292,7 +306,8 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
 {
     float share;
     draw_candidates(build, &share);
-    // Of the area that the least stretched box of directions would have, all of it hair.
+    // The area is the kept fraction of a sphere of directions, stretched everywhere as much as at
+    // the maximum.
     float area = share * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
     choose_spacing(build, area, vertex_count);
     fill_gaps(build, vertex_count);
@@ -304,10 +319,11 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
     return result;
 }
 
-// Triangles are flat where the skull is round: as far out as puts their middles on it, so that no root lies under the skin.
+// Move vertices outwards until the centroids of triangles lie on the skull. Triangles are flat and
+// the skull is round, so roots would lie under the skin otherwise.
 static void lift(struct build* build)
 {
-    const float radius = 0.088f; // The skull's, about.
+    const float radius = 0.088f; // approximate radius of the skull, m
     float by = build->spacing * build->spacing / (6 * radius);
     for (uint32_t i = 0; i < build->scalp.vertex_count; ++i) {
         hair_vec3 p = vertex_at(build, i);
@@ -320,7 +336,7 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
                              uint32_t seed, struct hair_scalp* out)
 {
     struct build build = {.host = host, .parting = parting, .seed = seed};
-    size_t most = (size_t)vertex_count + 64; // The outline of the fewest vertices may outnumber them.
+    size_t most = (size_t)vertex_count + 64; // The minimum outline may have more vertices.
     build.candidate_count = CANDIDATES * vertex_count + 2048;
     build.scalp.positions = hair_alloc(host, most, 3 * sizeof(float));
     build.scalp.triangles = hair_alloc(host, 2 * most, 3 * sizeof(uint32_t));

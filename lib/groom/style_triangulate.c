@@ -1,19 +1,22 @@
 // style_triangulate.c - Delaunay triangles of a few thousand points in the plane.
-// Points come in from left to right: a triangle whose circle lies to the left of the newest is final and is not
-// looked at again, which leaves about the square root of all to be looked at.
-// Based on: Bowyer 1981, "Computing Dirichlet tessellations"; Watson 1981, the same year and journal.
+//
+// Points are inserted from left to right. A triangle whose circumcircle lies to the left of the
+// newest point is final and is not tested again. About the square root of all triangles remain to
+// be tested. Based on Bowyer 1981, "Computing Dirichlet tessellations", and Watson 1981, in the
+// same year and journal.
 #include "lib/groom/style_scalp.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// Corners of the triangle around all points, whose extent is about 1: near enough for circles through them to
-// keep their digits, far enough for only slivers to be lost along the outline.
+// Coordinate of the corners of a triangle around all points, whose extent is about 1. Circles
+// through near corners keep their precision. With far corners, only slivers are lost along the
+// outline.
 #define FAR_AWAY 100.0
 
 struct face {
     uint32_t corner[3];
-    double x, y, square; // circumcircle
+    double x, y, square; // centre and squared radius of the circumcircle
 };
 
 struct edge {
@@ -26,12 +29,12 @@ struct place {
 };
 
 struct work {
-    double* points; // with the three far corners behind them
+    double* points; // followed by the three far corners
     struct place* order;
-    struct face* faces; // not final
+    struct face* faces; // not yet final
     struct edge* edges;
     uint32_t face_count, edge_count;
-    uint32_t count; // of points
+    uint32_t count; // number of points
     uint32_t* out;
     uint32_t out_count;
 };
@@ -52,7 +55,8 @@ static int encloses(const struct face* face, const double* p)
     return x * x + y * y < face->square;
 }
 
-// An edge met twice, once each way, lies inside the hole and goes.
+// Add an edge of the hole. An edge met twice, once in each direction, lies inside the hole and is
+// removed.
 static void toggle_edge(struct work* work, uint32_t a, uint32_t b)
 {
     for (uint32_t i = 0; i < work->edge_count; ++i)
@@ -95,8 +99,10 @@ static void insert(struct work* work, uint32_t point)
         work->faces[work->face_count++] = make_face(work->points, work->edges[i].a, work->edges[i].b, point);
 }
 
-// Four points on one circle have two triangulations, between which rounding would choose differently from
-// test to test: moving each by a millionth of the extent makes the answer one.
+// Copy the points and append the far corners.
+//
+// Four points on one circle have two triangulations, and rounding would select them inconsistently.
+// Moving each point by a millionth of the extent makes the triangulation unique.
 static void copy_points(const double* points, uint32_t count, double* out)
 {
     for (uint32_t i = 0; i < 2 * count; ++i)
@@ -122,7 +128,8 @@ static void triangulate(struct work* work)
 
 uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t count, uint32_t* out)
 {
-    // n points and three corners have 2 n + 1 triangles; a hole of k has at most 3 k edges while it is found.
+    // n points and three corners have 2 n + 1 triangles. A hole of k triangles has at most 3 k
+    // edges while it is found.
     size_t most = 2 * (size_t)count + 8;
     struct work work = {.points = hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
                         .order = hair_alloc(host, count, sizeof(struct place)),
