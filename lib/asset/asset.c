@@ -1,7 +1,7 @@
-// asset.c - from bytes of any format to a clean haircut, and back.
+// asset.c - conversion from bytes of any format to a clean haircut, and back.
 #include "lib/asset/formats.h"
 
-#define MOST_STRANDS 4194304 // As hair_groom_desc.strand_count.
+#define MOST_STRANDS 4194304 // Maximum, as of hair_groom_desc.strand_count.
 
 static const struct format {
     bool (*is)(const unsigned char* bytes, size_t size);

@@ -1,4 +1,4 @@
-// asset.h - a haircut as plain arrays, whatever it came from.
+// asset.h - a haircut as plain arrays, independent of its source.
 #ifndef HAIR_ASSET_ASSET_H
 #define HAIR_ASSET_ASSET_H
 
@@ -10,14 +10,14 @@ struct hair_asset {
     hair_format format;
     hair_strands_are strands_are;
     struct hair_strands strands;
-    float* scalp_positions; // xyz per vertex; NULL: none
+    float* scalp_positions; // xyz per vertex. NULL without a scalp.
     uint32_t* scalp_triangles;
     uint32_t scalp_vertex_count, scalp_triangle_count;
     uint32_t file_strands, file_vertices;
     hair_repairs repairs;
 };
 
-// `import` has been checked. On failure *out is untouched.
+// Decode a file. `import` has been checked. On failure *out is untouched.
 hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes,
                               size_t size, hair_asset** out);
 hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,

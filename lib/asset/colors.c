@@ -1,5 +1,5 @@
-// colors.c - colours along strands, whatever came with them: brought to a few even places from root to tip, before
-// anything is done to the vertices that they came with.
+// colors.c - colours along strands. They are resampled at a few points at even distances from root
+// to tip, before the vertices that they came with are changed.
 #include "lib/asset/strands.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@ static double segment(const float* p)
 {
     double x = (double)p[3] - p[0], y = (double)p[4] - p[1], z = (double)p[5] - p[2];
     double length = sqrt(x * x + y * y + z * z);
-    return length < 1e30 ? length : 0; // What is not finite is removed later: it takes no room.
+    return length < 1e30 ? length : 0; // Segments that are not finite are removed later.
 }
 
 void hair_strand_colors(const float* positions, uint32_t vertices, const float* colors, float* out)
 {
     double length = 0, passed = 0;
     for (uint32_t i = 1; i < vertices; ++i) length += segment(positions + 3 * (size_t)(i - 1));
-    uint32_t at = 0; // the segment that the place is on
+    uint32_t at = 0; // segment that contains the point
     double each = vertices > 1 ? segment(positions) : 0;
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k) {
         double place = length * k / (HAIR_STRAND_COLORS - 1);

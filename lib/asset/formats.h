@@ -1,4 +1,4 @@
-// formats.h - what the readers and writers of the single formats share.
+// formats.h - declarations shared by the readers and writers of the formats.
 #ifndef HAIR_ASSET_FORMATS_H
 #define HAIR_ASSET_FORMATS_H
 
@@ -16,37 +16,41 @@ struct hair_source {
     size_t size;
 };
 
-// Whether the first bytes are of the format.
+// Return whether the first bytes belong to the format.
 bool hair_is_hairfile(const unsigned char* bytes, size_t size);
 bool hair_is_tfx3(const unsigned char* bytes, size_t size);
 bool hair_is_tfx4(const unsigned char* bytes, size_t size);
 bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
 
-// Fill the asset's strands as the file has them. What a failure leaves in them is freed by the caller.
+// Fill the asset's strands as the file has them. On failure the caller frees what they contain.
 hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx4(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset);
 
-// Bytes needed; HAIR_ERROR_ARGUMENT where the format cannot hold the asset.
+// Compute the number of bytes needed. Return HAIR_ERROR_ARGUMENT if the format cannot hold the
+// asset.
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size);
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size);
 void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
 void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
 
-// Fails, naming `what`, unless `count` items of `size` bytes each lie within the file from `offset` on.
+// Fail, naming `what`, unless `count` items of `size` bytes each lie within the file from `offset`
+// on.
 hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
                                uint64_t count, uint32_t size);
 
-// rgb per vertex as sRGB, `size` bytes from one to the next, which lie within the file: of strands that have their positions.
-// With one that is not in [0, 1] none is used, which a warning says.
+// Read the colours of strands that have their positions. Colours are sRGB per vertex, `size` bytes
+// apart, and lie within the file. If a value is not in [0, 1], a warning is logged and no colours
+// are used.
 hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t size,
                              struct hair_strands* strands);
 
-// The same for a file, with a channel of 1 after them where `channels` is 4.
+// Write the colours as sRGB per vertex, with a fourth channel of 1 if `channels` is 4. Return the
+// end.
 unsigned char* hair_write_colors(const struct hair_strands* strands, int channels, unsigned char* at);
 
-// Memory for the strands of a file whose size has been checked to hold them.
+// Allocate the strands of a file whose size has been checked to hold them.
 hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
                                   uint32_t vertex_count);
 

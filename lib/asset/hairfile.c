@@ -1,15 +1,17 @@
-// hairfile.c - the .hair format ("cyHair"): every strand, each with its own number of vertices.
+// hairfile.c - the .hair format ("cyHair"): all strands, each with its own number of vertices.
 //
-//   byte  0  "HAIR"                        20  f32 thickness where the array is missing; not read
+//   byte  0  "HAIR"                        20  f32 thickness without the array (not read)
 //         4  u32 strands                   24  f32 transparency
 //         8  u32 vertices of all           28  f32[3] colour
 //        12  u32 bits of the arrays        40  88 bytes of text, not always ended by 0
-//        16  u32 segments of each strand where the array is missing
+//        16  u32 segments of each strand without the array
 //       128  the arrays whose bit is set, in the order of the bits: u16 segments, f32[3] points,
-//            f32 thickness, f32 transparency, f32[3] colours; the first per strand, the others per vertex
+//            f32 thickness, f32 transparency, f32[3] colours. Segments are per strand, the
+//            others per vertex.
 //
-// There is no unit; thickness is taken as a diameter in the unit of the points, colours as sRGB. Arrays of higher bits would
-// come after all that is read, so unknown bits are accepted, with a warning.
+// There is no unit. Thickness is taken as a diameter in the unit of the points, and colours as
+// sRGB. Arrays of higher bits would follow everything that is read, so unknown bits are accepted
+// with a warning.
 #include "lib/asset/formats.h"
 
 #include <math.h>
@@ -43,7 +45,8 @@ static hair_result check_counts(const struct hair_source* source, const struct h
     return HAIR_OK;
 }
 
-// Find where each array lies, and that all of it does. `end`: where the last known one ends.
+// Find the offset of each array and check that it lies in the file. `end` receives the end of the
+// last known array.
 static hair_result find_arrays(const struct hair_source* source, struct header* header, uint64_t* end)
 {
     const struct {
@@ -111,7 +114,8 @@ static hair_result read_header(const struct hair_source* source, struct header* 
     return result;
 }
 
-// Half the thickness at each root. With one bad value no radius is known: half a haircut of them is no help.
+// Read half the thickness at each root. One bad value discards all radii, because radii of half a
+// haircut are of no use.
 static hair_result read_radii(const struct hair_source* source, const struct header* header,
                               struct hair_strands* strands)
 {
@@ -174,7 +178,7 @@ static unsigned char* write_header(const struct hair_strands* strands, unsigned 
     at = hair_write_u32(at, SEGMENTS | POINTS | (strands->radii ? THICKNESS : 0) |
                                 (strands->colors ? COLORS : 0));
     at = hair_write_u32(at, 0);
-    at = hair_write_float(at, 1e-4f); // The width of a real hair; only readers without the array look here.
+    at = hair_write_float(at, 1e-4f); // Diameter of a real hair, for readers that ignore the array.
     at = hair_write_float(at, 0);
     for (int i = 0; i < 3; ++i) at = hair_write_float(at, color[i]);
     memcpy(at, info, sizeof info);

@@ -1,11 +1,11 @@
-// strand.c - one strand as a polyline: its length, repeated vertices, sampling.
+// strand.c - one strand as a polyline: its length, merging of repeated vertices, and sampling.
 #include "lib/asset/strands.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SHORTEST 1e-5 // m; a tenth of a hair's own width.
-#define SHORTEST_SEGMENT 1e-5 // Of the strand's length.
+#define SHORTEST 1e-5 // Minimum length of a strand, m. A tenth of a hair's own width.
+#define SHORTEST_SEGMENT 1e-5 // Minimum length of a segment as a fraction of the strand's length.
 
 static double distance(const float* a, const float* b)
 {
@@ -32,7 +32,7 @@ double hair_strand_length(const float* positions, uint32_t vertices)
 
 uint32_t hair_strand_merge(float* positions, uint32_t vertices)
 {
-    // A second round finds nothing, but for what rounding of the length decides.
+    // A second round finds vertices only where rounding of the length decides.
     for (;;) {
         double least = SHORTEST_SEGMENT * hair_strand_length(positions, vertices);
         uint32_t kept = vertices ? 1 : 0;

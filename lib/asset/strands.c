@@ -1,11 +1,14 @@
-// strands.c - foreign strands made fit to simulate: scaled, turned, thinned out, repaired, resampled.
+// strands.c - imported strands made valid for simulation: scaled, rotated, thinned out, repaired,
+// resampled.
 //
-// Everything but resampling to more vertices happens in place: what is kept moves to the front.
+// Except for resampling to more vertices, this happens in place. Strands that are kept move to the
+// front.
 #include "lib/asset/strands.h"
 
 #include <string.h>
 
-#define FARTHEST 1e6 // m from the origin; beyond, floats are too coarse for hair by far.
+// Maximum distance from the origin, m. Beyond it floats are far too coarse for hair.
+#define FARTHEST 1e6
 
 void hair_strands_free(const hair_host* host, struct hair_strands* strands)
 {
@@ -50,12 +53,12 @@ static void reverse_all(struct hair_strands* strands)
     }
 }
 
-// What is kept so far; never ahead of what is read.
+// Counts of what is kept so far. Writing never overtakes reading.
 struct kept {
     uint32_t strands, vertices;
 };
 
-// What goes along with a strand.
+// Keep the radius and the colours of a strand.
 static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
 {
     if (strands->radii) strands->radii[kept] = strands->radii[strand];
@@ -81,8 +84,8 @@ static void cut(struct hair_strands* strands, struct kept kept)
     strands->vertex_count = kept.vertices;
 }
 
-// One strand at random out of each of `wanted` runs of equal length: even along the file, whatever its order,
-// and without a rhythm that could meet one in the file.
+// Draw one random strand out of run `run` of `wanted` runs of equal length. The selection is even
+// along the file, whatever its order, and has no rhythm that could coincide with one of the file.
 static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
 {
     uint32_t begin = (uint32_t)((uint64_t)run * count / wanted);
@@ -102,7 +105,7 @@ static void thin_out(const hair_import* import, struct hair_strands* strands)
     struct kept kept = {0};
     size_t first = 0;
     for (uint32_t i = 0; i < count && kept.strands < wanted; ++i) {
-        uint32_t vertices = strands->vertices[i]; // Before `keep` may write there.
+        uint32_t vertices = strands->vertices[i]; // Read before keep() may write there.
         if (i == drawn) {
             keep(strands, &kept, i, first, vertices);
             if (kept.strands < wanted) drawn = draw(count, wanted, kept.strands, &random);
@@ -117,14 +120,15 @@ static uint32_t remove_nonfinite(float* p, uint32_t vertices)
     uint32_t left = 0;
     for (size_t i = 0; i < vertices; ++i) {
         double x = p[3 * i], y = p[3 * i + 1], z = p[3 * i + 2];
-        if (!(x * x + y * y + z * z <= FARTHEST * FARTHEST)) continue; // NaN too.
+        if (!(x * x + y * y + z * z <= FARTHEST * FARTHEST)) continue; // NaN fails too.
         memmove(p + 3 * (size_t)left++, p + 3 * i, 3 * sizeof *p);
     }
     return left;
 }
 
-// Sample at `count` points, out of place. Where a strand folds back on itself samples may coincide: they are
-// merged and segments split instead. Returns the vertices left: `count`, or 0 when it is dropped.
+// Sample a strand at `count` points, out of place. Samples of a strand that folds back on itself
+// may coincide. They are merged, and segments are split instead. Return the vertices left: `count`,
+// or 0 if the strand is dropped.
 static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t count, hair_repairs* repairs)
 {
     hair_strand_resample(p, vertices, out, count);
@@ -135,7 +139,7 @@ static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t c
     }
     hair_strand_split(out, left, count);
     if (hair_strand_is_fit(out, count)) return count;
-    // Ends that meet, or so far from the origin that floats have no room for this many vertices.
+    // The ends meet, or floats cannot resolve this many vertices so far from the origin.
     ++repairs->dropped_short;
     return 0;
 }
@@ -149,7 +153,7 @@ static uint32_t bring_down(float* p, uint32_t vertices, hair_repairs* repairs)
     return left;
 }
 
-// Returns the vertices left, 0 when the strand is dropped.
+// Repair a strand. Return the vertices left, or 0 if the strand is dropped.
 static uint32_t repair_strand(float* p, uint32_t vertices, hair_repairs* repairs)
 {
     uint32_t finite = remove_nonfinite(p, vertices);
@@ -219,7 +223,7 @@ static hair_result shrink(const hair_host* host, void** memory, size_t count, si
     return HAIR_OK;
 }
 
-// Give back what thinning out and repairs have freed.
+// Free the memory that thinning out and repairs have made unnecessary.
 static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
 {
     void *positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii,

@@ -1,4 +1,4 @@
-// text.c - lines, tokens and numbers of a text file, the same in every locale.
+// text.c - lines, tokens and numbers of a text file, read equally in every locale.
 #include "lib/asset/text.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ bool hair_token_is(const struct hair_token* token, const char* word)
     return i == token->size && !word[i];
 }
 
-// "inf", "nan", "1.#INF" and their like: after the sign a word of these beginnings.
+// Return whether a text without its sign begins like "inf", "nan", "1.#INF" or a similar word.
 static bool is_no_number(const unsigned char* at, const unsigned char* end)
 {
     static const char* const beginnings[] = {"inf", "nan", "1.#"};
@@ -73,7 +73,8 @@ static bool is_no_number(const unsigned char* at, const unsigned char* end)
     return false;
 }
 
-// Powers up to 1e22 are exact in a double, so that up to 19 digits of the usual numbers round at most twice.
+// Multiply a value by a power of ten. Powers up to 1e22 are exact in a double, so up to 19 digits
+// of the usual numbers round at most twice.
 static double scale_by_power(double value, int power)
 {
     if (value == 0) return value;
@@ -92,11 +93,11 @@ static double scale_by_power(double value, int power)
 
 struct digits {
     uint64_t mantissa;
-    int power; // The number is mantissa times ten to this.
+    int power; // The number is mantissa times ten to this power.
     bool any;
 };
 
-// Digits beyond the 19 that 64 bits hold only move the point.
+// Read digits. 64 bits hold 19 digits, and further digits only move the point.
 static const unsigned char* read_digits(const unsigned char* at, const unsigned char* end, bool fraction,
                                         struct digits* digits)
 {
@@ -116,7 +117,7 @@ static const unsigned char* read_sign(const unsigned char* at, const unsigned ch
     return at < end && (*at == '-' || *at == '+') ? at + 1 : at;
 }
 
-// NULL: an exponent without digits.
+// Read an optional exponent. Return NULL for an exponent without digits.
 static const unsigned char* read_exponent(const unsigned char* at, const unsigned char* end, int* power)
 {
     if (at == end || lower(*at) != 'e') return at;

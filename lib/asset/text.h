@@ -1,4 +1,5 @@
-// text.h - lines, tokens and numbers of a text file that need not end in a 0, the same in every locale.
+// text.h - lines, tokens and numbers of a text file, read equally in every locale. The text need
+// not end in a 0.
 #ifndef HAIR_ASSET_TEXT_H
 #define HAIR_ASSET_TEXT_H
 
@@ -7,30 +8,31 @@
 
 struct hair_text {
     const unsigned char* bytes;
-    size_t size, at; // at: where the next line begins
+    size_t size, at; // start of the next line
 };
 
 struct hair_line {
     const unsigned char* bytes;
-    size_t start, at, end; // at: where the next token is looked for
+    size_t start, at, end; // `at` is the start of the search for the next token.
 };
 
 struct hair_token {
     const unsigned char* bytes;
-    size_t at, size; // at: byte in the file
+    size_t at, size; // `at` is the byte in the file.
 };
 
-// The next line with a token in it. Lines end in \n, \r\n or \r; "#" and "//" begin a comment, to the end of
-// the line.
+// Find the next line with a token. Lines end in \n, \r\n or \r. "#" and "//" begin a comment, which
+// extends to the end of the line.
 bool hair_text_next(struct hair_text* text, struct hair_line* out);
 
-// The next token of a line. Spaces, tabs and commas lie between tokens.
+// Find the next token of a line. Spaces, tabs and commas separate tokens.
 bool hair_line_next(struct hair_line* line, struct hair_token* out);
 
-// Upper and lower case are the same.
+// Compare a token with a word, ignoring case.
 bool hair_token_is(const struct hair_token* token, const char* word);
 
-// A decimal number. What C libraries print for numbers that are none ("nan", "-inf", "1.#IND") gives NaN.
+// Read a decimal number. The texts that C libraries print for invalid numbers ("nan", "-inf",
+// "1.#IND") give NaN.
 bool hair_token_number(const struct hair_token* token, double* out);
 
 #endif

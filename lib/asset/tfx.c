@@ -1,12 +1,13 @@
-// tfx.c - the binary .tfx formats of AMD's TressFX, versions 3 and 4: guides of the same number of vertices.
+// tfx.c - the binary .tfx formats of AMD's TressFX, versions 3 and 4: guides with equal numbers of
+// vertices.
 //
 //   version 4                                    version 3
 //   byte  0  f32 version, 4.0                    byte   0  f32 version, 3.0
 //         4  u32 strands                                4  u32 strands
 //         8  u32 vertices of each                       8  u32 vertices of each
-//        12  u32 offset of f32[4] positions            12  u32 followers of each guide; not read
-//        16  of f32[2] texture coordinates             16  i32 whether both ends are held; not read
-//        20  of f32[2] the same per vertex             20  31 reserved u32
+//        12  u32 offset of f32[4] positions            12  u32 followers of each guide (not read)
+//        16  of f32[2] texture coordinates             16  i32 1 if both ends are fixed (not read)
+//        20  of f32[2] the like per vertex             20  31 reserved u32
 //        24  of f32 thickness                         144  u32 offset of f32[3] positions
 //        28  of f32[4] colours per vertex             148  of f32 thickness
 //        32  32 reserved u32                          152  of f32[2] texture coordinates
@@ -16,11 +17,11 @@
 //                                                     168  32 reserved u32
 //                                                     296  data
 //
-// Offsets come in any order and 0 means none. Positions and colours are read, these as sRGB; the other sections must lie in
-// the file. The fourth number of a position is its inverse mass: 0 at the two vertices next to the root, which
-// are held.
-// Thickness is a factor, not a length, so no radius comes of it.
-// Not handled: sections that overlap; each is read for what its offset says.
+// Offsets come in any order. An offset of 0 means that the section is missing. Positions and
+// colours are read, with colours as sRGB. The other sections must lie in the file. The fourth
+// number of a position is its inverse mass. It is 0 at the two vertices next to the root, which are
+// fixed. Thickness is a factor, not a length, so it gives no radius. Overlapping sections are not
+// detected. Each is read at its offset.
 #include "lib/asset/formats.h"
 
 #define SECTIONS 6
@@ -33,7 +34,7 @@ struct section {
 
 struct layout {
     hair_format format;
-    uint32_t header, floats; // of the header in bytes; of a position
+    uint32_t header, floats; // bytes of the header, floats of a position
     uint32_t colors_at; // byte of the offset of colours
     struct section sections[SECTIONS]; // positions first
 };
@@ -82,7 +83,8 @@ static hair_result check_section(const struct hair_source* source, const struct 
                               section->size);
 }
 
-// On success all sections lie in the file, so that `strands` times `each` fits in 32 bits for any real file.
+// Read the header. On success all sections lie in the file, so `strands` times `each` fits in 32
+// bits for any real file.
 static hair_result read_header(const struct hair_source* source, const struct layout* layout,
                                uint32_t* strands, uint32_t* each)
 {
@@ -175,7 +177,7 @@ void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes)
         for (size_t j = 0; j < 3; ++j) at = hair_write_float(at, strands->positions[3 * i + j]);
         at = hair_write_float(at, i % each < 2 ? 0.0f : 1.0f);
     }
-    // Readers expect texture coordinates; none are known.
+    // Readers expect texture coordinates, but none are known.
     memset(at, 0, 8 * (size_t)strands->strand_count);
     if (strands->colors) hair_write_colors(strands, 4, at + 8 * (size_t)strands->strand_count);
 }

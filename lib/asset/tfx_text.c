@@ -1,4 +1,4 @@
-// tfx_text.c - the text .tfx format of AMD's TressFX, versions 1 and 2: guides.
+// tfx_text.c - the text .tfx format of AMD's TressFX, versions 1 and 2, which contains guides.
 //
 //   version 2.0                       then for every strand
 //   scale 1.0                           strand 0 numVerts 3 texcoord 0.25 0.5
@@ -7,11 +7,11 @@
 //   numStrands 1                        0.0 0.8 0.3
 //   is sorted 1
 //
-// A strand needs its numVerts; every other line may be missing, in version 1 all before numStrands. Positions
-// are scaled, then turned by rotation (radians; about z by the third, about x by the first, about y by the
-// second), then moved by translation, as TressFX does. Lines about followers and texture coordinates are not
-// used.
-// The text is read twice: to count, then to fill memory of the right size.
+// A strand needs its numVerts. Every other line may be missing. Version 1 lacks all lines before
+// numStrands. Positions are scaled, then rotated, then translated, as TressFX does. The rotation is
+// in radians: about z by the third number, about x by the first, about y by the second. Lines about
+// followers and texture coordinates are not used. The text is read twice: first to count, then to
+// fill memory of the right size.
 #include "lib/asset/formats.h"
 #include "lib/asset/text.h"
 
@@ -20,7 +20,7 @@
 struct reader {
     const struct hair_source* source;
     struct hair_text text;
-    struct hair_strands* fill; // NULL: count only
+    struct hair_strands* fill; // NULL only counts.
     uint32_t strands, vertices;
     bool has_count, warned;
     uint32_t count; // numStrands
@@ -48,7 +48,7 @@ static hair_result read_numbers(const struct reader* reader, struct hair_line* l
     return HAIR_OK;
 }
 
-// Numbers that turn the whole haircut must be good ones.
+// Read numbers that must be finite, because they transform the whole haircut.
 static hair_result read_finite(const struct reader* reader, struct hair_line* line, float* out,
                                uint32_t count)
 {
@@ -111,7 +111,7 @@ static hair_result find_vertex_count(const struct reader* reader, struct hair_li
     return complain(reader, line->start, "the strand does not say its numVerts");
 }
 
-// Row vectors times the matrices Rz Rx Ry.
+// Rotate p as a row vector by the matrices Rz Rx Ry.
 static void turn(const float rotation[3], double p[3])
 {
     static const int order[3] = {2, 0, 1};

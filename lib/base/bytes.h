@@ -1,12 +1,13 @@
-// bytes.h - numbers in files and saved states: little-endian, at any address.
+// bytes.h - little-endian numbers of files and saved states, at any address.
 #ifndef HAIR_BASE_BYTES_H
 #define HAIR_BASE_BYTES_H
 
 #include <stdint.h>
 #include <string.h>
 
-// FNV-1a. Goes on from `hash`, which at first is:
+// Initial value of the FNV-1a hash.
 #define HAIR_HASH_BEGIN 0xcbf29ce484222325u
+// Continue the FNV-1a hash `hash` with `bytes`. Return the new hash.
 static inline uint64_t hair_hash_bytes(uint64_t hash, const void* bytes, size_t size)
 {
     const unsigned char* at = (const unsigned char*)bytes;
@@ -44,7 +45,7 @@ static inline double hair_read_double(const unsigned char* at)
     return value;
 }
 
-// Return where the next number goes.
+// The hair_write functions write a number at `at` and return the address after it.
 static inline unsigned char* hair_write_u16(unsigned char* at, uint32_t value)
 {
     for (int i = 0; i < 2; ++i) at[i] = (unsigned char)(value >> 8 * i);

@@ -1,4 +1,4 @@
-// desc.c - descs that can grow, and the check of every number in them.
+// desc.c - defaults and copies of descs that can grow, and the check of every number in them.
 #include "lib/base/desc.h"
 
 #include <string.h>

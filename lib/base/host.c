@@ -1,4 +1,4 @@
-// host.c - memory and log through the host's callbacks.
+// host.c - memory and log through the application's callbacks.
 #include "lib/base/host.h"
 
 #include <stdarg.h>
@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER 16 // Keeps the block's alignment; holds its size.
+// Bytes before a block, which hold its size and keep its alignment.
+#define HEADER 16
 
 static void* default_alloc(size_t size, size_t align, void* user)
 {

@@ -1,4 +1,4 @@
-// host.h - what the program lends the library: memory, and an ear for one sentence at a time.
+// host.h - the application's callbacks: memory, and a log that receives one sentence at a time.
 #ifndef HAIR_BASE_HOST_H
 #define HAIR_BASE_HOST_H
 
@@ -10,21 +10,24 @@
 #define HAIR_PRINTF(string, first)
 #endif
 
-// A whole host to keep: the C library's allocator where the program gave none. NULL: all defaults.
+// Return a complete host to keep, with the C library's allocator if `host` has none. NULL selects
+// all defaults.
 hair_host hair_host_take(const hair_host* host);
 
-// Memory of `count` elements of `size` bytes, aligned to 16, all zero. NULL when the product overflows or the
-// host refuses; a count of 0 gives memory too. The block knows its size, so that free needs none.
+// Allocate `count` elements of `size` bytes, aligned to 16 and zeroed. Return NULL if the product
+// overflows or the application refuses. A count of 0 returns memory too. The block stores its size,
+// so hair_free() needs none.
 void* hair_alloc(const hair_host* host, size_t count, size_t size);
 void hair_free(const hair_host* host, void* memory);
 
-// One sentence to the host's log, at most 511 bytes.
+// Send one sentence of at most 511 bytes to the application's log.
 void hair_log(const hair_host* host, hair_log_level level, const char* format, ...) HAIR_PRINTF(3, 4);
 
-// The sentence as an error, and `result` back: `return hair_fail(host, HAIR_ERROR_FILE, "…", …);`
+// Log the sentence as an error and return `result`. A typical call is
+//     return hair_fail(host, HAIR_ERROR_FILE, "...", ...);
 hair_result hair_fail(const hair_host* host, hair_result result, const char* format, ...) HAIR_PRINTF(3, 4);
 
-// For HAIR_ERROR_MEMORY: "out of memory for WHAT".
+// Log "out of memory for WHAT" and return HAIR_ERROR_MEMORY.
 hair_result hair_fail_memory(const hair_host* host, const char* what);
 
 #endif

@@ -1,4 +1,4 @@
-// math.h - vectors, unit quaternions (xyzw) and column-major matrices, as values. Everything inline.
+// math.h - vectors, unit quaternions (xyzw) and column-major matrices as values, all inline.
 #ifndef HAIR_BASE_MATH_H
 #define HAIR_BASE_MATH_H
 
@@ -60,14 +60,15 @@ static inline hair_vec3 hair_cross(hair_vec3 a, hair_vec3 b)
     return (hair_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// `fallback` where a has no direction.
+// Return the unit vector of a, or `fallback` if a has no direction.
 static inline hair_vec3 hair_normalize(hair_vec3 a, hair_vec3 fallback)
 {
     float l = hair_length(a);
     return l > 1e-20f ? hair_scale(a, 1 / l) : fallback;
 }
 
-// Any unit vector at right angles to the unit vector a: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Return any unit vector perpendicular to the unit vector a (Duff et al. 2017, "Building an
+// Orthonormal Basis, Revisited").
 static inline hair_vec3 hair_perpendicular(hair_vec3 a)
 {
     float sign = a.z >= 0 ? 1.0f : -1.0f;
@@ -100,7 +101,8 @@ static inline hair_vec3 hair_rotate(hair_quat q, hair_vec3 v)
     return hair_add(v, hair_add(hair_scale(t, q.w), hair_cross(u, t)));
 }
 
-// The least rotation that turns unit a into unit b. Opposite vectors: half a turn about any perpendicular.
+// Return the smallest rotation that turns unit a into unit b. For opposite vectors it is half a
+// turn about any perpendicular axis.
 static inline hair_quat hair_quat_between(hair_vec3 a, hair_vec3 b)
 {
     float w = 1 + hair_dot(a, b);
@@ -112,14 +114,14 @@ static inline hair_quat hair_quat_between(hair_vec3 a, hair_vec3 b)
     return hair_quat_normalize((hair_quat){c.x, c.y, c.z, w});
 }
 
-// Shortest way from a (t = 0) to b (t = 1).
+// Interpolate along the shortest arc from a (t = 0) to b (t = 1).
 static inline hair_quat hair_slerp(hair_quat a, hair_quat b, float t)
 {
     float d = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
     float s = d < 0 ? -1.0f : 1.0f;
     d *= s;
     float u = 1 - t, v = t;
-    if (d < 0.9995f) { // Nearer than that the sine loses digits that the chord keeps.
+    if (d < 0.9995f) { // The sine of smaller angles loses digits that the chord keeps.
         float angle = acosf(d);
         u = sinf(u * angle) / sinf(angle);
         v = sinf(v * angle) / sinf(angle);
@@ -129,7 +131,8 @@ static inline hair_quat hair_slerp(hair_quat a, hair_quat b, float t)
         (hair_quat){u * a.x + v * b.x, u * a.y + v * b.y, u * a.z + v * b.z, u * a.w + v * b.w});
 }
 
-// Of the rotation whose columns are the unit vectors x, y, z (Shepperd 1978: divide by the largest component).
+// Return the rotation whose columns are the unit vectors x, y, z (Shepperd 1978: divide by the
+// largest component).
 static inline hair_quat hair_quat_from_axes(hair_vec3 x, hair_vec3 y, hair_vec3 z)
 {
     float trace = x.x + y.y + z.z;
@@ -145,7 +148,7 @@ static inline hair_quat hair_quat_from_axes(hair_vec3 x, hair_vec3 y, hair_vec3 
     return hair_quat_normalize(q);
 }
 
-// c = a b. c may be neither.
+// Compute c = a b. c must not overlap a or b.
 static inline void hair_mat4_multiply(const float a[16], const float b[16], float c[16])
 {
     for (int j = 0; j < 4; ++j)
@@ -154,7 +157,8 @@ static inline void hair_mat4_multiply(const float a[16], const float b[16], floa
                            a[12 + i] * b[4 * j + 3];
 }
 
-// A hash of 32 bits that C and GLSL share (glsl/random.glsl): the PCG output of Jarzynski and Olano 2020.
+// Return a 32-bit hash that C and GLSL share (glsl/random.glsl): the PCG output of Jarzynski and
+// Olano 2020.
 static inline uint32_t hair_hash(uint32_t x)
 {
     uint32_t state = x * 747796405u + 2891336453u;
@@ -162,7 +166,7 @@ static inline uint32_t hair_hash(uint32_t x)
     return (word >> 22) ^ word;
 }
 
-// Evenly in [0, 1), advancing `seed`.
+// Return a uniform random number in [0, 1) and advance `seed`.
 static inline float hair_random(uint32_t* seed)
 {
     *seed = hair_hash(*seed + 0x9e3779b9u);

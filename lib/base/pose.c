@@ -1,4 +1,4 @@
-// pose.c - poses from matrices and between each other.
+// pose.c - poses from matrices, and interpolation between poses.
 #include "lib/base/pose.h"
 
 int hair_pose_from_matrix(const float m[16], struct hair_pose* out)

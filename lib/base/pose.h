@@ -1,4 +1,5 @@
-// pose.h - where a rigid body is: doubles for the place, so that far from the origin differences keep their digits.
+// pose.h - pose of a rigid body. Positions are doubles, so that differences keep their digits far
+// from the origin.
 #ifndef HAIR_BASE_POSE_H
 #define HAIR_BASE_POSE_H
 
@@ -9,13 +10,14 @@ struct hair_pose {
     hair_quat rotation;
 };
 
-// Of a column-major matrix. 0 when it is not rigid to 1e-3, or not finite.
+// Convert a column-major matrix. Return 0 if it is not finite, or not rigid within 1e-3.
 int hair_pose_from_matrix(const float matrix[16], struct hair_pose* out);
 
-// From a (t = 0) to b (t = 1): evenly along the straight line, shortest way round.
+// Interpolate from a (t = 0) to b (t = 1), with constant speed along the straight line and the
+// shortest rotation.
 struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_pose* b, double t);
 
-// a.position - b.position.
+// Return a.position - b.position.
 hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b);
 
 #endif

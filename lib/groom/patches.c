@@ -53,7 +53,7 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 // Interleave the candidates of scattered root bins.
 //
 // Any run of candidates of a root bin is spread evenly over it, which thins a patch more evenly
-// than a random order. So the candidates of one root bin keep their order. Each root bin
+// than a random order. The candidates of one root bin therefore keep their order. Each root bin
 // contributes its candidates at even distances, from a random start.
 static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
 {

@@ -2,7 +2,7 @@
 //
 // Let L be the requested fraction of the hair. Follower k of a patch of n, in a random order, is
 // drawn as soon as L d n > k, where d is the density at its root. This holds from L = k / (n d) on.
-// So followers are sorted by k / d. Cutting off the end then leaves every place the density that it
+// Followers are therefore sorted by k / d. Cutting off the end then leaves every place the density that it
 // should have, at every L. d is the mean of all sets, so blending sets does not change the order of
 // strands.
 #include "lib/groom/draft.h"

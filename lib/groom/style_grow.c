@@ -1,7 +1,7 @@
 // style_grow.c - guides of the built-in haircuts, traced from root to tip.
 //
 // A guide turns towards a pull, which is the comb near the root and gravity farther along. It is
-// pushed out of the bust to a clearance that grows along the strand. So hair from higher up lies
+// pushed out of the bust to a clearance that grows along the strand. Hair from higher up thus lies
 // over hair from below.
 #include "lib/groom/style_grow.h"
 #include "lib/groom/style_body.h"
