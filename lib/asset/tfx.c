@@ -7,7 +7,7 @@
 //         8  u32 vertices of each                       8  u32 vertices of each
 //        12  u32 offset of f32[4] positions            12  u32 followers of each guide (not read)
 //        16  of f32[2] texture coordinates             16  i32 1 if both ends are fixed (not read)
-//        20  of f32[2] the like per vertex             20  31 reserved u32
+//        20  of f32[2] coordinates per vertex          20  31 reserved u32
 //        24  of f32 thickness                         144  u32 offset of f32[3] positions
 //        28  of f32[4] colours per vertex             148  of f32 thickness
 //        32  32 reserved u32                          152  of f32[2] texture coordinates

@@ -1,7 +1,7 @@
-// cells.c - what guides can meet in a step, and the boxes around all that it does in it.
+// cells.c - the contacts that guides can have in a step, and bounding boxes of their motion.
 #include "lib/collide/cells.h"
 
-#define WALK 12 // rounds: BODY_STEPS of glsl/sim/body.glsl, and what begins and ends it
+#define WALK 12 // Iterations: BODY_STEPS of glsl/sim/body.glsl, plus the start and the end.
 
 uint32_t hair_member_rounds(uint32_t member)
 {
@@ -40,7 +40,7 @@ void hair_cells_free(const hair_host* host, struct hair_cells* cells)
 
 // Contacts ----------------------------------------------------------------------------------------
 
-// At the start or the end of the step, without rounding.
+// Return the bounding box at the start or the end of the step, without rounding.
 static struct hair_cell_bounds box_around(const struct hair_contact* contact, const hair_solid* solid,
                                           int end)
 {
@@ -65,7 +65,7 @@ static struct hair_cell_bounds box_around(const struct hair_contact* contact, co
                                      {c[0] + h[0], c[1] + h[1], c[2] + h[2]}};
 }
 
-// How far what turns leaves the straight way between its ends, at most.
+// Return the maximum deviation of a turning collider from the straight path between its ends.
 static float bulge_of(const struct hair_contact* contact, const hair_solid* solid)
 {
     const hair_vec4 *a = &contact->body.rotation[0], *b = &contact->body.rotation[1];
@@ -75,7 +75,7 @@ static float bulge_of(const struct hair_contact* contact, const hair_solid* soli
     return (hair_length(middle) + hair_length(half)) * fminf(4 * (x * x + y * y + z * z + w * w), 2);
 }
 
-// Of all that hair within reach can have to do with in the step.
+// Return the bounds of everything that hair in reach can touch in the step.
 static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, const hair_solid* solid,
                                          const struct hair_cells_desc* desc)
 {
@@ -90,7 +90,7 @@ static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, con
     return b;
 }
 
-// Around what a contact is in what is left of the step.
+// Return a sphere around a contact during the rest of the step.
 static hair_vec4 ball_of(const struct hair_capsule* around, const struct hair_cells_desc* desc)
 {
     hair_vec4 ball = {0, 0, 0, 0};

@@ -1,18 +1,20 @@
-// cells_list.c - solids sorted into a grid: list after list, in their order.
+// cells_list.c - colliders sorted into a grid of lists, each in the order of colliders.
 #include "lib/collide/cells.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_CELLS 32 // along an axis
-#define MOST_PAIRS (1u << 21) // of a solid and a cell, unless there are more solids
+#define MOST_CELLS 32 // Maximum number of cells along an axis.
+// Maximum number of pairs of a collider and a cell, unless there are more colliders.
+#define MOST_PAIRS (1u << 21)
 
 static hair_shape shape_of(const struct hair_contact* contact)
 {
     return (hair_shape)contact->body.size.w;
 }
 
-// Around all but half-spaces, which are everywhere, as far as hair reaches.
+// Lay the grid around all colliders except half-spaces, which are everywhere, as far as hair
+// reaches.
 static void lay_grid(struct hair_cells* cells, const struct hair_cells_desc* desc, float scale)
 {
     float lower[3], upper[3], longest = 0;
@@ -81,7 +83,8 @@ static float moved_by(const hair_vec4* from, const hair_vec4* to)
     return hair_length(hair_v3(to->x - from->x, to->y - from->y, to->z - from->z));
 }
 
-// The solids of a cell's list, of those whose box touches it: what is round is farther from its box's corners.
+// Return the maximum distance of a contact's axis from the centres of cells that list it. Cells at
+// the corners of the box around a round collider are farther away.
 static float reach_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
 {
     const struct hair_capsule* around = &cells->contact[i].around;
@@ -98,10 +101,11 @@ struct pairs {
     uint32_t count;
 };
 
-// What of a contact says which cells it has: a segment, and how far from it their middles may be.
+// Criterion of the cells of a contact: a segment, and the maximum distance of their centres from
+// it.
 struct span {
     hair_vec3 from, axis;
-    float over, reach; // over: 1 / the square of the axis' length
+    float over, reach; // `over` is 1 / the squared length of the axis.
 };
 
 static struct span span_of(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t i)
@@ -115,12 +119,14 @@ static struct span span_of(const struct hair_cells* cells, const struct hair_cel
 static int is_within(const struct span* span, hair_vec3 at)
 {
     hair_vec3 arm = hair_sub(at, span->from);
-    float t = hair_dot(arm, span->axis) * span->over; // Without fminf and fmaxf, which are calls.
+    // Comparisons, because fminf and fmaxf are calls.
+    float t = hair_dot(arm, span->axis) * span->over;
     hair_vec3 off = hair_sub(arm, hair_scale(span->axis, t < 0 ? 0 : t > 1 ? 1 : t));
     return hair_dot(off, off) <= span->reach * span->reach;
 }
 
-// Of a row of cells, where their middles are within the reach of a sphere. 0: nowhere.
+// Narrow a row of cells to those with centres within the reach of a sphere. Return 0 if there are
+// none.
 static int narrow(const struct hair_cells* cells, const struct span* span, hair_vec3 start, uint32_t first,
                   uint32_t* from, uint32_t* to)
 {
@@ -135,7 +141,7 @@ static int narrow(const struct hair_cells* cells, const struct span* span, hair_
     return *from <= *to;
 }
 
-// Counts of each cell, in `number[cell + 1]`, how many contacts it has.
+// Find all pairs. Count the contacts of each cell in `number[cell + 1]`.
 static void find_pairs(const struct hair_cells* cells, const struct hair_cells_desc* desc, uint32_t* number,
                        struct pairs* out)
 {
@@ -172,7 +178,7 @@ static int by_distance(const void* a, const void* b)
     return p->contact < q->contact ? -1 : p->contact > q->contact;
 }
 
-// The `kept` nearest to the front, in any order (Hoare 1961).
+// Move the `kept` nearest candidates to the front, in any order (Hoare 1961).
 static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t kept)
 {
     uint32_t first = 0, last = count;
@@ -187,7 +193,7 @@ static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t
             candidate[i] = candidate[k];
             candidate[k] = other;
         }
-        // All up to k are no farther than what is behind.
+        // Candidates up to k are no farther than those behind k.
         if (k + 1 >= kept)
             last = k + 1;
         else
@@ -195,7 +201,7 @@ static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t
     }
 }
 
-// Those of a list, in their order, that are no farther than one of them. Returns how many.
+// Remove candidates farther than `farthest`, preserving order. Return the new count.
 static uint32_t keep_to(struct candidate* candidate, uint32_t count, struct candidate farthest)
 {
     uint32_t kept = 0;
@@ -204,7 +210,8 @@ static uint32_t keep_to(struct candidate* candidate, uint32_t count, struct cand
     return kept;
 }
 
-// The nearest of a list that is too long, in their order; `sorted` has room for as many. Returns how many.
+// Choose the nearest contacts of a list that is too long, preserving order. Return their number.
+// `sorted` has room for `count` candidates.
 static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uint32_t cell,
                        const uint32_t* contact, uint32_t count, struct candidate* candidate,
                        struct candidate* sorted)
@@ -243,7 +250,7 @@ static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
     cells->entry[cell + 1] = cells->entries;
 }
 
-// `end` is of each cell where its contacts end in `sorted`.
+// Write the lists. `end` is the end of each cell's contacts in `sorted`.
 static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* desc, const uint32_t* end,
                         const uint32_t* sorted, struct candidate* candidate, uint32_t longest)
 {
@@ -282,7 +289,7 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
         longest = end[i + 1] > longest ? end[i + 1] : longest;
         end[i + 1] += end[i];
     }
-    // Where each begins becomes, contact after contact, where it ends.
+    // Scatter the contacts. The start of each cell becomes its end, contact by contact.
     for (uint32_t i = 0; i < pairs.count; ++i) sorted[end[pairs.cell[i]]++] = pairs.contact[i];
 
     struct candidate* candidate = hair_alloc(host, 2 * (size_t)longest, sizeof *candidate);
@@ -309,7 +316,7 @@ static int is_still(const struct hair_contact* contact)
            !memcmp(&body->rotation[0], &body->rotation[1], sizeof body->rotation[0]);
 }
 
-// What the lists are of is what it was. When the step began does not matter to what does not move.
+// Return whether the lists are still valid. The start of the step does not matter if nothing moves.
 static int is_as_before(const struct hair_cells* cells, const struct hair_cells_desc* desc)
 {
     struct hair_cells_desc made_for = cells->made_for;

@@ -1,8 +1,9 @@
-// contacts.c - solids as guides meet them: between two poses of the head, all or the nearest ones.
+// contacts.c - colliders between two poses of the head, for guides: all of them or the nearest
+// ones.
 #include "lib/collide/form.h"
 #include "lib/collide/solid.h"
 
-#define EVERYWHERE 1e7f // m: the radius of what is around a half-space
+#define EVERYWHERE 1e7f // Radius of the sphere around a half-space, m.
 
 static hair_vec3 from_head(const hair_solid* solid, const struct hair_pose* head)
 {
@@ -17,7 +18,7 @@ static hair_quat turn_of(const hair_solid* solid)
         (hair_quat){solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]});
 }
 
-// The middle of a solid in its own axes, and from there half its sides.
+// Compute the centre of a collider in its own axes, and half its sides.
 void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* half)
 {
     const float* size = solid->size;
@@ -36,7 +37,8 @@ void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* ha
     *half = hair_scale(hair_sub(upper, lower), 0.5f * solid->scale);
 }
 
-// Without rounding.
+// Return the radius of a sphere or capsule, or of a sphere around another collider, without
+// rounding.
 static float radius_around(const hair_solid* solid)
 {
     const float* size = solid->size;
@@ -51,7 +53,7 @@ static float radius_around(const hair_solid* solid)
     }
 }
 
-// A sphere or capsule, or what is around another solid.
+// Compute the axis and radius of a sphere or capsule, or of a sphere around another collider.
 static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
 {
     hair_vec3 center = from_head(solid, head), middle, sides;
@@ -67,12 +69,14 @@ static void place(const hair_solid* solid, const struct hair_pose* head, hair_ve
     ends[1] = (hair_vec4){b.x, b.y, b.z, radius};
 }
 
-// The turn from one pose of a solid to the next, as far as its capsule's ends do not show it.
+// Return the rotation from one pose of a collider to the next, except the part that a capsule's
+// ends show.
 static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
 {
     hair_quat a = turn_of(from), b = turn_of(to);
     hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
-    hair_vec3 v = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f); // The short way.
+    // The shorter rotation.
+    hair_vec3 v = hair_scale(hair_v3(turn.x, turn.y, turn.z), turn.w < 0 ? -1.0f : 1.0f);
     float sine = hair_length(v);
     float angle = 2 * atan2f(sine, fabsf(turn.w));
     hair_vec3 spin = sine > 1e-9f ? hair_scale(v, angle / sine) : hair_v3(0, 0, 0);
@@ -98,7 +102,7 @@ static struct hair_capsule capsule_of(const hair_solid* before, const hair_solid
     return around;
 }
 
-// From the head to the surface.
+// Return the distance from the head to the surface.
 static float distance_of(const hair_solid* solid, const struct hair_pose* head)
 {
     hair_vec4 end[2];
@@ -108,7 +112,8 @@ static float distance_of(const hair_solid* solid, const struct hair_pose* head)
     return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
 }
 
-// The nearest of those of a shape up to `last`, in their order. Of two as near the earlier one stays.
+// Choose the nearest colliders of the shapes up to `last`, preserving order. At equal distances the
+// first one stays.
 static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head, hair_shape last,
                        uint32_t chosen[HAIR_STEP_SOLIDS])
 {
@@ -176,7 +181,7 @@ struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32
 {
     const hair_solid* now = &solids->now.solid[i];
     hair_solid before = *hair_solids_before(solids, i);
-    before.form = now->form, before.scale = now->scale; // It may have had another.
+    before.form = now->form, before.scale = now->scale; // The collision mesh may have been another.
     struct hair_contact contact = {.around = capsule_of(&before, now, head_before, head_now),
                                    .body = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_FORM) return contact;

@@ -1,4 +1,4 @@
-// distance.c - the exact signed distance to solids. glsl/solid_distance.glsl says the same.
+// distance.c - the exact signed distance to colliders. glsl/solid_distance.glsl is the GPU version.
 #include "lib/collide/distance.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static double clamp(double value, double least, double most)
     return fmin(fmax(value, least), most);
 }
 
-// `length` of v, and v / length; `otherwise` where it has no direction.
+// Compute v / |v|, or `otherwise` if v has no direction. Return |v|.
 static double direction(const double v[3], const double otherwise[3], double out[3])
 {
     double length = sqrt(dot(v, v));
@@ -44,10 +44,10 @@ static double to_box(const float size[3], const double p[3], double gradient[3])
     return direction(out, inside, gradient) + fmin(deepest, 0);
 }
 
-// What turns about the y axis is known by its profile: a polygon in the half-plane of (distance from the axis,
-// height). This is the distance to a segment of it.
+// Nearest point of a profile so far. A solid of revolution about the y axis is described by its
+// profile, a polygon in the half-plane of (distance from the axis, height).
 struct profile {
-    double distance, out[2]; // out: from the nearest point of the profile
+    double distance, out[2]; // vector from the nearest point of the profile
 };
 
 static void edge(const double p[2], const double a[2], const double b[2], struct profile* nearest)
@@ -60,7 +60,8 @@ static void edge(const double p[2], const double a[2], const double b[2], struct
     if (far < nearest->distance) *nearest = (struct profile){far, {out[0], out[1]}};
 }
 
-// `flank`: the normal of the side, for points on the surface.
+// Return the signed distance to a solid of revolution. `flank` is the normal of its side, for
+// points on the surface.
 static double revolve(struct profile nearest, int inside, const double flank[2], const double p[3],
                       double gradient[3])
 {
@@ -109,13 +110,13 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
     case HAIR_SHAPE_BOX: return to_box(size, point, out);
     case HAIR_SHAPE_CYLINDER: return to_cylinder(a, b, point, out);
     case HAIR_SHAPE_CONE: return to_cone(a, b, point, out);
-    default: out[0] = 0, out[1] = 1, out[2] = 0; return point[1]; // A plane.
+    default: out[0] = 0, out[1] = 1, out[2] = 0; return point[1]; // a plane
     }
 }
 
 // Forms -------------------------------------------------------------------------------------------
 
-// Within the grid.
+// Interpolate the distances within the grid. `slope` receives the gradient per voxel.
 static double interpolate(const hair_form* form, const double at[3], double slope[3])
 {
     size_t node = 0, step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
@@ -159,7 +160,7 @@ double hair_distance_to_form(const hair_form* form, const double point[3], doubl
 
 // In the world ------------------------------------------------------------------------------------
 
-// By the unit quaternion q; `sign` -1: back.
+// Rotate v by the quaternion q, or by its inverse if `sign` is -1. q is normalised first.
 static void rotate(const float q[4], double sign, const double v[3], double out[3])
 {
     double norm = 0, u[3];

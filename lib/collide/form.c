@@ -1,18 +1,20 @@
 // form.c - distances to a triangle mesh at the nodes of a grid.
 //
-// How far is found by a tree of triangles where one is near. From there the nearest triangle goes on from node to
-// node, as in Tsai 2002. On which side is the same at two neighbouring nodes whose distances together are more than from one to the other: no surface fits between. So
-// nodes fall into few sets of one sign each, for which one winding number is enough (Jacobson et al. 2013).
+// A tree of triangles gives the distance near triangles. From there the nearest triangle is passed
+// on from node to node (Tsai 2002). Two neighbouring nodes are on the same side if their distances
+// add up to more than the distance between them, because no surface fits between. Nodes thus fall
+// into few sets of one sign each. One winding number per set is enough (Jacobson et al. 2013).
 #include "lib/collide/form.h"
 #include "lib/collide/triangles.h"
 
 #include <string.h>
 
-#define LEAST_SIZE 1e-6f // m: of a mesh
-#define FINEST_VOXEL 2.5e-7f // as a share of the coordinates, of which floats resolve 6e-8
-#define MOST_VOXELS 256 // along the longest side
-#define MOST_WORK 500000000 // triangles and boxes looked at
-#define SWEEPS 8 // each way along the three axes
+#define LEAST_SIZE 1e-6f // Minimum size of a mesh, m.
+// Minimum size of a voxel as a fraction of the coordinates, of which floats resolve 6e-8.
+#define FINEST_VOXEL 2.5e-7f
+#define MOST_VOXELS 256 // Maximum number along the longest side.
+#define MOST_WORK 500000000 // Maximum number of triangles and boxes visited.
+#define SWEEPS 8 // One per combination of directions along the three axes.
 
 static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
 {
@@ -42,7 +44,8 @@ static float farthest_from_origin(const struct hair_triangles* t)
            longest(t->bounds.upper);
 }
 
-// How fine, and how thick a shell is, so that neither makes more nodes than the resolution says, nor room many more.
+// Choose the voxel size and the thickness of a shell. The mesh with its shell fits into the
+// resolution. With the room around it, it fits into MOST_VOXELS.
 static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles* t, hair_form_info* info)
 {
     float side = longest(hair_sub(t->bounds.upper, t->bounds.lower));
@@ -81,7 +84,7 @@ static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triang
         form->info.size[k] = form->size[k];
         form->info.lower[k] = center[k] + lower[k] - form->info.thickness / 2;
         form->info.upper[k] = center[k] + upper[k] + form->info.thickness / 2;
-        // The mesh in the middle of it.
+        // The mesh is centred in the grid.
         form->origin[k] = center[k] - form->voxel * (float)(form->size[k] - 1) / 2;
     }
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
@@ -111,14 +114,15 @@ static hair_result too_much(const hair_form* form, const struct hair_triangles* 
         t->count);
 }
 
-// Where a triangle is near, exactly. Elsewhere `nearest` is UINT32_MAX.
+// Measure exact distances near triangles. Elsewhere `nearest` becomes UINT32_MAX.
 static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint32_t* nearest)
 {
     uint32_t at[3], last = UINT32_MAX;
     for (at[2] = 0; at[2] < form->size[2]; ++at[2])
         for (at[1] = 0; at[1] < form->size[1]; ++at[1]) {
             if (t->work > MOST_WORK) return too_much(form, t);
-            for (uint32_t i = 0; i < form->size[0]; ++i) { // There and back, so that the next is a neighbour.
+            // Back and forth, so that the next is a neighbour.
+            for (uint32_t i = 0; i < form->size[0]; ++i) {
                 at[0] = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
                 hair_vec3 place = place_of(form, t, at);
                 float distance = HAIR_FORM_BAND * form->voxel;
@@ -136,7 +140,8 @@ static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint3
     return HAIR_OK;
 }
 
-// The node takes the triangle of the one `step` before it if that is nearer than its own.
+// Give a node the triangle of node `from`, one step before it, if that triangle is nearer than its
+// own.
 static void take(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, size_t node, size_t from,
                  hair_vec3 place)
 {
@@ -147,7 +152,8 @@ static void take(hair_form* form, const struct hair_triangles* t, uint32_t* near
     nearest[node] = nearest[from];
 }
 
-// From the nodes before it along each axis; bits of `backwards` turn the axes.
+// Propagate triangles from the preceding nodes along each axis. Each bit of `backwards` reverses an
+// axis.
 static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, int backwards)
 {
     const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
@@ -183,17 +189,18 @@ enum { UNKNOWN, OUTSIDE, INSIDE };
 struct sides {
     const hair_form* form;
     unsigned char* side; // of each node
-    uint32_t* stack; // nodes whose neighbours are to be told
+    uint32_t* stack; // nodes whose neighbours are still to be visited
     size_t depth;
 };
 
 static void tell(struct sides* sides, size_t node, unsigned char side)
 {
     sides->side[node] = side;
-    sides->stack[sides->depth++] = (uint32_t)node; // Once each: it was unknown.
+    // Each node is pushed once, since it was unknown.
+    sides->stack[sides->depth++] = (uint32_t)node;
 }
 
-// All that is on the same side as what is on the stack.
+// Find all nodes on the same side as the nodes on the stack.
 static void spread(struct sides* sides)
 {
     const hair_form* form = sides->form;
@@ -251,7 +258,7 @@ static uint64_t mark_of(const hair_form* form)
                                     (const unsigned char*)&form->voxel, (const unsigned char*)form->distance};
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
     size_t words[] = {3, 3, 1, nodes};
-    uint64_t mark = 0xcbf29ce484222325u; // FNV-1a, a word at a time
+    uint64_t mark = 0xcbf29ce484222325u; // FNV-1a, one word at a time
     for (int k = 0; k < 4; ++k)
         for (size_t i = 0; i < words[k]; ++i) {
             uint32_t word;
@@ -303,7 +310,7 @@ hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, h
     return HAIR_OK;
 }
 
-// Who holds a form may not change it, but may let go of it.
+// Cast away const. Holders may not change a collision mesh, but may release it.
 static hair_form* own(const hair_form* form)
 {
     return (hair_form*)(uintptr_t)form;

@@ -1,4 +1,5 @@
-// pair.c - solids by their keys: most often in the same order as before, else both sorted and merged.
+// pair.c - pairing of colliders by key. The order is mostly that of the previous step. Otherwise
+// both are sorted and merged.
 #include "lib/collide/pair.h"
 
 #include <stdlib.h>

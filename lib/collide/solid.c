@@ -1,4 +1,4 @@
-// solid.c - solids between two poses of the head.
+// solid.c - lists of colliders: checked, stored and counted.
 #include "lib/collide/solid.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "lib/collide/form.h"
 #include "lib/collide/pair.h"
 
-// How many of `size` a shape uses.
+// Return how many components of `size` a shape uses.
 static int sizes_of(hair_shape shape)
 {
     switch (shape) {
@@ -105,7 +105,8 @@ static hair_result reserve_all(const hair_host* host, struct hair_solids* solids
     return HAIR_OK;
 }
 
-// There is room. Forms are held before others are released: they may be the same.
+// Replace a list that has room. New collision meshes are held before old ones are released, because
+// they may be equal.
 static void put(struct hair_solid_list* list, const hair_solid* from, uint32_t count, size_t stride)
 {
     for (uint32_t i = 0; i < count; ++i) hair_form_hold(solid_at(from, i, stride).form);
@@ -147,7 +148,7 @@ static hair_result check_list(const hair_host* host, const hair_solid* from, uin
     return HAIR_OK;
 }
 
-// The same solids once more are no news.
+// Return whether the list already has these colliders. Setting them again is no change.
 static int are_there(const struct hair_solid_list* list, const hair_solid* from, uint32_t count,
                      size_t stride)
 {

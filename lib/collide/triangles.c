@@ -1,10 +1,11 @@
-// triangles.c - the tree of boxes over triangles: sorted along a Morton curve, then a complete binary tree.
+// triangles.c - the tree of boxes over triangles: sorted along a Morton curve, then built as a
+// complete binary tree.
 #include "lib/collide/triangles.h"
 
 #include <math.h>
 #include <string.h>
 
-#define DIGIT 10 // bits of a Morton code along an axis, and of one round of the radix sort
+#define DIGIT 10 // Bits of a Morton code along an axis, and of one round of the radix sort.
 #define ROUNDS 3
 
 static hair_vec3 corner(const struct hair_triangles* t, uint32_t place, int k)
@@ -29,7 +30,7 @@ static int same(hair_vec3 a, hair_vec3 b)
 
 // Order -------------------------------------------------------------------------------------------
 
-// The lowest ten bits, each two places from the next.
+// Spread the lowest ten bits to every third bit.
 static uint32_t spread(uint32_t x)
 {
     x = (x | x << 16) & 0x030000ffu;
@@ -51,7 +52,7 @@ static uint32_t code_of(const struct hair_triangles* t, uint32_t place, float sc
            spread(cell(at.z, lower.z, scale)) << 2;
 }
 
-// By the upper half, least digit first: what is alike stays in order.
+// Sort by the upper half of the keys, with the least significant digit first. The sort is stable.
 static void sort(uint64_t* keys, uint64_t* other, uint32_t count)
 {
     for (int round = 0; round < ROUNDS; ++round) {
@@ -84,7 +85,8 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
     uint64_t* other = keys + t->count;
     for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | i;
     sort(keys, other, t->count);
-    for (uint32_t i = 0; i < t->count; ++i) // In the other half, after an odd number of rounds.
+    // After an odd number of rounds, they are in the other half.
+    for (uint32_t i = 0; i < t->count; ++i)
         memcpy(sorted[i], t->indices[(uint32_t)other[i]], sizeof *sorted);
     hair_free(host, keys);
     hair_free(host, t->indices);
@@ -94,7 +96,8 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
 
 // Nodes -------------------------------------------------------------------------------------------
 
-// The leaves of a complete tree lie on two levels; those of the lower one come first along the curve.
+// Return the number of a leaf along the curve. The leaves of a complete tree lie on two levels.
+// Leaves of the lower level come first.
 static uint32_t leaf_of(const struct hair_triangles* t, uint32_t node)
 {
     return node + 1 >= t->lowest ? node + 1 - t->lowest : node + 1 + t->leaves - t->lowest;
@@ -118,7 +121,7 @@ static void make_leaf(struct hair_triangles* t, uint32_t node)
     }
     t->box[node] = box;
     t->dipole[node].area = area;
-    t->dipole[node].radius = weight; // Until the boxes are done.
+    t->dipole[node].radius = weight; // The weight is kept here until the boxes are done.
     t->dipole[node].center = weight > 0 ? hair_scale(center, 1 / weight) : box.lower;
 }
 
@@ -214,7 +217,7 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
     hair_vec3 ab = hair_sub(b, a), bc = hair_sub(c, b), ca = hair_sub(a, c);
     hair_vec3 normal = hair_cross(ca, ab);
     float size = hair_dot(normal, normal);
-    // Over the triangle, when it is on the same side of all three edges.
+    // The point is above the triangle if it is on the same side of all three edges.
     if (size > 1e-37f && hair_dot(hair_cross(normal, ab), hair_sub(p, a)) >= 0 &&
         hair_dot(hair_cross(normal, bc), hair_sub(p, b)) >= 0 &&
         hair_dot(hair_cross(normal, ca), hair_sub(p, c)) >= 0) {
@@ -252,7 +255,7 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
         if (node < t->leaves - 1) {
             uint32_t a = 2 * node + 1, b = a + 1;
             float to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
-            int b_first = to_b < to_a; // The nearer one goes on top.
+            int b_first = to_b < to_a; // The nearer child goes on top.
             stack[depth].node = b_first ? a : b;
             stack[depth++].squared = b_first ? to_a : to_b;
             stack[depth].node = b_first ? b : a;
@@ -273,10 +276,10 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
 
 // Winding -----------------------------------------------------------------------------------------
 
-#define FROM_AFAR 3.0f // radii: from there on a dipole stands for its triangles
+#define FROM_AFAR 3.0f // Distance, in radii, from which a dipole stands for its triangles.
 #define PI_4 12.56637061f
 
-// Van Oosterom and Strackee 1983.
+// Return the solid angle of a triangle (van Oosterom and Strackee 1983).
 static float solid_angle(const struct hair_triangles* t, uint32_t place, hair_vec3 p)
 {
     hair_vec3 a = hair_sub(corner(t, place, 0), p), b = hair_sub(corner(t, place, 1), p),
@@ -313,7 +316,7 @@ float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
 
 // Closed ------------------------------------------------------------------------------------------
 
-// Murmur3's final mixing.
+// Mix bits by the final step of Murmur3.
 static uint64_t mix(uint64_t x)
 {
     x = (x ^ x >> 33) * 0xff51afd7ed558ccdu;
@@ -324,7 +327,7 @@ static uint64_t mix(uint64_t x)
 static uint64_t hash_of(hair_vec3 p)
 {
     uint64_t hash = 0x9e3779b97f4a7c15u;
-    float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // -0 is 0.
+    float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // Turns -0 into 0.
     for (int k = 0; k < 3; ++k) {
         uint32_t bits;
         memcpy(&bits, &v[k], sizeof bits);
@@ -333,8 +336,9 @@ static uint64_t hash_of(hair_vec3 p)
     return hash;
 }
 
-// Every edge has a random number; it is added one way and taken off the other. A sum of 0 that is not made of zeros
-// is one chance in 2^64, and then only a sign would be wrong.
+// Return whether the triangles are closed. Every edge has a random number, which is added in one
+// direction and subtracted in the other. An open mesh gives 0 with a probability of 2^-64, and then
+// only a sign would be wrong.
 int hair_triangles_are_closed(const struct hair_triangles* t)
 {
     uint64_t sum = 0;
