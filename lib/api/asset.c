@@ -70,7 +70,7 @@ const char* hair_format_name(hair_format format)
     return NULL;
 }
 
-// Lengths and bounds of the strands.
+// Compute lengths and bounds of the strands.
 static void measure(const struct hair_strands* strands, hair_asset_info* info)
 {
     double sum = 0;

@@ -1,4 +1,5 @@
-// context.c - the library's hold on one OpenGL context.
+// context.c - public calls on contexts. A context holds the library's objects in one OpenGL
+// context.
 #include "lib/api/api.h"
 
 hair_result hair_context_create(const hair_context_desc* desc, hair_context** out)

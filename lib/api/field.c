@@ -1,8 +1,9 @@
-// field.c - the field of an instance, for the host to read.
+// field.c - the public call by which the application reads the field of an instance.
 #include "lib/api/api.h"
 
-// World to the box's [0, 1]^3: p becomes (conj(q) (p - head) - lower) * inverse, in double since far out the head's
-// place and what it is multiplied by nearly cancel.
+// Write the transform from the world to the box's [0, 1]^3: p becomes (conj(q) (p - head) - lower)
+// * inverse. It is computed in double, because far from the origin the head's position and its
+// product nearly cancel.
 static void write_transform(const struct hair_field_box* box, const struct hair_pose* head, float out[16])
 {
     hair_quat back = hair_quat_conjugate(head->rotation);

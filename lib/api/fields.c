@@ -1,4 +1,4 @@
-// fields.c - the default functions of every desc, from the table.
+// fields.c - the default functions of all descs, generated from the table.
 #include "lib/api/fields.h"
 
 #include <float.h>

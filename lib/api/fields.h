@@ -1,4 +1,4 @@
-// fields.h - the table of every desc's numbers, and the checks at the library's boundary.
+// fields.h - the table of the numbers of all descs, and the checks at the library's boundary.
 #ifndef HAIR_API_FIELDS_H
 #define HAIR_API_FIELDS_H
 
@@ -16,21 +16,22 @@
 #undef MATRIX
 #undef END
 
-// Take the caller's desc of type S into `own`, checked.
+// Copy and check the caller's desc of type S into `own`.
 #define HAIR_TAKE(host, S, desc, own) hair_fields_take(host, #S, desc, own, hair_fields_of_##S())
 
-// Take it if there is one, else the defaults.
+// Copy and check the caller's desc, or use the defaults if it is NULL.
 #define HAIR_TAKE_OR_DEFAULT(host, S, desc, own)                                                             \
     ((desc) ? HAIR_TAKE(host, S, desc, own) : (*(own) = S##_default(), (hair_result)HAIR_OK))
 
-// Fill the caller's struct S, which may be shorter than ours, from `own`.
+// Fill the caller's struct S from `own`. The caller's struct may be shorter than the library's.
 #define HAIR_GIVE(host, S, own, out) hair_fields_give(host, #S, own, sizeof(S), out)
 
 hair_result hair_fields_give(const hair_host* host, const char* name, const void* own, size_t size,
                              void* out);
 
-// The host of a desc, before the rest of it is checked, so that the check has a log. Every desc that has a host has
-// it right after `made`. What no default function filled in is not trusted.
+// The host of a desc, taken before the rest is checked, so that the check has a log. Every desc
+// with a host has it right after `made`. A desc that no default function has filled in is not
+// trusted.
 #define HAIR_HOST_OF(desc)                                                                                   \
     hair_host_take((desc) && (desc)->made.version && (desc)->made.size >= 16 && (desc)->made.size <= 4096    \
                        ? (desc)->host                                                                        \

@@ -1,5 +1,6 @@
-// fields.inl - every number of every desc: struct, member, type, default, least, most. Read by lib/api/fields.c
-// for the defaults, the checks and the error sentences; a test holds the comments of the headers to it.
+// fields.inl - all numbers of all descs: struct, member, type, default, minimum, maximum.
+// lib/api/fields.c reads the table for the defaults, the checks and the error sentences. A test
+// compares the table with the headers' comments.
 #define CURVE(S, member, a, b, c, d, e, f, g, h, min, max) \
     FIELD(S, member.at[0], FLOAT, a, min, max) FIELD(S, member.at[1], FLOAT, b, min, max) \
     FIELD(S, member.at[2], FLOAT, c, min, max) FIELD(S, member.at[3], FLOAT, d, min, max) \

@@ -1,4 +1,4 @@
-// form.c - public calls on forms.
+// form.c - public calls on collision meshes.
 #include "lib/api/fields.h"
 #include "lib/collide/form.h"
 

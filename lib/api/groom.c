@@ -23,7 +23,7 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
     return HAIR_OK;
 }
 
-// Into `own`, which `desc` then points at.
+// Copy the map sets into `own` and let `desc` point there.
 static hair_result take_maps(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
 {
     hair_result result = HAIR_OK;

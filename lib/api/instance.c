@@ -1,9 +1,9 @@
-// instance.c - one head of living hair: created, moved, stepped.
+// instance.c - public calls that create, move and step one head of living hair.
 #include "lib/api/api.h"
 
 #include <string.h>
 
-#define SHORTEST 1e-5f // s: a substep, lest a step take for ever
+#define SHORTEST 1e-5f // Minimum substep, s, which bounds the time of a step.
 
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out)
@@ -21,7 +21,7 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
     return HAIR_OK;
 }
 
-// Log what it takes to hold the groom: `hold` may ask for more than hair can bear.
+// Log how guides hold the groom. The gravity preload may ask for more than hair can bear.
 static void tell_held(hair_instance* hair)
 {
     struct hair_rods_report held = hair_sim_held(&hair->sim);
@@ -35,7 +35,7 @@ static void tell_held(hair_instance* hair)
                  hair->label, held.sagging, hair->sim.guides, (double)held.farthest_sag);
 }
 
-// Log how guides are softened, when that is not as it was logged last.
+// Log how guides are softened, if this differs from the last log.
 static void tell_softened(hair_instance* hair)
 {
     struct hair_rods_softened now = hair_sim_held(&hair->sim).softened, *told = &hair->told;
@@ -183,7 +183,7 @@ hair_result hair_step(hair_instance* hair, float dt)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
-    if (!(dt >= 0)) // NaN too.
+    if (!(dt >= 0)) // NaN fails too.
         return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: dt is %g, not 0 or more", hair->label,
                          (double)dt);
     if (dt == 0) return HAIR_OK;
@@ -212,7 +212,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     hair_enter(hair);
     hair_begin_frame(hair);
     if (hair_blow_is_on(&hair->sim)) {
-        // As it will be at the end of the step: it goes along with the head.
+        // The field is that at the end of the step, because it moves along with the head.
         const struct hair_solid_list* solids = &hair->sim.solids.now;
         result = hair_field_update(&hair->field, solids->solid, solids->count, &hair->sim.head);
     }
@@ -223,7 +223,7 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair_draw_tidy(&hair->draw, hair->ledger.number);
     }
     hair_gl_leave(&context->gl);
-    if (result) { // There was no such frame.
+    if (result) { // The frame is undone.
         *hair_asked_now(hair) = asked;
         for (int i = 0; i < HAIR_GL_FRAMES; ++i)
             memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);

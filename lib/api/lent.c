@@ -1,7 +1,9 @@
-// lent.c - textures that the host lends a view: what is none of the kind would raise the host's error flag, or stay bound.
+// lent.c - checks of the textures that the application passes to a view. A texture of another kind
+// would raise the application's error flag, or stay bound.
 #include "lib/api/api.h"
 
-// 0: there is no such texture. Mesa takes it for an error to be asked for the target of a texture of a buffer.
+// Return the target of a texture, or 0 if there is no such texture. Mesa raises an error if asked
+// for the target of a buffer texture.
 static GLenum find_target(const struct hair_gl* gl, GLuint texture)
 {
     GLint target = 0, buffer = 0;
@@ -39,7 +41,7 @@ static hair_result check_color(const hair_instance* hair, const hair_view* view)
                      hair->label, view->color_texture);
 }
 
-// What shaders read of it is depth.
+// Return whether shaders read depth from the texture.
 static int is_depth(const struct hair_gl* gl, GLuint texture)
 {
     GLint base = 0, type = GL_NONE, stencil = 0, reads = GL_DEPTH_COMPONENT;

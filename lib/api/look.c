@@ -1,9 +1,9 @@
-// look.c - kinds of looks and colours of hair, and curls like those of an example.
+// look.c - public calls on looks: kinds, colours, and curls made from an example.
 #include "lib/api/api.h"
 
 #include <string.h>
 
-#define MOST_VERTICES 65536u // of an example
+#define MOST_VERTICES 65536u // Maximum number of an example.
 
 static const char* const kinds[] = {
     [HAIR_LOOK_NATURAL] = "natural", [HAIR_LOOK_STRAIGHT] = "straight", [HAIR_LOOK_WAVY] = "wavy",
@@ -67,7 +67,7 @@ static void frizz(hair_look* look)
 
 hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
 {
-    // By 0.4 m of hair: eight segments a turn.
+    // Segments of 0.4 m of hair, at eight per turn.
     static const uint32_t segments[] = {[HAIR_LOOK_WAVY] = 64,
                                         [HAIR_LOOK_CURLY] = 96,
                                         [HAIR_LOOK_COILY] = 192,
@@ -78,7 +78,7 @@ hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
     hair_look own, fresh = hair_look_default();
     hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
     if (result) return result;
-    // What makes the way of a strand lies together.
+    // The members that shape strands are contiguous.
     size_t first = offsetof(hair_look, taper), end = offsetof(hair_look, absorption);
     memcpy((char*)&own + first, (char*)&fresh + first, end - first);
     if (kind == HAIR_LOOK_STRAIGHT) {
@@ -133,12 +133,12 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     return HAIR_GIVE(&silent, hair_look, &own, look);
 }
 
-// Curls like an example's -------------------------------------------------------------------------
+// Curls from an example --------------------------------------------------------------------------
 
 struct example {
     const float* positions;
     uint32_t vertices;
-    hair_vec3 first, x, z; // across its axis
+    hair_vec3 first, x, z; // first vertex, and unit vectors across the axis
     float length;
 };
 
@@ -147,7 +147,8 @@ static hair_vec3 vertex_of(const struct example* e, uint32_t i)
     return hair_sub(hair_load3(e->positions + 3 * (size_t)i), e->first);
 }
 
-// As seen along its axis, at `share` of its length; from `i` on, where it lies `before` m along. x and z in out.
+// Compute the x and z coordinates across the axis at fraction `share` of the length. Search from
+// segment `i` on, which starts `before` metres along the example.
 static void look_at(const struct example* e, float share, uint32_t* i, float* before, float out[2])
 {
     float at = share * e->length, link = hair_distance(vertex_of(e, *i), vertex_of(e, *i + 1));
@@ -162,7 +163,8 @@ static void look_at(const struct example* e, float share, uint32_t* i, float* be
     out[1] = hair_dot(p, e->z);
 }
 
-// Its ends are on a line along its axis, so that it can be repeated; the axis goes through its middle.
+// Find one turn of the curl. Its ends are on a line along its axis, so that it can be repeated. The
+// axis goes through its middle.
 static void find_turn(const struct example* e, float turn[2][HAIR_TURN_PLACES], float* radius)
 {
     float mean[2] = {0, 0}, before = 0;

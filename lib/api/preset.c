@@ -1,8 +1,9 @@
-// preset.c - kinds of hair, as physics.
+// preset.c - presets of physics for kinds of hair.
 #include "lib/api/api.h"
 
-// Human hair is 50 to 120 um thick and has a modulus of some 4 GPa, which water takes more than half of while it
-// makes the hair heavier. Frizz holds locks apart: they bend as something thicker than a hair.
+// Parameters of the presets. Human hair is 50 to 120 um thick and has a modulus of about 4 GPa.
+// Water reduces the modulus by more than half and makes hair heavier. Frizz keeps locks apart, and
+// they bend as something thicker than a hair.
 static const struct {
     const char* name;
     float radius, young, density, flatness, stiffness, damping, friction;

@@ -1,8 +1,9 @@
-// reach.c - where the hair of an instance can be.
+// reach.c - bounds of the hair of an instance.
 #include "lib/api/api.h"
 #include "lib/draw/params.h"
 
-#define GIVE 1.05f // hair may stretch a little, and followers stray from their guides
+// Factor for hair that stretches a little and for followers that stray from their guides.
+#define GIVE 1.05f
 
 static void include(hair_vec3 at, float around, hair_vec3 bounds[2])
 {
@@ -24,7 +25,7 @@ float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2])
     return GIVE * info->length[2];
 }
 
-// What ties pull a guide to, of those to the world or to the head; and what hangs from it there.
+// Include the positions of pins to the world or to the head, and the hair that hangs from them.
 static void include_ties(const hair_instance* hair, int world, hair_vec3 bounds[2])
 {
     for (uint32_t i = 0; i < hair->sim.ties.count; ++i) {
@@ -47,7 +48,7 @@ hair_result hair_get_reach(const hair_instance* hair, float lower[3], float uppe
     float far = 0;
     include_ties(hair, 0, box);
     for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
-    for (int i = 0; i < 16; ++i) { // The corners at both ends.
+    for (int i = 0; i < 16; ++i) { // The corners at both ends of the step.
         const struct hair_pose* head = i < 8 ? from : to;
         hair_vec3 corner = hair_v3(box[i & 1].x, box[i >> 1 & 1].y, box[i >> 2 & 1].z);
         hair_vec3 at = hair_rotate(head->rotation, corner);
@@ -59,7 +60,7 @@ hair_result hair_get_reach(const hair_instance* hair, float lower[3], float uppe
         }
         far = fmaxf(far, hair_length(corner));
     }
-    // Between them a corner bulges out of its chord by r (1 - cos(half the turn)).
+    // Between both ends a corner bulges out of its chord by r (1 - cos(half the angle)).
     float bulge = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
     hair_vec3 whole[2] = {hair_sub(hair_load3(lower), hair_v3(bulge, bulge, bulge)),
                           hair_add(hair_load3(upper), hair_v3(bulge, bulge, bulge))};

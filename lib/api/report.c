@@ -1,10 +1,11 @@
-// report.c - what became of an instance's work in a frame: done or not and why, how long it took, what memory it has.
+// report.c - reports of an instance's work in a frame: whether it ran and why not, its duration and
+// its memory.
 #include "lib/api/api.h"
 
 #include <string.h>
 
-#define MOST_BUFFERS 17 // of one kind of work
-#define MOST_TEXTURES 2 // likewise, but for those of buffers
+#define MOST_BUFFERS 17 // Maximum for one kind of work.
+#define MOST_TEXTURES 2 // Maximum for one kind of work, without buffer textures.
 
 const char* hair_why_string(hair_why why)
 {
@@ -36,7 +37,7 @@ void hair_begin_frame(hair_instance* hair)
 
 // Reasons -----------------------------------------------------------------------------------------
 
-// Of what is made for views.
+// Return the reason why work for views has not run.
 static hair_why why_not_shown(const struct hair_asked* asked)
 {
     uint32_t views = 0, unseen = 0;
@@ -63,7 +64,8 @@ static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked
     return HAIR_WHY_OUT_OF_VIEW;
 }
 
-// Where hair was in none of the pictures that are to hide it, or the depth test tells no near from far, nothing of it is hidden.
+// Return the reason why occlusion culling has not run. If a view uses it, hair is in no depth
+// image, or the depth test does not tell near from far.
 static hair_why why_not_hidden(const struct hair_asked* asked)
 {
     hair_why shown = why_not_shown(asked);
@@ -111,7 +113,8 @@ static hair_why why_not(const hair_instance* hair, const struct hair_asked* aske
 
 // Memory ------------------------------------------------------------------------------------------
 
-// Buffers of an instance by what they are for; those that are not there are 0.
+// Return the bytes of an instance's buffers and textures for one kind of work. Missing objects are
+// 0.
 static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
 {
     const struct hair_sim* sim = &hair->sim;

@@ -1,4 +1,4 @@
-// save.c - public calls on the state of an instance as bytes.
+// save.c - public calls that save and restore the state of an instance as bytes.
 #include "lib/api/api.h"
 
 hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size)

@@ -1,8 +1,8 @@
-// scalp.c - public calls on a scalp that the host skins.
+// scalp.c - public calls on scalp motion, for a scalp that the application skins.
 #include "lib/api/api.h"
 
-#define FARTHEST 1e9f // m: of a position
-#define LONGEST 4096u // bytes from one to the next
+#define FARTHEST 1e9f // Maximum coordinate of a position, m.
+#define LONGEST 4096u // Maximum stride, bytes.
 
 static hair_result check(const hair_instance* hair, size_t stride, const float* to_world,
                          struct hair_pose* space)
@@ -18,7 +18,8 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
     return result ? result : hair_check_current(hair->context);
 }
 
-// Packed. NULL, having failed: no memory, or one is wrong.
+// Return the positions packed. Return NULL and set `result` if memory runs out or a position is
+// invalid.
 static float* take(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
                    hair_result* result)
 {
@@ -28,7 +29,8 @@ static float* take(const hair_instance* hair, const float* positions, uint32_t c
     for (uint32_t i = 0; i < count && !*result; ++i) {
         const float* p = positions + i * (stride / sizeof *positions);
         for (int k = 0; k < 3; ++k) packed[3 * (size_t)i + (size_t)k] = p[k];
-        if (!(fabsf(p[0]) <= FARTHEST && fabsf(p[1]) <= FARTHEST && fabsf(p[2]) <= FARTHEST)) // NaN too.
+        // NaN fails too.
+        if (!(fabsf(p[0]) <= FARTHEST && fabsf(p[1]) <= FARTHEST && fabsf(p[2]) <= FARTHEST))
             *result = hair_fail(host, HAIR_ERROR_ARGUMENT,
                                 "%s: positions: vertex %u is (%g, %g, %g), not within %g m of the origin",
                                 hair->label, i, (double)p[0], (double)p[1], (double)p[2], (double)FARTHEST);
@@ -61,14 +63,16 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     return result;
 }
 
-// Where it is bound from, for that must be a multiple of something; and how much from there on.
+// Check a buffer of positions. `from` receives the aligned offset at which it is bound, and `size`
+// the bytes from there.
 static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size_t offset, size_t stride,
                                 size_t* from, size_t* size)
 {
     const struct hair_gl* gl = &hair->context->gl;
     GLint64 has = 0, mapped = 0, access = 0;
     GLint most = 0, align = 1;
-    if (!buffer || !gl->IsBuffer(buffer)) // Asking what is none would raise the host's error flag.
+    // Queries of another object would raise the application's error flag.
+    if (!buffer || !gl->IsBuffer(buffer))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
                          buffer);
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &has);

@@ -1,4 +1,4 @@
-// shader.c - shading of the host's own.
+// shader.c - public calls on the application's own shading.
 #include "lib/api/api.h"
 
 static hair_result fill(hair_shader* shader, hair_context* context, const hair_shader_desc* desc)
@@ -9,7 +9,8 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
     hair_result result = hair_gl_make_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
                                              desc->at == HAIR_SHADE_PIXELS, &shader->gl);
     if (result) return result;
-    hair_gl_enter(gl); // What most views draw with; what fails in another fails here.
+    // Compile the variant that most views use. Errors of other variants show here too.
+    hair_gl_enter(gl);
     result = hair_gl_need_own(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
     hair_gl_leave(gl);
     return result;

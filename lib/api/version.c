@@ -1,4 +1,4 @@
-// version.c - what library this is, and its results in words.
+// version.c - the version of the library, and the names of results.
 #include <hair/hair.h>
 
 uint32_t hair_version(void)

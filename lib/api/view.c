@@ -1,12 +1,13 @@
-// view.c - looking at an instance: drawn, or read back.
+// view.c - public calls that draw an instance or read it back.
 #include "lib/api/api.h"
 
 #include <string.h>
 
-#define PARALLEL 1e-3 // sine of the angle that rounding may leave
+#define PARALLEL 1e-3 // Maximum sine of the angle that rounding may leave.
 
-// Orthographic, or in perspective with a depth that is z = a - b / w, b above 0, in front of the light: there clip space has a w
-// that grows away from it, and its depth is a w - b.
+// Return whether a light's matrix is orthographic, or in perspective with a depth of z = a - b / w
+// and b above 0 in front of the light. In perspective, clip space has a w that grows away from the
+// light, and its depth is a w - b.
 static int is_seen_from_light(const hair_light* light)
 {
     const float* m = light->shadow_matrix;
@@ -40,13 +41,13 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
             : "neither orthographic nor in perspective, with depth that grows away from the light");
 }
 
-// What a caller lends a view, checked and copied.
+// Structs that a caller's view points to, checked and copied.
 struct loan {
     hair_lod lod;
     hair_light light[HAIR_LIGHTS];
 };
 
-// They lie as far apart as the caller's are long.
+// Copy and check the lights. They are as far apart as the caller's struct is long.
 static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_light light[HAIR_LIGHTS])
 {
     const hair_host* host = &hair->context->host;
@@ -91,12 +92,13 @@ static hair_result take_view(const hair_instance* hair, const hair_view* view, h
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
     if (!result && own->shader && own->shader->gl.pixels && own->path == HAIR_PATH_COMPUTED)
-        own->path = HAIR_PATH_EXPANDED; // Where pixels are its own, it draws.
+        own->path = HAIR_PATH_EXPANDED; // Shading of pixels needs rasterisation.
     if (!result) result = take_lights(hair, own, loan->light);
     return result ? result : check_sky(hair, own->sky);
 }
 
-// Drawing into an incomplete one would raise the host's error flag and draw nothing.
+// Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
+// and draw nothing.
 static hair_result check_framebuffer(const hair_instance* hair)
 {
     GLenum status = hair->context->gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
@@ -106,7 +108,8 @@ static hair_result check_framebuffer(const hair_instance* hair)
                      status == GL_FRAMEBUFFER_UNDEFINED ? ", there is none" : "");
 }
 
-// Only a slice needs the field, and forms, which shaders read from where the field has put them.
+// Draw the colliders. Only a slice needs the field, and collision meshes, which shaders read from
+// the field's copy.
 static hair_result draw_solids(hair_instance* hair, const hair_view* view)
 {
     const struct hair_solid_list* list = &hair->sim.solids.now;
@@ -127,8 +130,8 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
     return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
 }
 
-// Followers that are inside solids are found and led out before they are looked at, unless nobody can see that. Light is held up
-// by solids all the same.
+// Find followers inside colliders and push them out before they are drawn, unless nobody can see
+// this. Colliders still block light in that case.
 static hair_result meet_solids(hair_instance* hair)
 {
     struct hair_draw* draw = &hair->draw;
@@ -152,8 +155,8 @@ static void make_ready(hair_instance* hair)
     hair_draw_seat(&hair->draw, &hair->smooth, &hair->sim);
 }
 
-// No strand of which a guide's root is held gets farther from there than it is long. The solver redblack stretches it; what
-// is tied, or rides on a scalp that is skinned, is where that has it.
+// Return whether every strand stays within its length of its root. This needs a guide with a fixed
+// root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
 static int is_held(const struct hair_sim* sim)
 {
     return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
@@ -164,14 +167,14 @@ static int is_of_surroundings(const hair_view* view)
     return view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_WIND;
 }
 
-// Velocities want to be asked for in every frame.
+// Return whether a view shows no hair and may be skipped. Velocities must be drawn in every frame.
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
     return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.at_step, view);
 }
 
-// What is asked for is written down.
+// Record the request of a view. Return whether it is to be drawn.
 static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
 {
     struct hair_asked* asked = hair_asked_now(hair);
@@ -255,7 +258,8 @@ hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* r
     return result;
 }
 
-// `from`: xyz from the head's origin in the first three floats of every `stride`.
+// Copy positions to world space. `from` has xyz from the head's origin in the first three floats of
+// every `stride`.
 static void copy_to_world(const float* from, size_t stride, uint32_t count, const struct hair_pose* head,
                           float* out)
 {

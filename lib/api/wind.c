@@ -6,7 +6,7 @@
 static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
                                 double least, double most)
 {
-    if ((double)value >= least && (double)value <= most) return HAIR_OK; // Written so that NaN fails too.
+    if ((double)value >= least && (double)value <= most) return HAIR_OK; // NaN fails too.
     return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
                      "%s: hair_wind.sources[%u].%s is %g, not in [%g, %g]", hair->label, i, name,
                      (double)value, least, most);
@@ -23,7 +23,8 @@ static hair_result check_source(const hair_instance* hair, uint32_t i, const hai
     return result;
 }
 
-// Binding what is no texture would raise the host's error flag.
+// Check that a texture is 3D. Binding an object that is no texture would raise the application's
+// error flag.
 static hair_result check_texture(const hair_instance* hair, GLuint texture)
 {
     const struct hair_gl* gl = &hair->context->gl;

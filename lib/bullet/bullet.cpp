@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#define ROUNDS 600 // as hair_bullet_begin promises
+#define ROUNDS 600 // as hair_bullet_begin() promises
 
 hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_bullet** out)
 {
@@ -81,7 +81,7 @@ const hair_solid* hair_bullet_solids(const hair_bullet* bullet, uint32_t* count)
     return bullet ? bullet->solids : nullptr;
 }
 
-// Nothing of what could not be taken whole is left in the list.
+// Take a shape. On failure nothing of it stays in the list, unless failures are only warned about.
 static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
 {
     const uint32_t before = bullet->count;
@@ -141,7 +141,7 @@ struct hits : btBroadphaseAabbCallback {
     btVector3 lower, upper;
     int groups = -1;
 
-    // Whether to go on.
+    // Collect an object. Return whether to go on.
     bool process(const btBroadphaseProxy* proxy) override
     {
         const btCollisionObject* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);

@@ -1,4 +1,5 @@
-// bullet.h - what the parts of libhair_bullet share: a list of solids, and the forms of shapes that have been met.
+// bullet.h - shared parts of libhair_bullet: a list of colliders, and the collision meshes of
+// shapes already met.
 #ifndef HAIR_BULLET_BULLET_H
 #define HAIR_BULLET_BULLET_H
 
@@ -9,35 +10,36 @@ extern "C" {
 #include "lib/base/host.h"
 }
 
-// A shape that has been met, and what became of it.
+// A shape that has been met, with its collision mesh.
 struct hair_met {
     const btCollisionShape* shape;
-    uint64_t print; // of its numbers: another one, and it is another shape at the same place
-    hair_form* form; // NULL: it can be none, and the log has said so
-    uint32_t round; // of hair_bullet_begin, when it was last met
+    uint64_t print; // hash of its numbers. Another hash means another shape at the same address.
+    hair_form* form; // NULL if the shape can have none, which the log has said.
+    uint32_t round; // number of the hair_bullet_begin() round in which the shape was last met
 };
 
 struct hair_bullet {
     hair_host host;
     uint32_t resolution;
     uint32_t round;
-    uint32_t visits; // of shapes, while one object is taken
+    uint32_t visits; // number of shapes visited while one object is taken
     hair_solid* solids;
     uint32_t count, capacity;
-    hair_met* met; // a table: empty places have no shape
+    hair_met* met; // hash table. Empty slots have no shape.
     uint32_t met_count, met_capacity;
     const void** hits; // proxies that the broadphase has found
     uint32_t hit_count, hit_capacity;
 };
 
-// Room for `count` elements of `size` bytes in an array that is at `array`. The array grows by more than that.
+// Make room for `count` elements of `size` bytes in the array at `array`. The array grows by more
+// than that.
 hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* capacity, uint32_t count,
                                 size_t size);
 
-// Triangles that grow.
+// A growing triangle mesh.
 struct hair_mesh {
     const hair_host* host;
-    hair_result result; // the first failure's; nothing is added after it
+    hair_result result; // first failure. Nothing is added after it.
     float* positions;
     uint32_t* triangles;
     uint32_t vertex_count, triangle_count;
@@ -48,37 +50,45 @@ struct hair_mesh {
     void release();
 };
 
-// What is being taken: where it is, and what its solids have in common.
+// An object or shape being taken: its pose, and the common properties of its colliders.
 struct hair_taking {
     btTransform transform;
     float friction;
-    uint64_t key; // of the object; every solid of it gets another one of that
+    uint64_t key; // key of the object, from which each of its colliders derives its own
     uint32_t depth;
-    bool is_quiet; // what can be no solid is said once, as a warning
+    bool is_quiet; // Shapes that can be no collider cause one warning instead of an error.
 };
 
-// shape.cpp
+// Functions of shape.cpp.
 hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking);
 hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* shape,
                                   const hair_taking& taking, hair_solid solid, const btQuaternion& turn);
 
-// hull.cpp, mesh.cpp: by a shape's form, made if there is none yet. A hull of one point or two needs none.
+// Functions of hull.cpp and mesh.cpp. They add a shape's collider and make its collision mesh if
+// there is none yet. A hull whose points are on one line needs none.
 hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking);
 hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking);
 
-// forms.cpp. `found`: NULL when it has not been met as it is.
+// Functions of forms.cpp.
+// Return the entry of a shape, or NULL if the shape has not been met with this print.
 hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print);
+// Store the collision mesh of a shape and take ownership. NULL stands for a shape that can have
+// none.
 hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
                              hair_form* form);
+// Free the entries that have not been met for more than `rounds` rounds, and the entry of `shape`.
 void hair_bullet_free_old(hair_bullet* bullet, uint32_t rounds, const btCollisionShape* shape);
-// Its solid, rounded by a margin, by the mesh of `points` and `triangles` where the form is not kept yet. Takes the
-// form. A shape that can have none is kept as well, so that it is not tried again.
+// Functions of mesh.cpp.
+// Add the collider of a shape with its collision mesh, rounded by a margin.
 hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* shape,
                                  const hair_taking& taking, const hair_form* form, float rounding,
                                  float scale);
+// Make and store the collision mesh of a shape. A shape that can have none is stored as well, so
+// that it is not tried again.
 hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
                                   const struct hair_mesh& mesh, float room, const hair_form** out);
-uint64_t hair_bullet_print(uint64_t print, const void* bytes, size_t size); // FNV-1a, from a print on
+// Continue the FNV-1a hash `print` with `bytes`. Defined in forms.cpp.
+uint64_t hair_bullet_print(uint64_t print, const void* bytes, size_t size);
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,
                               const char* what);

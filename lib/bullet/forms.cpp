@@ -1,4 +1,5 @@
-// forms.cpp - the forms of shapes that have been met, by the shape's address and a print of its numbers.
+// forms.cpp - collision meshes of shapes already met, found by the shape's address and a hash of
+// its numbers.
 #include "lib/bullet/bullet.h"
 
 #include <cstring>
@@ -27,7 +28,8 @@ hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, u
     return met;
 }
 
-// All but what `drops` says, into a table of that capacity.
+// Rebuild the table with `capacity` slots, without the entry of `shape` and entries older than
+// `rounds` rounds.
 static hair_result rebuild(hair_bullet* bullet, uint32_t capacity, uint32_t rounds,
                            const btCollisionShape* shape)
 {
@@ -61,7 +63,7 @@ hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape,
     }
     hair_met* met = &bullet->met[place_of(bullet, shape)];
     if (met->shape)
-        hair_form_destroy(met->form); // It was another one then.
+        hair_form_destroy(met->form); // The shape was another one then.
     else
         ++bullet->met_count;
     *met = {shape, print, form, bullet->round};
@@ -74,5 +76,6 @@ void hair_bullet_free_old(hair_bullet* bullet, uint32_t rounds, const btCollisio
     for (uint32_t i = 0; i < bullet->met_capacity; ++i)
         any = any || (bullet->met[i].shape &&
                       (bullet->met[i].shape == shape || bullet->round - bullet->met[i].round > rounds));
-    if (any) rebuild(bullet, bullet->met_capacity, rounds, shape); // Without memory they stay a while longer.
+    // Without memory, the entries stay longer.
+    if (any) rebuild(bullet, bullet->met_capacity, rounds, shape);
 }

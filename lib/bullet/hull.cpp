@@ -1,4 +1,5 @@
-// hull.cpp - convex shapes that are nothing simpler: the hull of their points as a form, their margin as its rounding.
+// hull.cpp - other convex shapes: the hull of their points as a collision mesh, and their margin as
+// its rounding.
 #include "lib/bullet/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
@@ -7,17 +8,18 @@
 #include <cmath>
 
 #define MOST_POINTS 1048576
-#define DIRECTIONS 1024 // over a sphere: a hull of points that far apart sags 0.4 % of the radius
+// Number of directions over a sphere. A hull of points that far apart sags by 0.4 % of the radius.
+#define DIRECTIONS 1024
 
 namespace
 {
-// Points whose hull it is, and what is to be added all round.
+// Points of a hull, and the rounding to be added all around.
 struct cloud {
     hair_mesh mesh;
     float rounding;
 };
 
-// The i-th of DIRECTIONS along Fibonacci's spiral.
+// Return the i-th of DIRECTIONS directions along Fibonacci's spiral.
 btVector3 direction(int i)
 {
     const double z = 1 - (2 * i + 1.0) / DIRECTIONS, around = std::sqrt(1 - z * z),
@@ -36,8 +38,9 @@ struct mesh_points : btInternalTriangleIndexCallback {
 };
 } // namespace
 
-// Spheres of one radius are their centres, rounded. Of others the least radius is the rounding, and the rest of each is
-// points over a sphere. Where its scale is not uniform Bullet scales the spheres, and so are the points.
+// Add the points of spheres. Spheres of equal radius are their centres with a rounding. Otherwise
+// the minimum radius is the rounding, and the rest of each sphere is points on it. Bullet scales
+// spheres if the scale is not uniform, so the points are scaled too.
 static void add_spheres(const btMultiSphereShape* shape, cloud* out)
 {
     const btVector3& s = shape->getLocalScaling();
@@ -94,7 +97,8 @@ static void gather(const btConvexShape* shape, cloud* out)
             }
             return;
         }
-        for (int k = 0; k < DIRECTIONS; ++k) // Whatever it is: where it is farthest in every direction.
+        // Take the farthest point of any other shape in every direction.
+        for (int k = 0; k < DIRECTIONS; ++k)
             out->mesh.add_vertex(shape->localGetSupportingVertexWithoutMargin(direction(k)));
     }
 }
@@ -105,12 +109,13 @@ static btVector3 vertex(const hair_mesh& mesh, uint32_t i)
     return btVector3(at[0], at[1], at[2]);
 }
 
-// Points that are one, or on one line: a sphere or a capsule of the rounding. Else false.
+// Make a sphere or a capsule of points that coincide or are on one line. Return false for other
+// points.
 static bool as_capsule(const hair_mesh& points, hair_solid* solid, btQuaternion* turn)
 {
     uint32_t a = 0, b = 0;
     for (int round = 0; round < 3;
-         ++round) { // From any point the farthest one, from there the farthest, and back.
+         ++round) { // From any point to the farthest one, to the farthest from there, and back.
         uint32_t from = round % 2 ? b : a, far = from;
         for (uint32_t i = 0; i < points.vertex_count; ++i)
             if (vertex(points, i).distance2(vertex(points, from)) >
@@ -147,7 +152,7 @@ static void close_hull(const hair_mesh& points, hair_mesh* out)
     }
 }
 
-// Its points, that it need not be made again where they are the same.
+// Return a hash of the points, by which a hull is made only once.
 static uint64_t print_of(const cloud& points)
 {
     uint64_t print = hair_bullet_print(0xcbf29ce484222325u, points.mesh.positions,
@@ -168,7 +173,7 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
     hair_solid solid = hair_solid_default();
     btQuaternion turn;
     if (as_capsule(points.mesh, &solid, &turn)) {
-        solid.size[0] = points.rounding; // As a radius, all of it.
+        solid.size[0] = points.rounding; // All of the rounding is the radius.
         return hair_bullet_add_solid(bullet, shape, taking, solid, turn);
     }
     const uint64_t print = print_of(points);

@@ -1,4 +1,5 @@
-// mesh.cpp - triangle meshes and height fields as forms; and the making of forms for hulls as well.
+// mesh.cpp - triangle meshes and height fields as collision meshes, and the construction of
+// collision meshes for hulls.
 #include "lib/bullet/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
@@ -6,8 +7,10 @@
 
 #include <cmath>
 
-#define MOST_TRIANGLES 16777216u // of a form
-#define DEPTH 0.1f // of a height field below its lowest point, as a share of its longest side
+// Maximum number of vertices of a collision mesh. Each triangle has three of its own.
+#define MOST_TRIANGLES 16777216u
+// Depth of a height field below its lowest point, as a fraction of its longest side.
+#define DEPTH 0.1f
 
 // Meshes ------------------------------------------------------------------------------------------
 
@@ -82,14 +85,14 @@ hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* sh
 
 namespace
 {
-// How many triangles there are.
+// Count the triangles.
 struct counter : btTriangleCallback {
     uint64_t count = 0;
 
     void processTriangle(btVector3*, int, int) override { ++count; }
 };
 
-// Every triangle with vertices of its own.
+// Gather the triangles, each with its own vertices.
 struct gatherer : btTriangleCallback {
     hair_mesh* mesh = nullptr;
 
@@ -104,7 +107,7 @@ struct gatherer : btTriangleCallback {
 
 // Height fields -----------------------------------------------------------------------------------
 
-// Walls down from its rim, and a floor: closed, so that it has an inside.
+// Add walls below the rim and a floor. The mesh is then closed and has an inside.
 static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 {
     const uint32_t up = static_cast<uint32_t>(field->getUpAxis()), u = (up + 1) % 3, v = (up + 2) % 3;
@@ -144,7 +147,7 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 
 // Forms -------------------------------------------------------------------------------------------
 
-// What of a shape can be looked at in no time: its bounds and its scale.
+// Return a hash of the properties that are cheap to read: bounds, scale and margin.
 static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, const btVector3& upper)
 {
     float numbers[10];
@@ -158,7 +161,8 @@ static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, co
     return print > 1 ? print : 2;
 }
 
-// The shape is remembered as one that makes no form, so that its triangles are not counted again.
+// Refuse a shape with too many triangles. It is stored without a collision mesh, so that they are
+// not counted again.
 static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
                           uint64_t print, uint64_t count)
 {
@@ -194,7 +198,7 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
 
 hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking)
 {
-    // One mesh that many shapes scale evenly is one form.
+    // All uniformly scaled copies of a mesh use one collision mesh.
     const btConcaveShape* own = shape;
     float scale = 1;
     if (shape->getShapeType() == SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE) {

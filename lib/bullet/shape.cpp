@@ -1,13 +1,13 @@
-// shape.cpp - Bullet's shapes as solids: what is exact here, and where the rest goes.
+// shape.cpp - Bullet's shapes as colliders: exact ones here, the others by hull.cpp and mesh.cpp.
 #include "lib/bullet/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
 
 #include <cmath>
 
-// One that holds itself would never end.
-#define DEEPEST 16 // compounds in compounds
-#define MOST 1048576u // shapes of an object
+// Maximum depth of compounds in compounds. A compound that contains itself would never end.
+#define DEEPEST 16
+#define MOST 1048576u // Maximum number of shapes of an object.
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,
                               const char* what)
@@ -15,7 +15,7 @@ hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape
     if (!taking.is_quiet)
         return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "Bullet's shape %s of type %d %s",
                          shape->getName(), shape->getShapeType(), what);
-    const uint64_t wrong = 1; // In place of a print.
+    const uint64_t wrong = 1; // In place of a hash.
     if (hair_bullet_find(bullet, shape, wrong)) return HAIR_ERROR_ARGUMENT;
     const hair_result result = hair_bullet_keep(bullet, shape, wrong, nullptr);
     if (result) return result;
@@ -29,7 +29,7 @@ static bool is_finite(const btVector3& v)
     return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
-// `turn`: of the solid within the shape.
+// Add a collider to the list. `turn` is its rotation within the shape.
 hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* shape,
                                   const hair_taking& taking, hair_solid solid, const btQuaternion& turn)
 {
@@ -71,7 +71,8 @@ hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* s
     return result;
 }
 
-// The turn that takes +y to an axis. For the others of its kind any turn about it will do.
+// Return a rotation that takes +y to an axis. Any rotation about that axis is equivalent for shapes
+// of revolution.
 static btQuaternion turn_to(int axis)
 {
     const btScalar half = btScalar(0.70710678118654752);
@@ -80,7 +81,8 @@ static btQuaternion turn_to(int axis)
                        : btQuaternion(0, 0, 0, 1);
 }
 
-// What setMargin has made of a size may be below zero; the margin is then more than the whole.
+// Return a size. setMargin() may have made it negative, if the margin is larger than the whole
+// shape.
 static float size_of(btScalar without_margin)
 {
     return without_margin < 0 ? 0.0f : static_cast<float>(without_margin);
@@ -104,7 +106,7 @@ static hair_result add_capsule(hair_bullet* bullet, const btCapsuleShape* capsul
     return hair_bullet_add_solid(bullet, capsule, taking, solid, turn_to(capsule->getUpAxis()));
 }
 
-// Bullet takes the radius along one axis, also where the other is longer.
+// Add a cylinder. Bullet takes the radius along one axis, even if the other radius is larger.
 static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cylinder,
                                 const hair_taking& taking)
 {
@@ -118,7 +120,8 @@ static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cyli
     return hair_bullet_add_solid(bullet, cylinder, taking, solid, turn_to(up));
 }
 
-// To a cone the margin is added; from the others it has been taken before.
+// Add a cone. Bullet adds the margin to a cone, but subtracts the margin from other shapes
+// beforehand.
 static hair_result add_cone(hair_bullet* bullet, const btConeShape* cone, const hair_taking& taking)
 {
     hair_solid solid = hair_solid_default();
@@ -148,7 +151,7 @@ static hair_result add_plane(hair_bullet* bullet, const btStaticPlaneShape* plan
                                  shortestArcQuat(btVector3(0, 1, 0), normal.normalized()));
 }
 
-// Its scale has been given to the children and to where they are.
+// Add a compound. Its scale is already part of the children and their transforms.
 static hair_result add_compound(hair_bullet* bullet, const btCompoundShape* compound,
                                 const hair_taking& taking)
 {
