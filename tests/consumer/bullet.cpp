@@ -1,4 +1,4 @@
-// bullet.cpp - a program that has a Bullet world and asks it for solids.
+// bullet.cpp - a program that takes the colliders of a Bullet world.
 #include <btBulletCollisionCommon.h>
 #include <hair/hair_bullet.h>
 

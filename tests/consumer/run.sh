@@ -1,8 +1,9 @@
 #!/bin/sh
-# run.sh - programs that use hair as anyone would: from an installed tree, through pkg-config, in C and in C++,
-# with the static and with the shared libraries. And the README's program is the one that is run.
-#   run.sh PREFIX OUT      PREFIX/usr was installed to; OUT is where programs go
-# CC, CXX: the compilers. OPT: options that the libraries were built with, such as sanitizers.
+# run.sh - build and run programs that use hair from an installed tree, through pkg-config, in C and
+# in C++, with the static and the shared libraries. Check that the README shows the program that is run.
+#   run.sh PREFIX OUT      The tree is installed in PREFIX/usr. Programs are written to OUT.
+# CC and CXX name the compilers. OPT has the options that the libraries were built with, such as
+# sanitizers.
 set -eu
 prefix=$1
 out=$2
@@ -25,7 +26,7 @@ build_and_run() {
     shift 2
     # shellcheck disable=SC2086
     $compiler $strict $OPT "$here/hello.c" -x none "$@" -o "$out/$name" || fail "$name does not build"
-    # Under a sanitizer: the driver's own leaks are not the program's.
+    # Leaks of the driver are not the program's, so a sanitizer must not report them.
     output=$(ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH="$prefix/usr/lib" "$out/$name") || fail "$name does not run"
     case $output in
     "the tip is at ("*") m") ;;
@@ -36,7 +37,7 @@ build_and_run() {
     echo "consumer: $name: $output"
 }
 
-# The .pc files find their tree by where they lie themselves.
+# The .pc files find their tree relative to their own location.
 static=$(pkg-config --static --cflags --libs hair_egl)
 shared=$(pkg-config --cflags --libs hair_egl)
 case $shared in
@@ -48,7 +49,7 @@ pkg-config --exists "hair >= 0.1" || fail "hair.pc has no version"
 
 for standard in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++" "$CXX -std=c++17 -x c++" "$CXX -std=c++20 -x c++"; do
     language=$(echo "$standard" | sed 's/.*-std=\([^ ]*\).*/\1/')
-    # -Bstatic for hair alone: the system's EGL has no static library.
+    # Only hair is linked statically, because the system's EGL has no static library.
     static_hair=$(echo "$static" | sed 's/-lhair_egl/-l:libhair_egl.a/; s/-lhair\( \|$\)/-l:libhair.a\1/')
     # shellcheck disable=SC2086
     build_and_run "hello-$language-static" "$standard" $static_hair
@@ -56,7 +57,7 @@ for standard in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++" "$CXX -std=c++17 -x
     build_and_run "hello-$language-shared" "$standard" -DHAIR_SHARED $shared
 done
 
-# A program with a Bullet world, if that library was built.
+# Build a program with a Bullet world, if libhair_bullet was built.
 if pkg-config --exists hair_bullet; then
     shared=$(pkg-config --cflags --libs hair_bullet bullet)
     static=$(echo "$(pkg-config --cflags --libs hair_bullet) $shared -lm" |
@@ -70,12 +71,13 @@ if pkg-config --exists hair_bullet; then
     echo "consumer: bullet: $output"
 fi
 
-# A program that links the static library does not pass its symbols on, also when it exports its own.
+# Check that a program with the static library does not export the library's symbols, even if it
+# exports its own.
 # shellcheck disable=SC2086
 $CC -std=c99 $OPT -rdynamic "$here/hello.c" $static_hair -o "$out/hello-exporting"
 if nm -D --defined-only "$out/hello-exporting" | grep ' hair_'; then fail "the static library exports these (above)"; fi
 
-# Every header can be the only one.
+# Check that every header can be included alone.
 for header in "$prefix"/usr/include/hair/*.h; do
     for compiler in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++"; do
         # shellcheck disable=SC2086
@@ -84,7 +86,7 @@ for header in "$prefix"/usr/include/hair/*.h; do
     done
 done
 
-# The first program of the README is this very one.
+# Check that the first program of the README is hello.c.
 readme=$here/../../README.md
 if [ -e "$readme" ]; then
     awk '/^```c$/ {on = 1; next} /^```$/ {if (on) exit} on' "$readme" | diff -u "$here/hello.c" - >"$out/readme.diff" || {

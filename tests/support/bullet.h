@@ -1,4 +1,5 @@
-// bullet.h - for tests in C++ of libhair_bullet: cmocka, a counting host, and Bullet's own distance to a shape.
+// bullet.h - helpers of C++ tests of libhair_bullet: cmocka, a counting host, and Bullet's own
+// distance to a shape.
 #ifndef HAIR_TESTS_SUPPORT_BULLET_H
 #define HAIR_TESTS_SUPPORT_BULLET_H
 
@@ -21,7 +22,7 @@ extern "C" {
 double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3]);
 }
 
-// Of each test: a host, and what converts.
+// State of each test: a host and a converter.
 struct bullet_test {
     hair_test_host host;
     hair_bullet* bullet;
@@ -44,7 +45,7 @@ static int stop(void**)
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, start, stop)
 
-// The list, of the given length.
+// Return the list of colliders, which must have the given length.
 static inline const hair_solid* solids(uint32_t expected)
 {
     uint32_t count;
@@ -64,7 +65,8 @@ static inline double nearest(const btVector3& p)
     return distance;
 }
 
-// By GJK, from a point to a convex shape with its margin; inside its core by EPA, which is less exact.
+// Return the distance from a point to a convex shape with its margin, by GJK. Inside the core EPA
+// is used, which is less exact.
 static inline double gjk(const btConvexShape* shape, const btTransform& where, const btVector3& p)
 {
     btSphereShape point(0);

@@ -1,4 +1,4 @@
-// crowd.c - hair close together, and the state of it.
+// crowd.c - hair close together, and its state.
 #include "tests/support/crowd.h"
 
 #include <stdlib.h>
@@ -42,7 +42,7 @@ void hair_test_set_state(struct hair_test_living* living, const struct hair_stat
     glNamedBufferStorage(from, (GLsizeiptr)size, state, 0);
     glCopyNamedBufferSubData(from, sim->state, 0, 0, (GLsizeiptr)size);
     glDeleteBuffers(1, &from);
-    // What the solvers with a past know of the velocity.
+    // Solvers with a history also store the velocity there.
     struct hair_history* past = calloc(sim->guide_vertices, sizeof *past);
     for (uint32_t i = 0; i < sim->guide_vertices; ++i)
         past[i].rate = past[i].rate_before = state[i].displacement;

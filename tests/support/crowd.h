@@ -1,4 +1,4 @@
-// crowd.h - hair close together, to be set in motion by hand.
+// crowd.h - hair close together that tests set in motion.
 #ifndef HAIR_TESTS_SUPPORT_CROWD_H
 #define HAIR_TESTS_SUPPORT_CROWD_H
 
@@ -8,15 +8,16 @@
 
 #define HAIR_TEST_CROWD_VERTICES 12 // of each guide
 
-// 36 straight guides of 10 cm that hang from a square, each even one and the next in the same place.
+// Create 36 straight guides of 10 cm that hang from a square. Guides 2 i and 2 i + 1 are in the
+// same place.
 void hair_test_crowd(struct hair_test* test, const hair_desc* desc, float width,
                      struct hair_test_living* out);
 
-// Nothing acts but the crowd: no gravity, air, pull or bending.
+// Return physics in which only the hair-hair grid acts, without gravity, air, pull or bending.
 hair_physics hair_test_only_crowd(float cohesion, float volume);
 
-// The state, and the velocity that a solver keeps beside it.
+// Set the state, and the velocity that a solver keeps beside it.
 void hair_test_set_state(struct hair_test_living* living, const struct hair_state* state);
-void* hair_test_buffer(GLuint buffer, size_t size); // what it holds, to be freed
+void* hair_test_buffer(GLuint buffer, size_t size); // Return its contents, to be freed.
 
 #endif

@@ -1,7 +1,9 @@
-// dlclose.c - keeps the OpenGL driver loaded to the end of the program, and its own leaks out of the report.
+// dlclose.c - a dlclose() that keeps the OpenGL driver loaded to the end of the program, and leaks
+// of the driver out of the report.
 //
-// Leaks are looked for when the program ends. By then EGL has unloaded the driver: what the driver itself
-// forgot (a few hundred bytes, whoever calls it) would be reported without a name to suppress it by.
+// Leaks are searched at the end of the program. Without this file EGL has then unloaded the driver.
+// The driver's own leaks of a few hundred bytes would be reported without a name by which to
+// suppress them.
 
 int dlclose(void* library);
 const char* __lsan_default_suppressions(void);

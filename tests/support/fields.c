@@ -1,4 +1,4 @@
-// fields.c - the field read back, and closed forms of what it should hold.
+// fields.c - the field read back, and closed forms of its expected values.
 #include "tests/support/fields.h"
 
 #include "lib/collide/distance.h"

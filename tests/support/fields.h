@@ -1,4 +1,4 @@
-// fields.h - the field read back, and what it should hold by closed forms in double precision.
+// fields.h - the field read back, and its expected values by closed forms in double precision.
 #ifndef HAIR_TESTS_SUPPORT_FIELDS_H
 #define HAIR_TESTS_SUPPORT_FIELDS_H
 
@@ -12,7 +12,7 @@ struct hair_test_field {
     uint32_t* number;
 };
 
-// Of a field that is there.
+// Read back a field that exists.
 struct hair_test_field hair_test_field_read(const struct hair_solid_field* field);
 void hair_test_field_free(struct hair_test_field* read);
 
@@ -21,14 +21,16 @@ static inline size_t hair_test_field_count(const struct hair_test_field* read)
     return (size_t)read->size[0] * read->size[1] * read->size[2];
 }
 
-// To the nearest of them; `number` becomes its place. INFINITY of none.
+// Return the distance to the nearest collider, or INFINITY without colliders. `number` receives the
+// collider's index.
 double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number);
 
-// Where the middle of the i-th voxel is in the world.
+// Compute the position of the centre of the i-th voxel in the world.
 void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* head, size_t i,
                      double point[3]);
 
-// A solid of any shape but a plane or a form, near the middle of the box, for it has been said to be within `reach` of it.
+// Return a random collider of any shape except a plane or a collision mesh, within `reach` of the
+// middle of the box.
 hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
                                uint32_t* random);
 

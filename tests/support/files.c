@@ -1,4 +1,4 @@
-// files.c - small haircut files of every format, made in memory, and reading them under watch.
+// files.c - small haircut files of every format, made in memory, and a checked read of them.
 #include "tests/support/files.h"
 
 #include <math.h>
@@ -71,7 +71,7 @@ struct hair_test_file hair_test_hair(uint32_t arrays)
     static const uint32_t varied[3] = {3, 2, 4};
     struct hair_test_file file = {0};
     char info[88];
-    memset(info, 'i', sizeof info); // No 0 ends it.
+    memset(info, 'i', sizeof info); // not terminated by 0
     hair_test_put_text(&file, "HAIR");
     hair_test_put_u32(&file, 3);
     hair_test_put_u32(&file, 9);
@@ -89,14 +89,14 @@ struct hair_test_file hair_test_hair(uint32_t arrays)
     return file;
 }
 
-// Sections stand in another order than their offsets do.
+// Return a file whose sections are in another order than their offsets.
 struct hair_test_file hair_test_tfx4(void)
 {
     struct hair_test_file file = {0};
     hair_test_put_float(&file, 4);
     hair_test_put_u32(&file, 3);
     hair_test_put_u32(&file, 4);
-    hair_test_put_u32(&file, 160 + 24 + 12); // positions, after
+    hair_test_put_u32(&file, 160 + 24 + 12); // positions, last of these
     hair_test_put_u32(&file, 160); // coordinates of strands
     hair_test_put_u32(&file, 160 + 24 + 12 + 192);
     hair_test_put_u32(&file, 160 + 24); // thickness
@@ -169,7 +169,7 @@ static void assert_fit(const struct hair_strands* strands)
 hair_result hair_test_read(struct hair_test_host* test, const hair_import* import, const void* bytes,
                            size_t size, hair_asset** out)
 {
-    // A copy of exactly this size, so that the address sanitizer sees any byte read beyond it.
+    // Copy to exactly this size, so that the address sanitizer sees any read beyond it.
     void* copy = malloc(size ? size : 1);
     assert_non_null(copy);
     if (size) memcpy(copy, bytes, size);

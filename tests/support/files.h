@@ -1,4 +1,4 @@
-// files.h - small haircut files of every format, made in memory, and reading them under watch.
+// files.h - small haircut files of every format, made in memory, and a checked read of them.
 #ifndef HAIR_TESTS_SUPPORT_FILES_H
 #define HAIR_TESTS_SUPPORT_FILES_H
 
@@ -6,7 +6,7 @@
 #include "tests/support/host.h"
 
 struct hair_test_file {
-    unsigned char* bytes; // free() it
+    unsigned char* bytes; // to be freed by free()
     size_t size, room;
 };
 
@@ -17,18 +17,22 @@ void hair_test_put_float(struct hair_test_file* file, float value);
 void hair_test_set_u32(struct hair_test_file* file, size_t at, uint32_t value);
 void hair_test_set_float(struct hair_test_file* file, size_t at, float value);
 
-// Three strands, with every part that the format has; strand i stands at x = i, vertex j at y = j.
-// .hair: of 3, 2 and 4 vertices with the arrays of `arrays`; without segments of 3 each.
+// All files have three strands and every part of their format. Strand i is at x = i. Vertex j is at
+// y = j.
+
+// Return a .hair file with the arrays of `arrays`. Strands have 3, 2 and 4 vertices, or 3 each
+// without segments.
 struct hair_test_file hair_test_hair(uint32_t arrays);
-// .tfx: of 4 vertices each.
+// Return a .tfx file with 4 vertices per strand.
 struct hair_test_file hair_test_tfx4(void);
 struct hair_test_file hair_test_tfx3(void);
 struct hair_test_file hair_test_tfx2(void);
 
-hair_import hair_test_import(void); // The defaults.
+hair_import hair_test_import(void); // Return the defaults.
 
-// Decode, and hold the library to what it promises of every input: one sentence with the byte offset and no
-// asset on HAIR_ERROR_FILE; a fit haircut on HAIR_OK; no more memory than promised. The caller frees the asset.
+// Decode a file and check what the library promises of every input. HAIR_ERROR_FILE comes with one
+// sentence with the byte offset and without an asset. HAIR_OK comes with a valid haircut. Memory
+// stays within the promised bound. The caller frees the asset.
 hair_result hair_test_read(struct hair_test_host* test, const hair_import* import, const void* bytes,
                            size_t size, hair_asset** out);
 

@@ -1,4 +1,4 @@
-// fluids.c - air about a ball, and what is in its buffers.
+// fluids.c - a fluid around a ball, and the contents of its buffers.
 #include "tests/support/fluids.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "lib/reference/fluid.h"
 
-// Strands along every axis, so that the field is a cube.
+// Make strands along every axis, so that the field is a cube.
 static hair_groom* make_groom(struct hair_test* test)
 {
     float positions[6 * 4 * 3] = {0};
@@ -81,7 +81,7 @@ void hair_test_put_floats(GLuint buffer, const double* numbers, size_t count)
 {
     float* floats = malloc(count * sizeof *floats);
     for (size_t i = 0; i < count; ++i) floats[i] = (float)numbers[i];
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    glFinish(); // One driver loses data written to a buffer that a running dispatch writes.
     glNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *floats), floats);
     free(floats);
 }

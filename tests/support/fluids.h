@@ -1,4 +1,4 @@
-// fluids.h - air about a ball, and what is in its buffers.
+// fluids.h - a fluid around a ball, and the contents of its buffers.
 #ifndef HAIR_TESTS_SUPPORT_FLUIDS_H
 #define HAIR_TESTS_SUPPORT_FLUIDS_H
 
@@ -12,36 +12,39 @@
 
 struct hair_test_fluid {
     struct hair_test* test;
-    hair_groom* groom; // the field is around it
+    hair_groom* groom; // The field is around it.
     struct hair_solid_field field;
-    struct hair_solids solids; // one ball, if any
+    struct hair_solids solids; // one ball at most
     struct hair_fluid fluid;
     struct hair_fluid_now now; // wind of 5 m/s along x, steps of 1/60 s
     uint32_t cells;
-    size_t faces, count; // of faces in an array of velocities; of cells
+    size_t faces, count; // number of faces in an array of velocities, and of cells
 };
 
-// With the OpenGL state entered until the end.
+// Create a fluid. The OpenGL state is entered until hair_test_fluid_end().
 void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc* desc, int ball,
                            struct hair_test_fluid* out);
 void hair_test_fluid_end(struct hair_test_fluid* f);
 
 struct hair_fluid_desc hair_test_fluid_desc(uint32_t cells);
 
-// Where the last step left it, as doubles to be freed.
+// Return the velocity that the last step left, as doubles to be freed.
 double* hair_test_fluid_velocity(const struct hair_test_fluid* f);
-// The first numbers of a buffer, likewise; and put there.
+// Return the first numbers of a buffer, as doubles to be freed.
 double* hair_test_floats(GLuint buffer, size_t count);
+// Write the first numbers of a buffer.
 void hair_test_put_floats(GLuint buffer, const double* numbers, size_t count);
-// Of the finest level or one beyond, in three arrays as of velocities, likewise.
+// Return the openness of the faces of a level, 0 being the finest, in three arrays like velocities,
+// to be freed.
 double* hair_test_fluid_open(const struct hair_test_fluid* f, uint32_t level);
 
-// One component at a place in cells from the box's corner, linear between faces.
+// Return one component at a place in cells from the box's corner, interpolated linearly between
+// faces.
 double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocity, int axis,
                           const double place[3]);
-// Root mean square of what flows into cells as the last step left them.
+// Return the root mean square of the flow into cells that the last step left.
 double hair_test_fluid_left(struct hair_test_fluid* f);
-// Gusts at such a place, m/s, from their texture's texels.
+// Compute the gusts at a place in cells, m/s, from the texels of their texture.
 void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_air_gusts* gusts,
                        const float* texel, const double place[3], double out[3]);
 double hair_test_rms(const double* numbers, size_t count);

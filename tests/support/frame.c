@@ -1,4 +1,4 @@
-// frame.c - something to draw into, its pixels, and pictures of them as PNG.
+// frame.c - a framebuffer to draw into, its pixels, and PNG files of them.
 #include "tests/support/frame.h"
 
 #include <png.h>

@@ -1,5 +1,5 @@
-// glstate.c - the whole of OpenGL's state that a host may care about: set to odd values, written down,
-// compared.
+// glstate.c - all of the OpenGL state that an application may care about: set to odd values,
+// recorded, compared.
 #include "tests/support/glstate.h"
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 struct row {
     const char* name;
     GLenum what;
-    int count; // of its components
+    int count; // number of its components
 };
 
 static const struct row integers[] = {
@@ -120,7 +120,7 @@ static const struct row reals[] = {
 };
 
 static const struct row switches[] = {
-    {NAME(GL_BLEND), 8}, // a switch for each of so many draw buffers, viewports or distances
+    {NAME(GL_BLEND), 8}, // one switch per draw buffer, viewport or distance
     {NAME(GL_SCISSOR_TEST), 4},
     {NAME(GL_CLIP_DISTANCE0), 0},
     {NAME(GL_CLIP_DISTANCE3), 0},
@@ -166,7 +166,7 @@ static const struct row textures[] = {
     {NAME(GL_SAMPLER_BINDING), 1},
 };
 
-// Bindings of a number each, with its limit and the names of buffer, start and size, or other parts.
+// Indexed bindings, with their number and the names of buffer, start and size, or of other parts.
 static const struct {
     int count;
     struct row part[6];
@@ -315,7 +315,7 @@ static void disturb_buffers(void)
     glBindVertexArray(vertices);
     glCreateTransformFeedbacks(1, &feedback);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback);
-    // Odd ones as a range, even ones whole, some not at all.
+    // Bind odd ones as a range, even ones whole, and some not at all.
     for (GLuint i = 0; i < 16; ++i)
         if (i % 5 != 4) {
             if (i % 2)
@@ -370,7 +370,7 @@ static void disturb_program(void)
     glBindProgramPipeline(pipeline);
 }
 
-// To a framebuffer of 32 by 32 with two colours, depth and stencil.
+// Bind a framebuffer of 32 by 32 with two colours, depth and stencil.
 static void disturb_targets(void)
 {
     GLuint target[4], frame[2];

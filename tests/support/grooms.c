@@ -1,4 +1,5 @@
-// grooms.c - strands and scalps to make grooms of, and followers evaluated as they are drawn.
+// grooms.c - strands and scalps from which grooms are made, and followers evaluated as they are
+// drawn.
 #include "tests/support/grooms.h"
 
 #include <stdlib.h>
@@ -107,7 +108,7 @@ hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_fol
     struct hair_smoothed_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
     hair_vec3 p[4];
     for (int i = 0; i < 4; ++i) p[i] = xyz(follower->offset[i]);
-    for (int n = 3; n > 0; --n) // De Casteljau
+    for (int n = 3; n > 0; --n) // De Casteljau's algorithm.
         for (int i = 0; i < n; ++i) p[i] = hair_lerp(p[i], p[i + 1], t);
     return hair_add(guide.position, hair_rotate(guide.frame, p[0]));
 }

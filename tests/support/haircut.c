@@ -1,4 +1,4 @@
-// haircut.c - built-in haircuts, for tests of what is seen of hair.
+// haircut.c - built-in haircuts, for tests of how hair looks.
 #include "tests/support/haircut.h"
 
 hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* style, uint32_t followers)

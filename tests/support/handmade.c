@@ -1,4 +1,5 @@
-// handmade.c - grooms made by hand: guides that wander at random from a ball, followers around them.
+// handmade.c - synthetic grooms: guides that wander at random from a ball, and followers around
+// them.
 #include "tests/support/handmade.h"
 
 #include <stdlib.h>
@@ -20,7 +21,7 @@ struct hair_test_handmade hair_test_handmade_default(void)
                                        .seed = 1};
 }
 
-// Tests of refused memory make their grooms before they refuse any.
+// Allocate or abort. Tests of refused memory make their grooms before they refuse any.
 static void* take(const hair_host* host, size_t count, size_t size)
 {
     void* memory = hair_alloc(host, count, size);
@@ -33,7 +34,7 @@ static float between(uint32_t* random, float least, float most)
     return least + (most - least) * hair_random(random);
 }
 
-// Evenly over the upper half of the ball (Fibonacci's lattice).
+// Return the i-th root, evenly over the upper half of the ball (Fibonacci's lattice).
 static hair_vec3 find_root(uint32_t i, uint32_t count)
 {
     float y = 0.1f + 0.9f * ((float)i + 0.5f) / (float)count;

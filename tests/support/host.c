@@ -1,4 +1,4 @@
-// host.c - a host that counts and refuses memory on demand, and remembers what was logged.
+// host.c - a host that counts memory, refuses memory on demand, and remembers the log.
 #include "tests/support/host.h"
 
 #include <stdio.h>

@@ -198,7 +198,7 @@ void hair_test_healthy(struct hair_test_living* living)
     assert_int_equal(health.reset, 0);
 }
 
-// What the arrays of hair_reference_rod_desc point to.
+// Arrays that hair_reference_rod_desc points to.
 struct arrays {
     double positions[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], lengths[HAIR_REFERENCE_ROD_MOST_VERTICES];
     double scale[HAIR_REFERENCE_ROD_MOST_VERTICES], pull[HAIR_REFERENCE_ROD_MOST_VERTICES];
@@ -223,7 +223,7 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
     }
 }
 
-// By the mass of a metre of hair, as in lib/sim/rod.h.
+// Fill in the material, with the mass of a metre of hair as the unit of mass, as in lib/sim/rod.h.
 static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
 {
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
@@ -275,7 +275,7 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
         hair_reference_rod_strain(of->count, arrays->positions, desc.root_frame, arrays->strain);
     double most = 0;
     for (uint32_t i = 0; i < 3 * (of->count - 1); ++i) most = fmax(most, fabs(arrays->strain[i]));
-    // Straight guides, too, have the energy of curved ones where the mixed scheme solves them.
+    // The mixed scheme solves straight guides with the energy of curved ones.
     desc.straight = most < 2e-5 && physics->flatness == 1 && !hair_sim_is_mixed(&living->hair->sim);
     struct hair_reference_rod* rod = hair_reference_rod_create(&desc);
     free(arrays);

@@ -1,4 +1,5 @@
-// living.h - strands brought to life as guides, stepped and read; and the same strands as rods of the reference.
+// living.h - strands brought to life as guides, stepped and read, and the same strands as rods of
+// the reference.
 #ifndef HAIR_TESTS_SUPPORT_LIVING_H
 #define HAIR_TESTS_SUPPORT_LIVING_H
 
@@ -12,72 +13,77 @@ struct hair_test_living {
     hair_instance* hair;
     hair_physics physics;
     hair_wind wind;
-    uint32_t vertices; // of all guides
-    float* positions; // where they were when read last, xyz
-    float* before; // and the time before
+    uint32_t vertices; // number of all guides' vertices
+    float* positions; // xyz, as read last
+    float* before; // xyz, as read the time before
 };
 
-// Every strand is a guide of as many vertices as it has. Uses desc.physics, or the defaults.
+// Make every strand a guide with as many vertices as it has. Uses desc.physics, or the defaults.
 void hair_test_live(struct hair_test* test, const struct hair_test_strands* strands, const hair_desc* desc,
                     struct hair_test_living* out);
 void hair_test_die(struct hair_test_living* living);
 
-// Hair of 0.1 mm and 3 GPa, straight where nothing pulls at it, with nothing but gravity and a little drag.
+// Return hair of 0.1 mm and 3 GPa, straight at rest, with only gravity and a little drag.
 hair_physics hair_test_bare(void);
-// The defaults, but that nothing holds the groom's shape.
+// Return the defaults without the gravity preload.
 hair_physics hair_test_loose(float friction);
 hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
                          const hair_physics* physics);
 
-// Straight, from `root` along `way`, which need not be unit; evenly spaced.
+// Return a straight strand from `root` along `way`, which need not be a unit vector, with even
+// spacing.
 struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, hair_vec3 way, float length);
 void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices, hair_vec3 root,
                             hair_vec3 way, float length);
 
-// The head is at `head` at the end of the step; NULL: it stays.
+// Step. The head is at `head` at the end of the step. NULL keeps it in place.
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head,
                        double dt);
-// From the next step on; NULL: there is none.
+// Set the wind from the next step on. NULL disables it.
 void hair_test_blow(struct hair_test_living* living, const hair_wind* wind);
-// Of `frames` frames of 1/60 s, the head as it is.
+// Step `frames` frames of 1/60 s without moving the head.
 void hair_test_wait(struct hair_test_living* living, uint32_t frames);
-// Into positions, which become `before`. All must be finite.
+// Read the guides into `positions`. The previous positions become `before`. All must be finite.
 void hair_test_read_guides(struct hair_test_living* living);
 
 hair_vec3 hair_test_at(const struct hair_test_living* living, uint32_t guide, uint32_t vertex);
 hair_vec3 hair_test_tip(const struct hair_test_living* living, uint32_t guide);
 double hair_test_length(const struct hair_test_living* living, uint32_t guide);
-// Of what was read last: largest |length / rest length - 1| of a segment.
+// Return the maximum |length / rest length - 1| of a segment, as read last.
 double hair_test_stretch(const struct hair_test_living* living);
-// Farthest that a vertex is from where it was when read the time before. m.
+// Return the maximum distance of a vertex between the last two reads, m.
 double hair_test_moved(const struct hair_test_living* living);
-// Farthest that a vertex is from its rest pose under the head at the origin. m.
+// Return the maximum distance of a vertex from its rest pose under the head at the origin, m.
 double hair_test_from_rest(const struct hair_test_living* living);
 
-// A solid at a place, turned by no angle and of no size; and turned about one of its axes.
+// Return a collider at a place, without rotation and size.
 hair_solid hair_test_body(hair_shape shape, float x, float y, float z);
+// Rotate a collider about one of its axes.
 void hair_test_turn(hair_solid* solid, int axis, double angle);
 void hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count);
-// How far a vertex is in a solid at most; negative: how near. A root that the scalp holds does not count. m.
+// Return the maximum depth of a vertex in a collider, m. A negative value is the distance. Roots
+// fixed to the scalp do not count.
 double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid);
 
 hair_health hair_test_health(struct hair_test_living* living);
-// No guide's substep was redone, none was put back.
+// Check that no guide's substep was repeated and none was reset.
 void hair_test_healthy(struct hair_test_living* living);
 
-// The guide as a rod of the reference: its rest shape, its physics, under the head `head` (NULL: at the origin).
-// `hold` of the physics must be 0, or 1 of a clamped one.
+// Return the guide as a rod of the reference, with its rest shape and physics under the head
+// `head`. NULL is the head at the origin. `hold` of the physics must be 0, or 1 for a clamped
+// guide.
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
                                                const struct hair_reference_rod_pose* head);
-// Farthest that a vertex is from the reference's. m.
+// Return the maximum distance of a vertex from that of the reference, m.
 double hair_test_off(const struct hair_test_living* living, uint32_t guide,
                      const struct hair_reference_rod* rod);
 
 struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 axis, double angle);
 
-// The scene by which solvers are compared: a strand of 0.3 m, from 0.1 m beside the head's origin and 30 degrees below
-// the horizontal; and the head at `time`, which yaws by 0.6 rad and back within a second.
+// Return the strand of the scene by which solvers are compared. It is 0.3 m long and starts 0.1 m
+// beside the head's origin, 30 degrees below the horizontal.
 struct hair_test_strands hair_test_slanting(uint32_t vertices);
+// Return the head of that scene at `time`. It yaws by 0.6 rad and back within a second.
 struct hair_reference_rod_pose hair_test_shaken(double time);
 
 #endif

@@ -12,7 +12,7 @@ struct hair_test_mesh {
 
 struct hair_test_mesh hair_test_box_mesh(const float half[3]);
 
-// Poles on y; vertices lie on the sphere.
+// Return a ball with poles on y. Its vertices lie on the sphere.
 struct hair_test_mesh hair_test_ball_mesh(float radius, uint32_t rows, uint32_t columns);
 
 void hair_test_mesh_append(struct hair_test_mesh* mesh, const struct hair_test_mesh* other, int inside_out);

@@ -1,4 +1,4 @@
-// motion.c - heads of hair to which much happens, all of it from a seed.
+// motion.c - heads of hair with many random events, all from a seed.
 #include "tests/support/motion.h"
 
 #include <math.h>
@@ -19,12 +19,12 @@ struct hair_test_subject hair_test_subject_of(uint32_t kind)
         subject.desc.substep = 1.0f / 500;
         subject.physics.damping = 12, subject.physics.bend = 0.4f;
     }
-    if (kind == 2) { // Long ones, of a work group of 64.
+    if (kind == 2) { // Long guides, each in a work group of 64.
         subject.groom.guides = 3, subject.groom.fewest = 40, subject.groom.most = 40;
         subject.groom.segment = 0.004f;
         subject.physics.gravity[0] = 3, subject.physics.iterations = 7;
     }
-    if (kind == 3) // In substeps as the solver wants them.
+    if (kind == 3) // In the solver's own substeps.
         subject.desc.substep = 0, subject.hardens = 1;
     return subject;
 }
@@ -66,7 +66,7 @@ void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hai
     hair_test_ok(test, hair_set_physics(hair, &physics));
 }
 
-// Every third step goes on with what there is.
+// Apply the i-th event. Every third step continues with the current state.
 void hair_test_move(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                     uint32_t i)
 {

@@ -1,4 +1,4 @@
-// passes.h - what has become of a pass: its program, 0 without one, and how often it ran.
+// passes.h - the program of a pass, or 0 without one, and the number of its runs.
 #ifndef TESTS_PASSES_H
 #define TESTS_PASSES_H
 
@@ -27,7 +27,7 @@ static inline uint32_t hair_test_count_programs(const struct hair_gl* gl)
     return count;
 }
 
-// Of all whose labels have `words` in them.
+// Return the number of runs of all passes whose labels contain `words`.
 static inline uint32_t hair_test_runs_of(const struct hair_gl* gl, const char* words)
 {
     uint32_t runs = 0;

@@ -24,7 +24,7 @@ void hair_test_plane_make(struct hair_test_plane* p, uint32_t vertices, double a
     p->desc.twist = 1 / 1.45;
     p->desc.plain_clamp = 1;
     p->desc.gravity[1] = -gamma;
-    p->desc.root_frame[2] = sin((angle - PI) / 2); // y by angle - pi about z.
+    p->desc.root_frame[2] = sin((angle - PI) / 2); // rotates y by angle - pi about z
     p->desc.root_frame[3] = cos((angle - PI) / 2);
 }
 

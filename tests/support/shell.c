@@ -1,4 +1,4 @@
-// shell.c - a tool as its users call it: shell commands, exit codes, words.
+// shell.c - a tool run as its users run it: shell commands, exit codes and output.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
 

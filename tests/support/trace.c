@@ -25,7 +25,8 @@ static const char* const names[] = {
 #undef FUNCTION
 };
 
-// A wrapper of as many parameters as there are: their types are all that the table has.
+// Wrappers with as many parameters as each function has. The table has only the types of
+// parameters.
 // clang-format off
 #define CAT(a, b) CAT_(a, b)
 #define CAT_(a, b) a##b
@@ -73,7 +74,7 @@ static const char* const names[] = {
 #undef FUNCTION
 // clang-format on
 
-// A question whether something has happened waits for nothing.
+// Count a wait for a fence. A query without a timeout waits for nothing.
 static GLenum APIENTRY ask_sync(GLsync sync, GLbitfield flags, GLuint64 timeout)
 {
     if (timeout > 0) ++waits;
@@ -95,7 +96,7 @@ static void APIENTRY read_buffer(GLuint buffer, GLintptr at, GLsizeiptr size, vo
     call_GetNamedBufferSubData(buffer, at, size, out);
 }
 
-// But for what is mapped as long as it exists, which is mapped once.
+// Map a buffer. A persistent mapping is made only once, so it does not count.
 static void* APIENTRY map_buffer(GLuint buffer, GLintptr at, GLsizeiptr size, GLbitfield access)
 {
     if (!(access & GL_MAP_PERSISTENT_BIT)) ++waits;

@@ -1,24 +1,29 @@
-// trace.h - which OpenGL functions the library calls: a get_proc whose functions are counted before they are called.
+// trace.h - the OpenGL functions that the library calls: a get_proc whose functions are counted
+// before each call.
 #ifndef HAIR_TESTS_SUPPORT_TRACE_H
 #define HAIR_TESTS_SUPPORT_TRACE_H
 
 #include <stdint.h>
 
-// For hair_context_desc.get_proc. One count for all contexts made with it.
+// Return a counted function, for hair_context_desc.get_proc. All contexts made with it share the
+// counts.
 void* hair_test_trace_proc(const char* name, void* user);
 
 void hair_test_trace_clear(void);
 
-// Calls since then: of all functions whose names begin so, "" being all of them.
+// Return the calls since the last clear of all functions whose names begin with `begin`. "" counts
+// all.
 uint32_t hair_test_trace_count(const char* begin);
 
-// Whether the GPU is behind from now on, by what it answers who asks without waiting: no fence has been passed yet.
+// Make the GPU appear to be behind from now on, to queries that do not wait. No fence has then been
+// passed.
 void hair_test_trace_hold(int behind);
 
-// Of those, calls that may wait for the GPU: that read what it writes, or wait for it to come to somewhere.
+// Return the calls since the last clear that may wait for the GPU, because they read its results or
+// wait for its progress.
 uint32_t hair_test_trace_waits(void);
 
-// The names of those called since, each with its count, for messages.
+// Return the names of the functions called since the last clear, with counts, for messages.
 const char* hair_test_trace_list(void);
 
 #endif

@@ -1,4 +1,4 @@
-// ways.c - every way in which guides are simulated.
+// ways.c - all combinations of solvers and their mappings by which guides are simulated.
 #include "tests/support/ways.h"
 
 hair_desc hair_test_way(int way)
@@ -28,7 +28,8 @@ double hair_test_way_rounding(int way)
 {
     switch (hair_test_way(way).solver) {
     case HAIR_SOLVER_REDBLACK: return 1e-5;
-    case HAIR_SOLVER_ACCURATE: return 2e-2; // It damps nothing of its own: after an impact differences grow.
+    // It has no damping of its own, so differences grow after an impact.
+    case HAIR_SOLVER_ACCURATE: return 2e-2;
     default: return 2e-4;
     }
 }
