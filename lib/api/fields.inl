@@ -1,5 +1,5 @@
 // fields.inl - all numbers of all descs: struct, member, type, default, minimum, maximum.
-// lib/api/fields.c reads the table for the defaults, the checks and the error sentences. A test
+// lib/api/fields.c makes the defaults, the checks and the error sentences from the table. A test
 // compares the table with the headers' comments.
 #define CURVE(S, member, a, b, c, d, e, f, g, h, min, max) \
     FIELD(S, member.at[0], FLOAT, a, min, max) FIELD(S, member.at[1], FLOAT, b, min, max) \

@@ -5,9 +5,9 @@
 
 #define PARALLEL 1e-3 // Maximum sine of the angle that rounding may leave.
 
-// Return whether a light's matrix is orthographic, or in perspective with a depth of z = a - b / w
-// and b above 0 in front of the light. In perspective, clip space has a w that grows away from the
-// light, and its depth is a w - b.
+// Return whether a light's matrix is orthographic, or in perspective with a depth that grows away
+// from the light. The depth in perspective must be z = a - b / w, with b above 0, in front of the
+// light. Clip space then has a w that grows away from the light, and its depth is a w - b.
 static int is_seen_from_light(const hair_light* light)
 {
     const float* m = light->shadow_matrix;

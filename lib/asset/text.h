@@ -8,7 +8,7 @@
 
 struct hair_text {
     const unsigned char* bytes;
-    size_t size, at; // start of the next line
+    size_t size, at; // `at` is the start of the next line.
 };
 
 struct hair_line {

@@ -148,7 +148,7 @@ struct hits : btBroadphaseAabbCallback {
         if (!(proxy->m_collisionFilterGroup & groups) || !object->getCollisionShape() ||
             !object->hasContactResponse())
             return true;
-        // The tree's boxes are larger than the object's.
+        // The boxes of the tree are larger than those of objects.
         btVector3 own_lower, own_upper;
         object->getCollisionShape()->getAabb(object->getWorldTransform(), own_lower, own_upper);
         if (!TestAabbAgainstAabb2(own_lower, own_upper, lower, upper)) return true;

@@ -78,9 +78,9 @@ static bool solve(double m[4][5], double out[4])
     return true;
 }
 
-// Fit a sphere to all roots by least squares: |x|^2 = 2 c x + k, with the centre c and k = r^2 -
-// |c|^2. Roots are taken relative to the first root and in units of the greatest distance from it,
-// which limits rounding.
+// Fit a sphere to all roots by least squares. With the centre c and the radius r its equation is
+// |x|^2 = 2 c x + k, where k = r^2 - |c|^2. Roots are taken relative to the first root and in units
+// of the greatest distance from it, which limits rounding.
 static bool fit(const struct hair_groom* groom, double center[3])
 {
     double m[4][5] = {{0}}, x[4], unit = 0;

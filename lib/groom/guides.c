@@ -49,8 +49,11 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
 //
 // The error of the best n representatives of a density f in d dimensions is minimal if their
 // density is proportional to f^(d/(d+2)) (Zador 1982). A cell of N strands at a distance of about r
-// has f = N / r^d and the volume r^d, so its weight is N^(d/(d+2)) (r^d)^(2/(d+2)). With d = 4, two
-// dimensions for the root and two for the shape, the weight is (N r^2)^(2/3).
+// has the density f = N / r^d and the volume r^d. Its weight is their product with that power,
+//
+//   N^(d/(d+2)) (r^d)^(2/(d+2)) = (N r^2)^(2/3),
+//
+// with d = 4, two dimensions for the root and two for the shape.
 static double weigh(const struct cell* cell)
 {
     double sum = 0;

@@ -122,8 +122,8 @@ float hair_parting_x(struct hair_parting parting, float z)
     return parting.front + (parting.crown - parting.front) * fminf(fmaxf(t, 0), 1);
 }
 
-// Return a point of the parting. t is 0 at the hairline and 1 at the crown. side is -1 or 1 for an
-// edge and 0 for the centre line.
+// Return a point of the parting. The parameter t is 0 at the hairline and 1 at the crown. `side` is
+// -1 or 1 for an edge and 0 for the centre line.
 static hair_vec3 parting_point(const struct build* build, float t, float side)
 {
     float front = hairline_point(parting_azimuth(build, side)).z;

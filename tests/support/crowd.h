@@ -6,7 +6,7 @@
 
 #include "lib/api/api.h"
 
-#define HAIR_TEST_CROWD_VERTICES 12 // of each guide
+#define HAIR_TEST_CROWD_VERTICES 12 // per guide
 
 // Create 36 straight guides of 10 cm that hang from a square. Guides 2 i and 2 i + 1 are in the
 // same place.

@@ -7,8 +7,8 @@
 #include "lib/api/api.h"
 #include "lib/wind/fluid.h"
 
-#define HAIR_TEST_FLUID_SIDE 0.8f // m: of the box
-#define HAIR_TEST_FLUID_BALL 0.1f // m: radius of the ball in its middle
+#define HAIR_TEST_FLUID_SIDE 0.8f // Side of the box, m.
+#define HAIR_TEST_FLUID_BALL 0.1f // Radius of the ball at its centre, m.
 
 struct hair_test_fluid {
     struct hair_test* test;

@@ -9,7 +9,7 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-#define HAIR_TEST_SUBJECTS 4 // kinds
+#define HAIR_TEST_SUBJECTS 4 // Number of kinds.
 #define HAIR_TEST_SEEN 65536
 
 // One head of hair and its events. Every event follows from `seed` and the event's number.

@@ -4,8 +4,8 @@
 
 #include <hair/hair.h>
 
-#define HAIR_TEST_SOLVERS (HAIR_SOLVER_REDBLACK + 1) // the last one and all before
-#define HAIR_TEST_WAYS (2 * HAIR_TEST_SOLVERS - 1) // redblack has one mapping
+#define HAIR_TEST_SOLVERS (HAIR_SOLVER_REDBLACK + 1) // Number of solvers.
+#define HAIR_TEST_WAYS (2 * HAIR_TEST_SOLVERS - 1) // The solver redblack has one mapping.
 
 // Return the `way`-th combination: solver, mapping and the solver's own substep for ordinary hair.
 hair_desc hair_test_way(int way);
