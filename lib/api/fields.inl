@@ -1,4 +1,5 @@
 // fields.inl - all numbers of all descs: struct, member, type, default, minimum, maximum.
+//
 // lib/api/fields.c makes the defaults, the checks and the error sentences from the table. A test
 // compares the table with the headers' comments.
 #define CURVE(S, member, a, b, c, d, e, f, g, h, min, max) \

@@ -47,7 +47,7 @@ static double to_box(const float size[3], const double p[3], double gradient[3])
 // Nearest point of a profile so far. A solid of revolution about the y axis is described by its
 // profile, a polygon in the half-plane of (distance from the axis, height).
 struct profile {
-    double distance, out[2]; // vector from the nearest point of the profile
+    double distance, out[2]; // `out` is the vector from the nearest point of the profile.
 };
 
 static void edge(const double p[2], const double a[2], const double b[2], struct profile* nearest)

@@ -13,8 +13,8 @@ struct hair_test_plane {
 };
 
 // Make a straight rod in the plane of x and y, with gravity `gamma` along -y. `angle` is measured
-// from straight down, so pi / 2 is along x. Twist over bending is as for hair, whose Poisson's ratio
-// is .45. The clamp's k is 2.
+// from straight down, so pi / 2 is along x. Twist over bending is as for hair, whose Poisson's
+// ratio is .45. The clamp's k is 2.
 void hair_test_plane_make(struct hair_test_plane* plane, uint32_t vertices, double angle, double gamma);
 // Curl a rod that hangs straight down, at rest and in its shape, by a total angle of `turn`.
 void hair_test_plane_curl(struct hair_test_plane* plane, double turn);
