@@ -1,10 +1,10 @@
 // sorts.c - patches and density order of followers where there are maps.
 //
-// Let L be the requested fraction of the hair. Let a patch have n followers in a random order, with d
-// the density at the root of follower k. The follower is drawn as soon as L d n > k, which holds
-// from L = k / (n d) on. Followers are therefore sorted by k / d. Cutting off the end then leaves
-// every place the density that it should have, at every L. The density d is the mean of all sets,
-// so blending sets does not change the order of strands.
+// Let L be the requested fraction of the hair. Let a patch have n followers in a random order, and
+// let d be the density at the root of follower k. The follower is drawn as soon as L d n > k, which
+// holds from L = k / (n d) on. Followers are therefore sorted by k / d. Cutting off the end then
+// leaves every place the density that it should have, at every L. The density d is the mean of all
+// sets, so blending sets does not change the order of strands.
 #include "lib/groom/draft.h"
 
 #include <float.h>
