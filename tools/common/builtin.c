@@ -1,12 +1,14 @@
-// builtin.c - the text of the scenes and motions that are built in.
+// builtin.c - JSON text of the built-in scenes, styles and motions.
 #include "tools/common/builtin.h"
 
 #include <stddef.h>
 
-// Three-quarter front, with the angle of a 50 mm lens on 35 mm film: 27 degrees high.
+// Three-quarter front view. The vertical field of view of 27 degrees is that of a 50 mm lens on 35
+// mm film.
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
-// A warm light from the side, where highlights run down the hair; a cool one from behind, that rims it.
+// A warm key light from the side puts highlights along the hair. A cool light from behind rims the
+// hair.
 #define STUDIO                                                                                               \
     "'light': {'to': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "          \
     "'lights': [{'to': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                                   \
@@ -35,8 +37,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {NULL, NULL},
 };
 
-// What holds each haircut against gravity. Every style says every key, so that one can follow another. A curl wants
-// more vertices than a wave: some eight a turn.
+// Settings that keep each haircut in shape against gravity. Every style sets every key, because one
+// style can replace another. A curl needs about eight vertices a turn, more than a wave.
 #define SMOOTH "'guide_vertices': 32, 'segments': 24"
 #define CURLED "'guide_vertices': 64, 'segments': 64"
 

@@ -1,4 +1,4 @@
-// builtin.h - the text of the scenes and motions that are built in.
+// builtin.h - JSON text of the built-in scenes, styles and motions.
 #ifndef HAIR_TOOLS_COMMON_BUILTIN_H
 #define HAIR_TOOLS_COMMON_BUILTIN_H
 
@@ -7,7 +7,7 @@ struct hair_builtin {
     const char* text; // JSON
 };
 
-// Each ends with a row of NULL. Quotes stand as '.
+// Tables of built-in texts. A row of NULL ends each table. The texts use ' in place of ".
 extern const struct hair_builtin hair_builtin_scenes[];
 extern const struct hair_builtin hair_builtin_styles[]; // settings
 extern const struct hair_builtin hair_builtin_motions[];

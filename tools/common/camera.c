@@ -1,4 +1,4 @@
-// camera.c - matrices of the camera and of the light's shadow map.
+// camera.c - Matrices of the camera and of the shadow maps of lights.
 #include "tools/common/camera.h"
 
 #include <cglm/cglm.h>
@@ -13,7 +13,8 @@ void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const flo
     }
 }
 
-// Of a sphere that the haircut fills: its corners are empty, so that the half diagonal alone is too much.
+// Return the radius of a sphere that the haircut fills. The corners of the bounds are empty,
+// therefore the half diagonal alone is too large.
 static float apparent_radius(const struct hair_bounds* bounds)
 {
     float sum = 0, most = 0;
@@ -63,7 +64,7 @@ void hair_camera_pivot(const struct hair_scene* scene, const float transform[16]
         out[i] = transform[i] * p[0] + transform[4 + i] * p[1] + transform[8 + i] * p[2] + transform[12 + i];
 }
 
-// Any up will do but one along the way one looks.
+// Build a view matrix. The up vector is +y, or +z if the view direction is nearly parallel to y.
 static void look(vec3 eye, vec3 target, mat4 out)
 {
     vec3 way, up = {0, 1, 0};
@@ -130,7 +131,8 @@ void hair_light_matrices(const struct hair_scene* scene, const float transform[1
     look_from_afar(&scene->settings.light, centre, reach, out);
 }
 
-// As wide as all that the head reaches is seen, but for a lamp that is among it.
+// Return the half angle that covers the whole sphere of radius `reach`. A lamp inside or close to
+// the sphere gets the widest angle.
 static float find_angle(float distance, float reach)
 {
     const float widest = 1.3f;
@@ -172,7 +174,8 @@ void hair_light_texture(const struct hair_matrices* light, float out[16])
         for (int i = 0; i < 3; ++i) out[4 * column + i] = 0.5f * (out[4 * column + i] + out[4 * column + 3]);
 }
 
-// In clip space, from -1 to 1: x' = (x - c) / s, with c the rectangle's centre, s its share of it.
+// The crop maps clip-space x in [-1, 1] to x' = (x - c) / s. c is the centre of the rectangle, s is
+// its fraction of the picture.
 void hair_camera_crop(const float projection[16], const float at[2], const float size[2], float out[16])
 {
     memcpy(out, projection, 16 * sizeof *out);

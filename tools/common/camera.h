@@ -1,4 +1,5 @@
-// camera.h - matrices of the camera and of the light's shadow map, and how far off to see a haircut whole.
+// camera.h - Matrices of the camera and of shadow maps, and the distance that frames a whole
+// haircut.
 #ifndef HAIR_TOOLS_COMMON_CAMERA_H
 #define HAIR_TOOLS_COMMON_CAMERA_H
 
@@ -14,30 +15,38 @@ struct hair_matrices {
 
 void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const float upper[3]);
 
-// For a scene without a camera: three-quarter front, all of the bounds in the picture.
+// Set the camera of a scene that has none. The camera looks from three-quarter front and sees all
+// of the bounds.
 void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds);
 
-// What the head can reach: a sphere about its pivot; and where that is under the head's transform.
+// Return the radius of the sphere about the head's pivot that contains everything the head can
+// reach.
 float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds* bounds);
+// Compute the centre of that sphere, the pivot under the head's transform.
 void hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3]);
 
-// `transform` is the head's, `reach` the radius of its sphere.
+// Compute the camera's matrices. `transform` is the head's transform, `reach` the radius of its
+// sphere.
 void hair_camera_matrices(const struct hair_scene* scene, const float transform[16], float reach,
                           struct hair_matrices* out);
+// Compute the matrices of the main light's shadow map.
 void hair_light_matrices(const struct hair_scene* scene, const float transform[16], float reach,
                          struct hair_matrices* out);
 
-// Of any light: from a lamp's place in perspective. Returns how wide it sees where the head is, m.
+// Compute the shadow map matrices of any light. A lamp sees in perspective from its position.
+// Return the width of the map at the head, in m.
 float hair_lamp_matrices(const struct hair_scene* scene, const hair_light* lamp, const float transform[16],
                          float reach, struct hair_matrices* out);
 
-// World to clip space, and to texture coordinates and depth in [0, 1], all times w.
+// Compute the matrix from world to clip space.
 void hair_light_clip(const struct hair_matrices* light, float out[16]);
+// Compute the matrix from world to texture coordinates and depth in [0, 1], all multiplied by w.
 void hair_light_texture(const struct hair_matrices* light, float out[16]);
-void hair_light_direction(const struct hair_scene* scene, float out[3]); // unit, towards it
+// Compute the unit vector towards the light.
+void hair_light_direction(const struct hair_scene* scene, float out[3]);
 
-// The part of a projection that makes a rectangle of the picture: `at`, its upper left corner, and `size` are
-// shares of the picture, from its own.
+// Compute the projection of a rectangle of the picture. `at` is the rectangle's upper left corner.
+// `at` and `size` are fractions of the picture.
 void hair_camera_crop(const float projection[16], const float at[2], const float size[2], float out[16]);
 
 #endif

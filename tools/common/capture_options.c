@@ -1,4 +1,4 @@
-// capture_options.c - the command line of hair-capture: one table for getopt and --help.
+// capture_options.c - Command line of hair-capture. One table serves getopt and --help.
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
 #include "tools/common/sink.h"
@@ -28,13 +28,13 @@ enum name {
     QUIET,
     VERBOSE,
     VERSION,
-    SETTING, // named as the setting that it sets
+    SETTING, // sets the setting of the same name
 };
 
 struct row {
     const char* name;
     int option;
-    const char* argument; // NULL: it takes none
+    const char* argument; // NULL if the option takes no argument
     const char* about;
 };
 
@@ -81,7 +81,7 @@ struct change {
     const char* value;
 };
 
-// What the command line says, before the scene that it changes is read.
+// Raw values of the command line. The scene that they change is read later.
 struct said {
     const char* scene_name;
     const char* scene_file;
@@ -119,7 +119,7 @@ static int print_help(const char* tool)
 
 // Values ----------------------------------------------------------------------------------------------------
 
-// A whole number up to `end`, which is left behind it.
+// Parse a whole number. `end` receives the position after the number.
 static bool parse_count(const char* text, uint32_t min, uint32_t max, const char** end, uint32_t* out)
 {
     char* after;
@@ -170,7 +170,8 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
 
 static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
 {
-    static const char* const names[] = {"hair", "head", "guides", "solids", "wind"}; // As enum hair_show.
+    // In the order of enum hair_show.
+    static const char* const names[] = {"hair", "head", "guides", "solids", "wind"};
     const int count = (int)(sizeof names / sizeof *names);
     scene->show = 0;
     for (const char* at = text;;) {
@@ -187,7 +188,7 @@ static bool parse_show(const char* tool, const char* text, struct hair_scene* sc
     }
 }
 
-// "--set key=value", or "--tip-first", which is the setting tip_first.
+// Apply "--set key=value" or an option such as "--tip-first", which sets tip_first to 1.
 static bool apply_change(const char* tool, const struct change* change, struct hair_scene* scene)
 {
     bool set = change->row->option == SET;
@@ -249,7 +250,7 @@ static bool take(const char* tool, const struct row* row, const char* value, str
     return true;
 }
 
-// -1 to go on.
+// Parse the arguments. Return an exit status, or -1 to continue.
 static int read_line(const char* tool, int count, char** arguments, struct said* said,
                      struct hair_capture_options* out)
 {
@@ -284,7 +285,8 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
 
 static int open_scene(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
-    static const char alone[] = "{\"motion\": \"turn\"}"; // Of a haircut from a file and no scene.
+    // Scene for a haircut file given without a scene.
+    static const char alone[] = "{\"motion\": \"turn\"}";
     const char* path = said->scene_file;
     if (path) {
         out->name = path;
@@ -311,7 +313,8 @@ static bool change_scene(const char* tool, const struct said* said, struct hair_
     return true;
 }
 
-// Without --frames: all of the scene for what holds many, and its best for what holds one.
+// Choose the frames to draw. Without --frames, a picture gets the scene's picture frame, and a
+// video gets all frames.
 static bool choose_frames(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
     if (said->frames) return parse_frames(tool, said->frames, out);

@@ -1,22 +1,23 @@
-// capture_options.h - the command line of hair-capture.
+// capture_options.h - Command line of hair-capture.
 #ifndef HAIR_TOOLS_COMMON_CAPTURE_OPTIONS_H
 #define HAIR_TOOLS_COMMON_CAPTURE_OPTIONS_H
 
 #include "tools/common/scene.h"
 
 struct hair_capture_options {
-    struct hair_scene scene; // with everything that the command line changes in it
-    const char* name; // of the scene, for people
-    const char* out; // NULL: none
-    const char* stats; // NULL: none
-    const char* shader; // file of the strands' own shading; NULL: none
-    uint32_t first, end; // frames to draw: from first up to, not including, end
+    struct hair_scene scene; // with all changes of the command line applied
+    const char* name; // name of the scene, for messages
+    const char* out; // NULL disables it
+    const char* stats; // NULL disables it
+    const char* shader; // file with a pixel shader for strands, NULL disables it
+    uint32_t first, end; // frames to draw, in the half-open range [first, end)
     uint32_t samples, supersample;
-    int device; // -1: any
+    int device; // EGL device index, -1 selects any
     bool hash, quiet, verbose;
 };
 
-// Returns what to exit with at once, having printed, or -1 to go on.
+// Parse the command line. Return an exit status if the tool must exit at once, after printing the
+// reason. Return -1 to continue.
 int hair_capture_parse(const char* tool, int count, char** arguments, struct hair_capture_options* out);
 
 #endif

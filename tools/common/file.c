@@ -1,4 +1,4 @@
-// file.c - whole files into memory, output that is never seen half written, and the complaints of a tool.
+// file.c - Reading of whole files, atomic output files, and error messages of a tool.
 #define _XOPEN_SOURCE 700
 #include "tools/common/file.h"
 
@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// What does not fit into its buffer has been written earlier, and failed then.
+// Earlier writes that overflowed the buffer may have failed already, therefore check ferror too.
 int hair_flush(const char* tool)
 {
     if (!fflush(stdout) && !ferror(stdout)) return HAIR_EXIT_OK;
@@ -25,7 +25,7 @@ void hair_complain(const char* tool, const char* format, ...)
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    fprintf(stderr, "%s: %s\n", tool, sentence); // One call, so that lines of two threads do not mix.
+    fprintf(stderr, "%s: %s\n", tool, sentence); // One call keeps the lines of two threads apart.
 }
 
 void hair_print_log(hair_log_level level, const char* sentence, void* tool)
@@ -45,7 +45,8 @@ static bool is_standard(const char* path)
     return strcmp(path, "-") == 0;
 }
 
-// Read to the end, doubling the buffer: the size of a pipe is not known before.
+// Read to the end of the file and double the buffer as needed, because the size of a pipe is
+// unknown.
 static bool read_all(const char* tool, const char* path, FILE* file, size_t limit, struct hair_bytes* out)
 {
     struct hair_bytes bytes = {0};
@@ -99,7 +100,8 @@ static bool cannot_write(const char* tool, const char* path)
     return false;
 }
 
-// Names under /dev and /proc are in place too, since /dev/fd/3 may be a regular file that others hold open.
+// Return whether to write the file in place. Names under /dev and /proc are in place too, because
+// /dev/fd/3 may be a regular file that other processes have open.
 static bool is_in_place(const char* path, const struct stat* status)
 {
     return !S_ISREG(status->st_mode) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
@@ -112,7 +114,8 @@ static bool open_in_place(struct hair_output* output)
     return output->file || cannot_write(output->tool, output->path);
 }
 
-// Beside the file, so that the rename stays within one file system. `mode` of the file it is to replace.
+// Open a temporary file in the directory of the target, because a rename must stay within one file
+// system. `mode` is the mode of the target.
 static bool open_temporary(struct hair_output* output, mode_t mode)
 {
     static const char suffix[] = ".XXXXXX";
@@ -137,14 +140,15 @@ bool hair_output_open(const char* tool, const char* path, struct hair_output* ou
     struct hair_output output = {.tool = tool};
     struct stat status;
     bool exists = !is_standard(path) && stat(path, &status) == 0;
-    // A link stays a link: what it points to is replaced.
+    // Replace the target of a symbolic link and keep the link.
     output.path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
     if (!output.path) return cannot_write(tool, path);
 
     bool in_place = is_standard(path) || (exists && is_in_place(path, &status));
     mode_t mask = umask(0);
     umask(mask);
-    if (exists && !in_place && access(output.path, W_OK)) // A rename would ignore that it is read-only.
+    // A rename would ignore that the target is read-only.
+    if (exists && !in_place && access(output.path, W_OK))
         in_place = true;
     if (in_place ? open_in_place(&output)
                  : open_temporary(&output, exists ? status.st_mode & 0777 : 0666 & ~mask)) {
@@ -163,7 +167,7 @@ static void forget(struct hair_output* output)
     *output = (struct hair_output){0};
 }
 
-// The standard output stays open for the rest of the program.
+// Flush and close the file. The standard output stays open for the rest of the program.
 static bool close_file(struct hair_output* output)
 {
     bool written = !fflush(output->file) && !ferror(output->file);

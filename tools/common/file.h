@@ -1,6 +1,6 @@
-// file.h - whole files into memory, output that is never seen half written, and the complaints of a tool.
+// file.h - Reading of whole files, atomic output files, and error messages of a tool.
 //
-// What fails says so on stderr, as "TOOL: sentence", before it returns.
+// A function that fails prints "TOOL: sentence" to stderr before it returns.
 #ifndef HAIR_TOOLS_COMMON_FILE_H
 #define HAIR_TOOLS_COMMON_FILE_H
 
@@ -9,40 +9,44 @@
 
 #include <hair/hair.h>
 
-// What every tool exits with.
+// Exit statuses of every tool.
 enum { HAIR_EXIT_OK = 0, HAIR_EXIT_RUNTIME, HAIR_EXIT_USAGE, HAIR_EXIT_OPENGL, HAIR_EXIT_INPUT };
 
-// For hair_host.log, with `tool` ("hair-groom") as its user. Leaves out HAIR_LOG_INFO.
+// Print a message. Use this as hair_host.log with the tool's name, such as "hair-groom", as user.
+// HAIR_LOG_INFO is not printed.
 void hair_print_log(hair_log_level level, const char* sentence, void* tool);
 
-// "TOOL: PATH", to be such a user while a file is read, so that one sentence says which. Lives until the next call.
+// Return "TOOL: PATH" for use as that user while a file is read, such that each message names the
+// file. The string is valid until the next call.
 const char* hair_log_name(const char* tool, const char* path);
 
-// What was printed on the standard output is there: HAIR_EXIT_OK, else HAIR_EXIT_RUNTIME.
+// Flush the standard output. Return HAIR_EXIT_OK, or HAIR_EXIT_RUNTIME if any output was lost.
 int hair_flush(const char* tool);
 
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
 struct hair_bytes {
-    unsigned char* data; // free() it
+    unsigned char* data; // release with free()
     size_t size;
 };
 
-// All of a file, pipe or device; "-" is the standard input. More than `limit` bytes is a failure.
+// Read all of a file, pipe or device. "-" is the standard input. More than `limit` bytes are an
+// error.
 bool hair_file_read(const char* tool, const char* path, size_t limit, struct hair_bytes* out);
 
-// A file being written. It appears under its name only when committed; what is not a regular file (a pipe, a
-// device, "-" for the standard output) is written in place.
+// An output file. A regular file appears under its name only when it is committed. A pipe, a device
+// or "-" (the standard output) is written in place.
 struct hair_output {
-    FILE* file; // write here
+    FILE* file; // stream to write to
     const char* tool;
     char* path;
-    char* temporary; // NULL: in place
+    char* temporary; // NULL if written in place
 };
 
-// `tool` must outlive the output. Each opened output is ended by exactly one of commit and discard.
+// Open an output. `tool` must outlive the output. End each opened output with exactly one of commit
+// and discard.
 bool hair_output_open(const char* tool, const char* path, struct hair_output* out);
-bool hair_output_commit(struct hair_output* output); // On failure it is discarded.
+bool hair_output_commit(struct hair_output* output); // A failure discards the output.
 void hair_output_discard(struct hair_output* output);
 
 #endif

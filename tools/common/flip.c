@@ -1,5 +1,5 @@
-// flip.c - LDR-FLIP: a difference of colours as the eye's resolution lets them be seen, raised where edges and
-// points differ.
+// flip.c - LDR-FLIP, the colour difference that the eye's resolution leaves visible, raised where
+// edges and points differ.
 #include "tools/common/flip.h"
 
 #include <math.h>
@@ -17,24 +17,25 @@ struct xyz {
     double x, y, z;
 };
 
-// Of Rec. 709's primaries, to XYZ of white (1, 1, 1) and back: columns scaled so that white's sum is D65.
+// Matrices from linear RGB with Rec. 709 primaries to XYZ and back. The columns of `to` are scaled
+// such that RGB white (1, 1, 1) maps to D65.
 struct colors {
     double to[3][3], from[3][3];
     struct xyz white;
 };
 
-// A separable filter's halves; taps are at -radius to radius.
+// One dimension of a separable filter, with taps from -radius to radius.
 struct kernel {
     int radius;
     float taps[2 * MOST_RADIUS + 1];
 };
 
-// One picture on its way. Planes have a float per pixel.
+// Working memory of one picture. Each plane has one float per pixel.
 struct planes {
     uint32_t width, height;
     float* memory;
-    float *luma, *red_green, *blue_yellow; // Y, Cx and Cz, then, filtered, Hunt-adjusted L*, a*, b*
-    float *edges, *points; // how strong
+    float *luma, *red_green, *blue_yellow; // Y, Cx, Cz. After filtering: Hunt-adjusted L*, a*, b*.
+    float *edges, *points; // magnitudes
     float *half, *row, *spare[2];
 };
 
@@ -84,7 +85,7 @@ static double decode(double s)
     return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Relative to white.
+// Convert linear RGB to XYZ relative to white.
 static struct xyz to_xyz(const struct colors* colors, struct rgb c)
 {
     struct xyz v = multiply((double(*)[3])colors->to, c.r, c.g, c.b);
@@ -97,7 +98,8 @@ static double compress(double t)
     return t > delta * delta * delta ? cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
 }
 
-// CIELAB with chroma scaled down by how dark it is, as Hunt found it: x = L*, y = a*, z = b*.
+// Convert linear RGB to CIELAB with the Hunt effect, which scales chroma by lightness. x = L*, y =
+// a*, z = b*.
 static struct xyz to_hunt(const struct colors* colors, struct rgb c)
 {
     struct xyz v = to_xyz(colors, c);
@@ -106,7 +108,7 @@ static struct xyz to_hunt(const struct colors* colors, struct rgb c)
                         0.01 * light * 200 * (compress(v.y) - compress(v.z))};
 }
 
-// The distance of large colour differences, HyAB.
+// HyAB, a distance for large colour differences.
 static double hyab(struct xyz a, struct xyz b)
 {
     return fabs(a.x - b.x) + hypot(a.y - b.y, a.z - b.z);
@@ -114,7 +116,8 @@ static double hyab(struct xyz a, struct xyz b)
 
 // Filters ---------------------------------------------------------------------------------------------------
 
-// exp(-squared * d^2), of sum 1; returns the sum before that.
+// Fill the kernel with exp(-squared * d^2), normalized to sum 1. Return the sum before
+// normalization.
 static double make_gaussian(struct kernel* kernel, int radius, double squared)
 {
     double sum = 0;
@@ -124,7 +127,7 @@ static double make_gaussian(struct kernel* kernel, int radius, double squared)
     return sum;
 }
 
-// What is positive and what is negative: of sum 1 and -1 each.
+// Normalize the positive taps to sum 1 and the negative taps to sum -1.
 static void balance(struct kernel* kernel)
 {
     double positive = 0, negative = 0;
@@ -134,7 +137,8 @@ static void balance(struct kernel* kernel)
         kernel->taps[i] = (float)(kernel->taps[i] / (kernel->taps[i] > 0 ? positive : -negative));
 }
 
-// The first and second derivative of the Gaussian that finds edges and points: 0.082 degrees wide.
+// Make a Gaussian and its first and second derivative, which detect edges and points. The Gaussian
+// is 0.082 degrees wide.
 static void make_features(double pixels_per_degree, struct kernel* smooth, struct kernel* first,
                           struct kernel* second)
 {
@@ -155,7 +159,7 @@ static uint32_t clamp_index(int64_t i, uint32_t count)
     return i < 0 ? 0 : i >= (int64_t)count ? count - 1 : (uint32_t)i;
 }
 
-// Out is not in. Beyond its border a picture goes on as at it.
+// Apply a separable filter. `out` must not be `in`. Border pixels are repeated beyond the border.
 static void filter(const struct planes* p, const float* in, const struct kernel* across,
                    const struct kernel* down, float* out)
 {
@@ -178,7 +182,8 @@ static void filter(const struct planes* p, const float* in, const struct kernel*
     }
 }
 
-// A picture -------------------------------------------------------------------------------------------------
+// Planes of a picture
+// ---------------------------------------------------------------------------------------
 
 enum { PLANES = 8 };
 
@@ -196,7 +201,7 @@ static bool make_planes(struct planes* p, uint32_t width, uint32_t height)
     return true;
 }
 
-// YCxCz: linear in light, so that it can be filtered.
+// Convert to YCxCz, which is linear in light and can therefore be filtered.
 static void split(const struct colors* colors, const float* picture, struct planes* p)
 {
     for (size_t i = 0; i < (size_t)p->width * p->height; ++i) {
@@ -218,19 +223,20 @@ static void find_features(struct planes* p, double pixels_per_degree)
         float* out = is_point ? p->points : p->edges;
         filter(p, p->luma, kernel, &smooth, p->spare[0]);
         filter(p, p->luma, &smooth, kernel, p->spare[1]);
-        // Of (Y + 16) / 116, which is in [0, 1]: the constant falls to the kernel's sum, 0.
+        // The features are those of (Y + 16) / 116, which is in [0, 1]. The constant 16 vanishes,
+        // because the derivative kernels sum to 0.
         for (size_t i = 0; i < count; ++i) out[i] = hypotf(p->spare[0][i], p->spare[1][i]) / 116;
     }
 }
 
-// What of a channel the eye resolves: a sum of one or two Gaussians in degrees.
+// Filter a channel with the eye's contrast sensitivity, a sum of one or two Gaussians in degrees.
 static void blur(struct planes* p, float* channel, double pixels_per_degree, const double a[2],
                  const double b[2])
 {
     struct kernel kernels[2];
     double weights[2] = {0, 0};
     size_t count = (size_t)p->width * p->height;
-    // The same for all channels: three deviations of the widest of all their Gaussians.
+    // All channels use one radius, three standard deviations of the widest Gaussian of any channel.
     int radius = (int)ceil(3 * sqrt(0.04 / (2 * PI * PI)) * pixels_per_degree);
     for (int i = 0; i < 2 && a[i] > 0; ++i) {
         double sum =
@@ -269,9 +275,11 @@ static bool look_at(const struct colors* colors, const float* picture, uint32_t 
     return true;
 }
 
-// Both ------------------------------------------------------------------------------------------------------
+// Comparison
+// ------------------------------------------------------------------------------------------------
 
-// Differences of colour in [0, 1]: the lower 40 % of what can be get 95 % of the range.
+// Map a colour difference to [0, 1]. The lower 40 % of the input range get 95 % of the output
+// range.
 static double redistribute(double error, double most)
 {
     const double knee = 0.4 * most, at_knee = 0.95;

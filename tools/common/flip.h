@@ -1,7 +1,9 @@
-// flip.h - how different two pictures look to somebody who flips between them: 0 the same, 1 as unlike as can be.
+// flip.h - Visible difference of two pictures to a viewer who flips between them. 0 is equal, 1 is
+// the maximum.
 //
-// LDR-FLIP, from the equations of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A
-// Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020.
+// LDR-FLIP, from the equations of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and
+// Fairchild, "FLIP: A Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph.
+// Interact. Tech. 3(2), 2020.
 #ifndef HAIR_TOOLS_COMMON_FLIP_H
 #define HAIR_TOOLS_COMMON_FLIP_H
 
@@ -11,11 +13,11 @@
 // Pixels per degree of a display of 3,840 pixels over 0.7 m, seen from 0.7 m.
 #define HAIR_FLIP_DISPLAY 67.0206433f
 
-// Pixels beyond which nothing has to do with a pixel's error, for that display.
+// Maximum distance, in pixels, at which a pixel affects another pixel's error, for that display.
 #define HAIR_FLIP_REACH 10
 
-// Of pictures of RGB, sRGB in [0, 1], into one error in [0, 1] per pixel. At most 1,800 pixels per degree.
-// False: out of memory.
+// Compute one error in [0, 1] per pixel of two RGB pictures, sRGB-encoded in [0, 1]. The maximum is
+// 1,800 pixels per degree. Return false if memory runs out.
 bool hair_flip(const float* reference, const float* test, uint32_t width, uint32_t height,
                float pixels_per_degree, float* out);
 

@@ -1,4 +1,4 @@
-// frame_lights.c - the lights of a frame, and what those see that have a shadow.
+// frame_lights.c - The lights of a frame and the shadow matrices of those that cast shadows.
 #include "tools/common/frame_lights.h"
 #include "tools/common/shaders.h"
 

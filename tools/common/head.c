@@ -1,6 +1,6 @@
-// head.c - the mesh of the bust, by surface nets, and its solids.
-// Based on: Gibson 1998, "Constrained elastic surface nets"; one vertex for each cell that the surface
-// crosses, here put onto the surface itself instead of being relaxed.
+// head.c - Mesh of the bust by surface nets, and its colliders.
+// Based on Gibson 1998, "Constrained elastic surface nets". Each cell that the surface crosses gets
+// one vertex, which is projected onto the surface here instead of being relaxed.
 #include "tools/common/head.h"
 #include "tools/common/head_shape.h"
 
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COLLAR_REACH 0.0026f // Half the spacing of the grid there. m.
-#define BLOCK 4 // Grid points a side that are skipped together when far from the surface.
+#define COLLAR_REACH 0.0026f // Half the grid spacing at the collar, m.
+#define BLOCK 4 // Grid points per side of a block that is skipped when far from the surface.
 
 typedef struct head_point point;
 
@@ -20,13 +20,14 @@ struct axis {
 
 struct net {
     struct axis axis[3];
-    float* distance; // at grid points
-    uint32_t* vertex; // of cells: index + 1; 0: none
+    float* distance; // at each grid point
+    uint32_t* vertex; // index + 1 of each cell's vertex, 0 if the cell has none
     struct head_mesh* mesh;
     uint32_t vertex_capacity, triangle_capacity;
 };
 
-// A stretch of an axis whose planes are `spacing` apart; away from it they spread by an eighth.
+// A range of an axis whose grid planes are `spacing` apart. Outside the range the spacing grows by
+// an eighth of the distance.
 struct stretch {
     float from, to, spacing; // m
 };
@@ -74,7 +75,8 @@ static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0
     point middle = {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
     float reach = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
     float far = head_distance(middle);
-    // Twice the radius, since the distance is only a bound, plus the step from block to block.
+    // The threshold is twice the radius, because the distance is only a bound, plus the step from
+    // block to block.
     int skip = fabsf(far) > reach + 0.012f;
     for (uint32_t k = k0; k < k1; ++k)
         for (uint32_t j = j0; j < j1; ++j)
@@ -82,7 +84,7 @@ static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0
                 net->distance[index_of(net, i, j, k)] = skip ? far : head_distance(grid_point(net, i, j, k));
 }
 
-// By four points of a tetrahedron round p (Quilez).
+// Compute the gradient from four points of a tetrahedron around p (Quilez).
 static point gradient(point p)
 {
     const float h = 3e-4f;
@@ -102,7 +104,8 @@ static int grow(void** memory, uint32_t* capacity, uint32_t count, size_t size)
     return 1;
 }
 
-// The middle of where the surface crosses the cell's edges. Returns 0 when it crosses none.
+// Compute the mean of the surface's intersections with the cell's edges. Return 0 if there are
+// none.
 static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k, point* out)
 {
     float d[8];
@@ -129,7 +132,7 @@ static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k,
     return 1;
 }
 
-// One step of Newton's method, held to the cell's neighbourhood.
+// Take one step of Newton's method, limited to the cell's neighbourhood.
 static point onto_surface(point p)
 {
     point g = gradient(p);
@@ -138,7 +141,7 @@ static point onto_surface(point p)
     return (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
 }
 
-// A vertex near the edge of the garment is slid onto it, so that the edge is a line and no staircase.
+// Slide a vertex near the collar onto the collar, so that the garment's edge is a smooth line.
 static point onto_collar(point p)
 {
     float below = head_below_collar(p);
@@ -190,7 +193,7 @@ static int place_vertices(struct net* net)
     return 0;
 }
 
-// Two triangles for the four cells round a grid edge that the surface crosses.
+// Add two triangles that connect the four cells around a grid edge that the surface crosses.
 static int add_square(struct net* net, const uint32_t corner[4], int flip)
 {
     struct head_mesh* mesh = net->mesh;
@@ -215,7 +218,7 @@ static int join_edge(struct net* net, const uint32_t at[3], uint32_t a)
     int inside = net->distance[index_of(net, at[0], at[1], at[2])] < 0;
     if (inside == (net->distance[index_of(net, end[0], end[1], end[2])] < 0)) return 0;
     uint32_t corner[4];
-    for (uint32_t i = 0; i < 4; ++i) { // round the edge, counter-clockwise seen from its end
+    for (uint32_t i = 0; i < 4; ++i) { // around the edge, counter-clockwise seen from its end
         uint32_t cell[3] = {at[0], at[1], at[2]};
         cell[b] -= i == 0 || i == 3;
         cell[c] -= i == 0 || i == 1;
@@ -246,7 +249,7 @@ int head_mesh_create(struct head_mesh* out)
 {
     struct head_mesh mesh = {0};
     struct net net = {.mesh = &mesh, .vertex_capacity = 1 << 14, .triangle_capacity = 1 << 15};
-    // Fine where the face is: eyes, nose and mouth; ears.
+    // Fine ranges cover the face (eyes, nose and mouth) and the ears.
     const struct stretch x[] = {{-0.048f, 0.048f, 0.0023f}, {-0.090f, 0.090f, 0.0036f}};
     const struct stretch y[] = {{1.604f, 1.616f, 0.0014f},
                                 {1.546f, 1.560f, 0.0018f},
@@ -285,15 +288,17 @@ void head_mesh_free(struct head_mesh* mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-// Solids ---------------------------------------------------------------------------------------------------
+// Colliders
+// ------------------------------------------------------------------------------------------------
 
 struct pill {
     point a, b; // ends of its axis
     float radius;
 };
 
-// The skull's are hulls of equal spheres inscribed in its ellipsoid, all in the plane of symmetry, found by
-// random search for the least gap: 2.7 mm at most, and nowhere more than 0.4 mm outside.
+// Capsules of the bust. The skull's capsules have equal end spheres inscribed in its ellipsoid, all
+// in the plane of symmetry. A random search minimized the gap to the ellipsoid. The gap is at most
+// 2.7 mm, and the capsules extend at most 0.4 mm outside.
 static const struct pill pills[] = {
     {{0, 1.6606f, -0.0011f}, {0, 1.6047f, 0.0158f}, 0.0668f},
     {{0, 1.6367f, -0.0289f}, {0, 1.6119f, -0.0245f}, 0.0661f},
@@ -319,7 +324,8 @@ static hair_solid solid_of(const struct pill* pill)
 {
     point a = pill->a, b = pill->b, d = {b.x - a.x, b.y - a.y, b.z - a.z};
     float size = sqrtf(d.x * d.x + d.y * d.y + d.z * d.z);
-    float w = 1 + d.y / size, x = d.z / size, z = -d.x / size; // the least turn from +y, Euler and Rodrigues
+    // Smallest rotation from +y, Euler-Rodrigues.
+    float w = 1 + d.y / size, x = d.z / size, z = -d.x / size;
     if (w < 1e-6f) w = 0, x = 1, z = 0; // half a turn
     float norm = sqrtf(w * w + x * x + z * z);
     hair_solid solid = {HAIR_SHAPE_CAPSULE,

@@ -1,4 +1,4 @@
-// head.h - the bust that tools draw under the hair and let it fall on: libhair draws hair only.
+// head.h - The bust that tools draw under the hair and use as colliders. libhair draws hair only.
 #ifndef TOOLS_COMMON_HEAD_H
 #define TOOLS_COMMON_HEAD_H
 
@@ -13,14 +13,14 @@ struct head_mesh {
     uint32_t triangle_count;
 };
 
-// Returns 0, or -1 when memory ran out.
+// Create the mesh of the bust. Return 0, or -1 if memory runs out.
 int head_mesh_create(struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_SOLIDS 16
 
-// The same bust as solids for hair_set_solids, nowhere outside the scalp. Returns how many there are; writes
-// at most `capacity`.
+// Write the bust's colliders for hair_set_solids(). No collider extends outside the scalp. Write at
+// most `capacity` colliders. Return the total count.
 uint32_t head_solids(hair_solid* out, uint32_t capacity);
 
 #endif

@@ -1,16 +1,16 @@
-// head_cut.c - cuts the bust's mesh along the collar, so that skin and garment meet in a sharp line.
+// head_cut.c - Cut the bust's mesh along the collar, so that skin and garment meet in a sharp line.
 #include "tools/common/head_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ON_COLLAR 2e-4f // What counts as on the line, m: less makes slivers.
+#define ON_COLLAR 2e-4f // Tolerance of points on the collar, m. A smaller value makes slivers.
 
 struct cutter {
     struct head_mesh* mesh;
-    float* below; // of each vertex: height that the collar is above it; 0 on it
-    uint32_t* twin; // of each vertex on the collar: the same of the garment; 0: none yet
+    float* below; // height of the collar above each vertex, 0 on it
+    uint32_t* twin; // garment copy of each vertex on the collar, 0 if none
     uint32_t* triangles;
     uint32_t triangle_count;
 };
@@ -22,7 +22,7 @@ static void color_vertex(struct head_mesh* mesh, uint32_t vertex, int is_worn)
     head_color(p, is_worn, mesh->colors + 3 * (size_t)vertex);
 }
 
-// Between vertices a and b, at t.
+// Add a vertex at parameter t between vertices a and b.
 static uint32_t add_vertex(struct head_mesh* mesh, uint32_t a, uint32_t b, float t, int is_worn)
 {
     uint32_t vertex = mesh->vertex_count++;
@@ -41,7 +41,8 @@ static uint32_t twin_of(struct cutter* cutter, uint32_t vertex)
     return cutter->twin[vertex];
 }
 
-// The part of a triangle above the collar (side -1) or below it (side 1), by Sutherland and Hodgman 1974.
+// Add the part of a triangle above the collar (side -1) or below it (side 1), by Sutherland and
+// Hodgman 1974.
 static void add_part(struct cutter* cutter, const uint32_t corner[3], float side)
 {
     uint32_t polygon[4], count = 0;
@@ -79,7 +80,8 @@ static int widen(float** memory, size_t count)
     return more != NULL;
 }
 
-// Each triangle may be cut once, which makes three of it and four vertices, and each vertex may get a twin.
+// Allocate for the worst case. Each cut triangle becomes three triangles with four new vertices,
+// and each vertex may get a twin.
 static int make_room(struct cutter* cutter)
 {
     struct head_mesh* mesh = cutter->mesh;
