@@ -1,6 +1,7 @@
-// head_shape.c - a calm mannequin: skull, face, ears, neck, shoulders, and a garment below the collar.
-// Based on: Quilez, "Distance functions" and "Smooth minimum"; the canon of thirds for the face (hairline to
-// brow, brow to nose, nose to chin; eyes half-way up the head).
+// head_shape.c - Distance function of a mannequin with skull, face, ears, neck, shoulders, and a
+// garment below the collar.
+// Based on Quilez, "Distance functions" and "Smooth minimum". The face follows the canon of thirds
+// (hairline to brow, brow to nose, nose to chin), with the eyes half-way up the head.
 #include "tools/common/head_shape.h"
 
 #include <math.h>
@@ -37,19 +38,20 @@ static float length(point a)
     return sqrtf(dot(a, a));
 }
 
-// Union and difference with a fillet of about k metres.
+// Compute the union of two distances with a fillet of about k metres.
 static float join(float a, float b, float k)
 {
     float h = fmaxf(k - fabsf(a - b), 0) / k;
     return fminf(a, b) - h * h * k * 0.25f;
 }
 
+// Compute the difference of two distances with a fillet of about k metres.
 static float carve(float a, float b, float k)
 {
     return -join(-a, b, k);
 }
 
-// First order, exact on the surface.
+// Compute the distance to an ellipsoid to first order. The distance is exact on the surface.
 static float ellipsoid(point p, point center, point axes)
 {
     point q = sub(p, center);
@@ -59,7 +61,7 @@ static float ellipsoid(point p, point center, point axes)
     return slope > 1e-6f ? k * (k - 1) / slope : -fminf(axes.x, fminf(axes.y, axes.z));
 }
 
-// A capsule whose radius goes from r to s.
+// Compute the distance to a capsule whose radius changes linearly from r to s.
 static float limb(point p, point a, point b, float r, float s)
 {
     point axis = sub(b, a), q = sub(p, a);
@@ -74,10 +76,10 @@ static float skull(point p)
     return ellipsoid(p, (point){0, 1.63f, 0}, (point){0.077f, 0.098f, 0.096f});
 }
 
-// How far p is above the hairline of the built-in haircuts. m.
+// Return the height of p above the hairline of the built-in haircuts, in m.
 static float above_hairline(point p)
 {
-    // Azimuth from the face, degrees, and height, m.
+    // Azimuth from the face, in degrees, and height, in m.
     static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
                                         {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
                                         {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
@@ -89,7 +91,7 @@ static float above_hairline(point p)
     return p.y - mix(hairline[i][1], hairline[i + 1][1], clamp(t, 0, 1));
 }
 
-// |x| without the crease: what is made of two halves is round where they meet.
+// Mirror p to x > 0 with a rounded crease, so that two mirrored halves meet smoothly.
 static point fold(point p, float radius)
 {
     return (point){sqrtf(p.x * p.x + radius * radius), p.y, p.z};
@@ -113,7 +115,7 @@ static float bones(point p, float d)
                 0.016f);
 }
 
-// Closed, for calm: the upper lid lies a little over the lower one along the lashes.
+// The eyes are closed. The upper lid overlaps the lower lid slightly along the lashes.
 #define EYE_X 0.0310f
 #define EYE_Y 1.6120f
 
@@ -146,7 +148,7 @@ static float mouth(point p, float d)
 {
     d = join(d, ellipsoid(p, (point){0, 1.556f, 0.068f}, (point){0.032f, 0.026f, 0.0245f}), 0.018f);
     d = carve(d, limb(p, (point){0, 1.574f, 0.0980f}, (point){0, 1.565f, 0.0980f}, 0.0016f, 0.0026f), 0.006f);
-    // Lips swell in the middle and run out to the corners.
+    // Lips are thick in the middle and thin out to the corners.
     point q = fold(p, 0.004f);
     d = join(
         d, limb(q, (point){0.0050f, 1.5582f, 0.0868f}, (point){0.0225f, 1.5545f, 0.0775f}, 0.0054f, 0.0024f),
@@ -160,7 +162,8 @@ static float mouth(point p, float d)
     return carve(d, ellipsoid(p, (point){0, 1.5375f, 0.0965f}, (point){0.016f, 0.004f, 0.006f}), 0.012f);
 }
 
-// Turned out by 25 degrees and back by 12, in its own axes: out of the head, up, back.
+// Return the distance to an ear, turned out by 25 degrees and back by 12. The ear's own axes are
+// out of the head, up and back.
 static float ear(point p)
 {
     point q = sub(p, (point){0.0735f, 1.6030f, -0.008f});
@@ -200,7 +203,7 @@ static float neck(point p, float d)
     return carve(d, ellipsoid(p, (point){0, 1.404f, 0.034f}, (point){0.010f, 0.010f, 0.008f}), 0.020f);
 }
 
-// How far p is below the collar of the garment. m.
+// Return the depth of p below the collar of the garment, in m.
 float head_below_collar(point p)
 {
     return 1.437f - 0.36f * (p.z + 0.03f) - p.y;
@@ -216,7 +219,7 @@ float head_distance(point p)
         if (p.z > -0.03f && p.y < 1.70f) head = bones(p, head);
         d = p.y < 1.62f ? join(neck(p, d), head, 0.016f) : head;
         if (p.z > 0.04f && p.y > 1.48f && p.y < 1.68f) d = mouth(p, nose(p, eye(p, d)));
-        // Where hair grows nothing but the skull may show, so that its roots lie on the skin.
+        // Only the skull is exposed where hair grows, so that roots lie on the skin.
         if (p.y > 1.52f) d = mix(d, bone, smooth(-0.010f, -0.002f, above_hairline(p)));
         if (p.x > 0.05f && fabsf(p.z) < 0.06f && p.y > 1.53f && p.y < 1.68f) d = join(d, ear(p), 0.005f);
     }
@@ -241,7 +244,7 @@ void head_color(point p, int is_worn, float rgb[3])
     float front = smooth(0.045f, 0.055f, p.z);
     brow *= smooth(0.011f, 0.018f, p.x) * smooth(0.051f, 0.044f, p.x) * 0.6f;
     lip *= smooth(0.0255f, 0.0225f, p.x);
-    // Skin that hair grows from is darkened by it, as at a shaved head.
+    // Hair darkens the skin that it grows from, as on a shaved head.
     float dark = fmaxf(front * fmaxf(brow, 0.8f * lash), 0.88f * smooth(0, 0.010f, above_hairline(p)));
     for (int i = 0; i < 3; ++i) rgb[i] = is_worn ? cloth[i] : mix(mix(skin[i], lips[i], lip), hair[i], dark);
 }

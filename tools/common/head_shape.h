@@ -1,4 +1,4 @@
-// head_shape.h - the bust as a distance, made of blended parts.
+// head_shape.h - Distance function of the bust, made of blended parts.
 #ifndef TOOLS_COMMON_HEAD_SHAPE_H
 #define TOOLS_COMMON_HEAD_SHAPE_H
 
@@ -8,19 +8,20 @@ struct head_point {
     float x, y, z;
 };
 
-// Lowest height of the bust, where it is cut. m.
+// Lowest height of the bust, where it is cut off, in m.
 #define HEAD_BOTTOM 1.25f
 
-// Distance to the skin or garment, negative inside; near the truth within a few centimetres. m.
+// Return the distance to the skin or garment, in m, negative inside. The distance is accurate
+// within a few centimetres of the surface.
 float head_distance(struct head_point p);
 
-// How far p is below the collar of the garment. m.
+// Return the depth of p below the collar of the garment, in m.
 float head_below_collar(struct head_point p);
 
-// Linear reflectance of the skin or of the garment at p.
+// Compute the linear reflectance of the skin or of the garment at p.
 void head_color(struct head_point p, int is_worn, float rgb[3]);
 
-// Cut a mesh along the collar and colour it. Returns 0, or -1 when memory ran out.
+// Cut a mesh along the collar and colour it. Return 0, or -1 if memory runs out.
 int head_cut_collar(struct head_mesh* mesh);
 
 #endif

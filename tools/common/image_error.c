@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The part of a picture that a mask's errors come from.
+// Rectangle of a picture that affects the errors of a mask's pixels.
 struct part {
     uint32_t x, y, width, height;
 };
@@ -71,7 +71,8 @@ bool hair_image_error(const float* reference, const float* test, const unsigned 
     return ok;
 }
 
-// Along one axis: `step` apart lie the pixels of a line, `stride` apart the lines.
+// Dilate along one axis. `step` is the distance between pixels of a line, `stride` the distance
+// between lines.
 static void dilate(const unsigned char* in, unsigned char* out, uint32_t length, size_t step, uint32_t lines,
                    size_t stride, uint32_t by)
 {

@@ -1,4 +1,4 @@
-// image_error.h - what two pictures differ by, over a part of them.
+// image_error.h - Difference of two pictures over a part of them.
 #ifndef HAIR_TOOLS_COMMON_IMAGE_ERROR_H
 #define HAIR_TOOLS_COMMON_IMAGE_ERROR_H
 
@@ -7,16 +7,17 @@
 
 struct hair_image_error {
     double flip; // mean
-    double psnr; // dB, of all three channels as encoded; infinite where they are the same
-    uint32_t pixels; // that were looked at
+    double psnr; // dB over all three channels, sRGB-encoded, infinite for equal pictures
+    uint32_t pixels; // number of compared pixels
 };
 
-// Of pictures of RGB, sRGB in [0, 1], where the mask, a byte per pixel, is not 0. False: out of memory, or nothing
-// is set in the mask.
+// Compare two RGB pictures, sRGB-encoded in [0, 1], where the mask is not 0. The mask has one byte
+// per pixel. Return false if memory runs out or the mask is empty.
 bool hair_image_error(const float* reference, const float* test, const unsigned char* mask, uint32_t width,
                       uint32_t height, struct hair_image_error* out);
 
-// Set all of the mask within a square of `by` pixels to each side of what is set. False: out of memory.
+// Set all mask pixels within a square that reaches `by` pixels to each side of a set pixel. Return
+// false if memory runs out.
 bool hair_mask_dilate(unsigned char* mask, uint32_t width, uint32_t height, uint32_t by);
 
 #endif

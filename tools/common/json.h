@@ -1,4 +1,5 @@
-// json.h - JSON objects into structs, by tables of keys; what is wrong is said with its place.
+// json.h - JSON objects into structs, by tables of keys. Error messages name the place of the wrong
+// value.
 #ifndef HAIR_TOOLS_COMMON_JSON_H
 #define HAIR_TOOLS_COMMON_JSON_H
 
@@ -6,11 +7,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Where the value at hand stands, for the sentences.
+// Place of the current value, for error messages.
 struct hair_json {
     const char* tool;
-    const char* path; // of the file, or the name of the scene
-    const char* place; // "camera." or ""
+    const char* path; // path of the file, or name of the scene
+    const char* place; // prefix such as "camera.", or ""
 };
 
 enum hair_json_kind {
@@ -21,19 +22,22 @@ enum hair_json_kind {
     HAIR_JSON_OTHER
 };
 
-// A key and where its value goes: `at` bytes into the struct. Arrays of `count` numbers; 1 is a lone number.
+// Key and destination of its value, `at` bytes into the struct. `count` is the length of an array
+// of numbers, 1 for a single number.
 struct hair_json_entry {
     const char* key; // NULL ends a table
     enum hair_json_kind kind;
     size_t at;
     uint32_t count;
     double min, max;
-    const struct hair_json_entry* object; // of HAIR_JSON_OBJECT; its offsets are from the same struct
+    // Table of a HAIR_JSON_OBJECT, with offsets from the same struct.
+    const struct hair_json_entry* object;
+    // Reader of a HAIR_JSON_OTHER.
     bool (*read)(const struct hair_json* json, const char* key, const json_t* value,
-                 void* out); // of HAIR_JSON_OTHER
+                 void* out);
 };
 
-// Rows of such a table, and what ends it.
+// Rows of a table of entries, and its end.
 #define HAIR_NUMBERS(key, at, count, min, max)                                                               \
     {                                                                                                        \
         key, HAIR_JSON_NUMBERS, at, count, min, max, NULL, NULL                                              \
@@ -59,20 +63,22 @@ struct hair_json_entry {
         NULL, HAIR_JSON_OTHER, 0, 0, 0, 0, NULL, NULL                                                        \
     }
 
-// False: something is wrong, and `tool` has complained. A key that is in no row is wrong.
+// Read an object. Return false after an error, which has been printed. A key without an entry is an
+// error.
 bool hair_json_object(const struct hair_json* json, const char* name, const json_t* object,
                       const struct hair_json_entry* entries, void* out);
 
-// An array of at most `most` objects into elements of `size` bytes. `begin` has set the elements.
+// Read an array of at most `most` objects into elements of `size` bytes. The caller has set the
+// elements to their defaults.
 bool hair_json_array(const struct hair_json* json, const char* name, const json_t* array,
                      const struct hair_json_entry* entries, void* out, size_t size, uint32_t most,
                      uint32_t* count);
 
-// The path of a file that is named from the folder of the JSON's.
+// Compute the path of a file whose name is relative to the folder of the JSON file.
 bool hair_json_path(const struct hair_json* json, const char* key, const json_t* value, char* path,
                     size_t size);
 
-// "PATH: PLACE.KEY must be MUST". Returns false.
+// Print "PATH: PLACE.KEY must be MUST". Return false.
 bool hair_json_wrong(const struct hair_json* json, const char* key, const char* must);
 
 #endif

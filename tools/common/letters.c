@@ -1,9 +1,9 @@
-// letters.c - text in a picture, by letters of 5 by 7 dots.
+// letters.c - Text in a picture, in letters of 5 by 7 dots.
 #include "tools/common/letters.h"
 
 #include <string.h>
 
-// Columns of each letter from the left, from ' ' to '~'; the lowest bit is the upper dot.
+// Columns of each letter from ' ' to '~', left to right. The lowest bit is the top dot.
 static const unsigned char columns[95][5] = {
     {0x00, 0x00, 0x00, 0x00, 0x00}, {0x00, 0x00, 0x5f, 0x00, 0x00}, {0x00, 0x07, 0x00, 0x07, 0x00},
     {0x14, 0x7f, 0x14, 0x7f, 0x14}, {0x24, 0x2a, 0x7f, 0x2a, 0x12}, {0x23, 0x13, 0x08, 0x64, 0x62},
@@ -55,7 +55,7 @@ static void put_letter(struct hair_image* image, uint32_t x, uint32_t y, uint32_
             if (dots[i] >> k & 1) put_dot(image, x + i * scale, y + k * scale, scale, color);
 }
 
-// As much of the text as goes into a line; a word that is too long for one is cut.
+// Return the length of text that fits into a line. A word longer than a line is cut.
 static size_t line_of(const char* text, size_t letters)
 {
     size_t length = strlen(text), at = letters;

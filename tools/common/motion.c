@@ -1,4 +1,4 @@
-// motion.c - where a head is over time: keyframes and the smooth curve through them.
+// motion.c - Pose of a head over time, by keyframes and a smooth curve through them.
 #include "tools/common/motion.h"
 
 #include <cglm/cglm.h>
@@ -12,8 +12,8 @@ static float channel(const struct hair_key* key, int i)
     return i < 3 ? key->rotation[i] : key->position[i - 3];
 }
 
-// Slope of a channel at key k: that of the chord between its neighbours, and none at either end, so that the
-// head starts and stops softly.
+// Return the slope of a channel at key k, the slope of the chord between its neighbours. The slope
+// is 0 at either end, so that the head starts and stops softly.
 static float slope(const struct hair_motion* motion, uint32_t k, int i)
 {
     if (k == 0 || k + 1 >= motion->count) return 0;
@@ -22,7 +22,7 @@ static float slope(const struct hair_motion* motion, uint32_t k, int i)
     return (channel(after, i) - channel(before, i)) / (after->time - before->time);
 }
 
-// Cubic Hermite between keys k and k + 1.
+// Interpolate between keys k and k + 1 with a cubic Hermite curve.
 static float between(const struct hair_motion* motion, uint32_t k, float time, int i)
 {
     const struct hair_key* a = &motion->key[k];

@@ -1,4 +1,4 @@
-// motion.h - where a head is over time: keyframes and the smooth curve through them.
+// motion.h - Pose of a head over time, by keyframes and a smooth curve through them.
 #ifndef HAIR_TOOLS_COMMON_MOTION_H
 #define HAIR_TOOLS_COMMON_MOTION_H
 
@@ -6,20 +6,22 @@
 
 #define HAIR_MOTION_MAX_KEYS 256
 
-// A pose of the head: turned about the scene's pivot, then moved.
+// A pose of the head, a rotation about the scene's pivot followed by a translation.
 struct hair_key {
-    float time; // s; keys are in order of it
-    float rotation[3]; // degrees: to its left (yaw), nodding (pitch), to its right shoulder (roll)
+    float time; // s, increasing from key to key
+    // Degrees to its left (yaw), nodding (pitch), and to its right shoulder (roll).
+    float rotation[3];
     float position[3]; // m
 };
 
 struct hair_motion {
     struct hair_key key[HAIR_MOTION_MAX_KEYS];
-    uint32_t count; // 0: still
+    uint32_t count; // 0 disables motion
     float pivot[3];
 };
 
-// Column-major, rigid. Before the first key and after the last the head keeps their pose.
+// Compute the head's transform at a time, column-major and rigid. The head keeps the first pose
+// before the first key and the last pose after the last key.
 void hair_motion_at(const struct hair_motion* motion, float time, float transform[16]);
 
 #endif

@@ -1,4 +1,4 @@
-// obj.c - triangle meshes from Wavefront .obj files.
+// obj.c - Triangle meshes from Wavefront .obj files.
 #include "tools/common/obj.h"
 #include "tools/common/file.h"
 
@@ -7,9 +7,9 @@
 #include <string.h>
 
 #define MOST_BYTES ((size_t)2 << 30)
-#define MOST 16777216u // vertices, and triangles
+#define MOST 16777216u // maximum number of vertices and of triangles
 
-// The text at hand.
+// State of the parser.
 struct place {
     const char* tool;
     const char* path;
@@ -54,7 +54,8 @@ static bool read_vertex(struct place* place, char* at)
     return true;
 }
 
-// The number before any '/': from 1 on, or from the last vertex back.
+// Read a vertex index, the number before any '/'. Positive indices count from 1. Negative indices
+// count back from the last vertex.
 static bool read_corner(const struct place* place, char** at, uint32_t* corner)
 {
     char* end;
@@ -88,7 +89,7 @@ static bool read_face(struct place* place, char* at)
     return corners >= 3 || wrong(place, "has a face of fewer than 3 corners");
 }
 
-// Lines are ended where they end in the text.
+// Read all lines. Line ends in `text` are replaced by 0.
 static bool read_lines(struct place* place, char* text)
 {
     for (char* next; text; text = next) {

@@ -1,4 +1,4 @@
-// obj.h - triangle meshes from Wavefront .obj files: vertices and faces; all else in them is left out.
+// obj.h - Triangle meshes from Wavefront .obj files. Only vertices and faces are read.
 #ifndef HAIR_TOOLS_COMMON_OBJ_H
 #define HAIR_TOOLS_COMMON_OBJ_H
 
@@ -11,7 +11,8 @@ struct hair_obj {
     uint32_t vertex_count, triangle_count;
 };
 
-// Faces of more than three corners become fans. False: `tool` has complained, naming the line. hair_obj_free undoes it.
+// Read a mesh. Faces with more than three corners become fans. Return false after printing an error
+// that names the line. Release the mesh with hair_obj_free().
 bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out);
 void hair_obj_free(struct hair_obj* obj);
 

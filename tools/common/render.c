@@ -1,4 +1,5 @@
-// render.c - the picture around the hair: background, head, shadow maps, many samples, and the way to 8 bits.
+// render.c - The picture around the hair, with background, head, shadow maps, multisampling and
+// tone mapping to 8 bits.
 #include "tools/common/render.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_lights.h"
@@ -11,22 +12,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TAPS 16 // of a shadow map, of which a pixel that is made of many needs fewer
-#define MAX_TILE 4096 // Pixels drawn at once, in each direction: what any OpenGL 4.5 can hold.
+#define TAPS 16 // Taps of a shadow map. Supersampled pixels need fewer.
+#define MAX_TILE 4096 // Pixels drawn at once in each direction. Any OpenGL 4.5 supports this size.
 
 enum program { BACKGROUND, SKIN, DEPTH, TONE, PROGRAM_COUNT };
-enum buffer { POSITIONS, NORMALS, COLORS, TRIANGLES, BUFFER_COUNT }; // the first three are attributes too
+// The first three are vertex attributes too.
+enum buffer { POSITIONS, NORMALS, COLORS, TRIANGLES, BUFFER_COUNT };
 
 struct hair_render {
     const char* tool;
     struct hair_render_desc desc;
     struct hair_image image;
-    uint32_t tile; // side, in the picture's pixels
+    uint32_t tile; // side in pixels of the picture
     GLuint program[PROGRAM_COUNT];
     struct hair_targets targets;
-    struct hair_shadow_map map[HAIR_SCENE_SHADOWS]; // as many as lights have needed
+    struct hair_shadow_map map[HAIR_SCENE_SHADOWS]; // allocated as lights need them
     GLuint shadow_sampler;
-    GLuint vertex_array, nothing; // nothing: a vertex array without vertices
+    GLuint vertex_array, nothing; // `nothing` is a vertex array without vertices
     GLuint buffer[BUFFER_COUNT];
     uint32_t indices;
     float bend[2];
@@ -153,10 +155,10 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
 
 // Frames ----------------------------------------------------------------------------------------------------
 
-// One picture, or one tile of it.
+// The picture, or one tile of it.
 struct tile {
-    uint32_t x, y, width, height; // in the picture's pixels, from its upper left
-    float at[2], size[2]; // the same as shares
+    uint32_t x, y, width, height; // in pixels of the picture, from its upper left
+    float at[2], size[2]; // as fractions of the picture
     struct hair_matrices camera;
 };
 
@@ -166,7 +168,7 @@ struct frame {
     struct hair_frame_lights lights;
     uint32_t number;
     hair_instance* hair;
-    GLuint depth; // of what is drawn before the hair; 0: none is lent
+    GLuint depth; // depth of opaque geometry for occlusion culling, 0 disables it
 };
 
 static void set_mat4(GLuint program, GLint at, const float value[16])
@@ -194,14 +196,15 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
     glDisable(GL_CULL_FACE);
 }
 
-// Seen from the eye, lights have maps; what they see themselves has none.
+// Draw one pass of the hair. Only the colour pass, seen from the camera, gets the lights' shadow
+// maps.
 static hair_result draw_hair(const struct hair_render* render, const struct frame* frame,
                              const struct hair_matrices* matrices, hair_pass pass)
 {
     hair_view view = frame->scene->settings.view;
     hair_light light[HAIR_SCENE_LIGHTS];
     view.pass = pass;
-    view.frame = frame->number; // Its tiles share what light there is.
+    view.frame = frame->number; // Tiles of one frame share the lights' data.
     view.lod = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
     view.light_count = frame->lights.count;
     view.lights = light;
@@ -214,13 +217,16 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
     }
     view.depth_texture = pass == HAIR_PASS_COLOR ? frame->depth : 0;
     if (pass == HAIR_PASS_DEPTH && !view.lod)
-        view.primitive = HAIR_LINES; // About a ribbon's width there, at half the cost.
+        // In a depth pass, lines are about as wide as ribbons, at half the cost.
+        view.primitive = HAIR_LINES;
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
     return hair_draw(frame->hair, &view);
 }
 
-// What the body and hair leave of each other's light; of what is not shown, or falls on nothing that is, nothing.
+// Draw the shadow maps of light i, which are the depth of the mesh, the depth of hair and the
+// opacity of hair. Maps of parts that are not shown are skipped or left empty. The opacity map is
+// skipped without a mesh that receives the shadow.
 static hair_result draw_shadow(const struct hair_render* render, const struct frame* frame, uint32_t i)
 {
     const struct hair_shadow_map* map = &render->map[i];
@@ -229,7 +235,7 @@ static hair_result draw_shadow(const struct hair_render* render, const struct fr
     hair_result result = HAIR_OK;
     if (mesh) {
         hair_shadow_map_begin(map, HAIR_SHADOW_BODY);
-        glEnable(GL_POLYGON_OFFSET_FILL); // A surface does not shade itself.
+        glEnable(GL_POLYGON_OFFSET_FILL); // The offset keeps a surface from shadowing itself.
         glPolygonOffset(2, 4);
         draw_mesh(render, render->program[DEPTH], frame, matrices);
         glDisable(GL_POLYGON_OFFSET_FILL);
@@ -284,7 +290,8 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     hair_frame_lights_unset(&frame->lights);
 }
 
-// The head's depth, by one sample a pixel, for a tile as large as what is drawn into.
+// Copy the head's depth, one sample per pixel, for occlusion culling. Return 0 if culling is
+// disabled or the tile does not fill the render target.
 static GLuint copy_depth(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
     const struct hair_targets* targets = &render->targets;
@@ -299,7 +306,7 @@ static GLuint copy_depth(const struct hair_render* render, const struct frame* f
     return targets->depth;
 }
 
-// Average the samples, then the pixels of a supersampled one, and encode.
+// Average the samples, then the pixels of a supersampled one, and encode the result.
 static void develop(const struct hair_render* render, const struct frame* frame, const struct tile* tile)
 {
     GLuint program = render->program[TONE];

@@ -1,4 +1,4 @@
-// rig.c - what goes with the head when it moves, and what stays on the shoulders.
+// rig.c - Meshes and colliders of a scene, which move with the head or stay on the shoulders.
 #include "tools/common/rig.h"
 
 #include <cglm/cglm.h>
@@ -54,9 +54,11 @@ int hair_rig_ball(float radius, struct head_mesh* out)
     return 0;
 }
 
-// Solids ----------------------------------------------------------------------------------------------------
+// Colliders
+// -------------------------------------------------------------------------------------------------
 
-// As the vertex shader bends the mesh: smoothstep.
+// Return the weight of the head's motion at a height, by smoothstep as in the vertex shader of the
+// mesh.
 static float weight(float height)
 {
     float t = glm_clamp((height - HAIR_RIG_RESTS) / (HAIR_RIG_MOVES - HAIR_RIG_RESTS), 0, 1);
