@@ -1,10 +1,10 @@
 # make demo            build, simulate and render the built-in scene: build/demo.png and build/demo.mp4
-# make test            build and run every test; filter=groom runs the programs so named
+# make test            build and run every test; filter=groom runs the programs whose names contain groom
 # make config=asan     release (default), debug, asan, tsan, coverage
-# make BULLET=0        without libhair_bullet; libhair is the same
-# make bench device=0  on that EGL device, with all cases; without it a quick run on the first that works
+# make BULLET=0        build without libhair_bullet, libhair is unchanged
+# make bench device=0  run all cases on EGL device 0; without device=, a quick run on the first that works
 # make V=1             show every command
-# make setup           install the Debian packages of tools/packages.txt that are missing; SETUP=0 skips it
+# make setup           install the missing Debian packages of tools/packages.txt; SETUP=0 skips it
 MAKEFLAGS += -r --no-print-directory
 config    ?= release
 PREFIX    ?= /usr/local
@@ -30,8 +30,9 @@ CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLA
 VERSION := $(shell awk '/define HAIR_VERSION_(MAJOR|MINOR|PATCH)/{v=v s $$3; s="."} END{print v}' include/hair/hair.h)
 MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 
-# The rooms of lib/, as data flows through them: a file includes from its own room and from those before it.
-# Beside them egl/, bullet/ and reference/, each a library of its own.
+# Folders of lib/ in the order of the data flow. A file includes only from its own folder and from
+# those before it.
+# The folders egl/, bullet/ and reference/ are separate libraries.
 ROOMS := base asset collide groom gl field wind sim interpolate draw api
 
 objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
@@ -47,14 +48,14 @@ TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/un
 NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
 LIBRARIES := $(foreach n,$(NAMES),$(B)/lib$(n).a $(B)/lib$(n).so)
 
-# Deferred, so that they are asked after `make setup` has installed the packages.
+# Deferred variables, because pkg-config must run after `make setup` has installed the packages.
 packages   = $(shell pkg-config $(1) $(2))
 TOOL_CFLAGS = $(call packages,--cflags,epoxy libpng OpenEXR jansson cglm libxxhash)
 TOOL_LIBS   = $(call packages,--libs,epoxy egl libpng OpenEXR jansson libxxhash) -pthread -lm
 TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) -pthread -lm
 EIGEN       = $(call packages,--cflags,eigen3)
 BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,bullet))
-# Of what the package names only these two: no dynamics, no soft bodies.
+# The library needs only these two of Bullet's libraries, not dynamics or soft bodies.
 BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--libs,bullet))
 
 all: libraries tools ## Libraries and tools, in build/$(config)
@@ -66,11 +67,11 @@ demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair i
 	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 4 -o build/demo.png
 	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=shares --set segments=18 --set shadow=depth -o build/demo.mp4
 
-gallery: setup ## build/gallery.png: what the library does, pictures with captions
+gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
 	$(B)/hair-gallery -o build/gallery.png
 
-# What is measured here, and what was measured elsewhere and is kept, on one page.
+# The report shows measurements of this machine and stored measurements of others on one page.
 SUITES  := accuracy physics stability render shadow table paths scale bounds lod collision field wind skip
 MACHINE := build/bench/$(if $(device),device-$(device),here)
 bench: setup ## Every suite of hair-bench, into build/bench/
@@ -86,11 +87,11 @@ report: setup ## build/report/index.html: run time against error on one page, af
 	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
 	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
 
-test: setup ## Everything a change must pass
+test: setup ## Every test that a change must pass
 	@$(MAKE) -j$(JOBS) all $(TESTS)
 	@$(MAKE) check glsl consumer run-tests
 
-setup: ## Install what is missing of tools/packages.txt (Debian), saying so first
+setup: ## Print and install the missing Debian packages of tools/packages.txt
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh
 
 # Libraries ------------------------------------------------------------------------------------------------
@@ -167,7 +168,7 @@ COMMON := $(call objects,tools/common/*.c)
 $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
-# What of Bullet's is in a scene.
+# Bullet objects of a scene, or a stub without Bullet.
 WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/none.c.o,$(B)/tools/bullet/world.cpp.o $(B)/libhair_bullet.a)
 $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
@@ -185,13 +186,14 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
-# As many at once as there are cores: most of a test's time is one thread's, which compiles shaders.
+# Run as many tests at once as there are cores. Most of a test's time is single-threaded compilation
+# of shaders.
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(TESTS) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; printf "== %s\n%s\n" "$$0" "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
-glsl: ## Compile every shader offline, no GPU needed
+glsl: ## Compile every shader offline, without a GPU
 	@{ { printf '#define FEATURE(name, define) @define name;\n#define TEXT(x) #x\n' ; \
 	     printf '#define PASS(name, label, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \
 	     $(CC) -E -P -I. -x c - | tr -d '\n' | tr ';' '\n' | awk -f tools/programs.awk; \
@@ -199,7 +201,7 @@ glsl: ## Compile every shader offline, no GPU needed
 	     '-DHAIR_FIBRES=1 -DHAIR_OWN_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms symbols ## What no compiler checks: the order of rooms, the exported names
+check: rooms symbols ## Check the order of the folders of lib/ and the exported names
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \

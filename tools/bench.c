@@ -1,4 +1,4 @@
-// bench.c - hair-bench: the library measured against what is known, as rows.
+// bench.c - hair-bench, measurements of the library against known results, as rows.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/bench/bench.h"
 #include "tools/common/file.h"
@@ -26,7 +26,7 @@ static void catch_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
-    action.sa_handler = SIG_IGN; // A reader that went away is seen where it is written to.
+    action.sa_handler = SIG_IGN; // A failed write reports a reader that went away.
     sigaction(SIGPIPE, &action, NULL);
 }
 
@@ -35,7 +35,7 @@ bool bench_was_interrupted(void)
     return interrupted;
 }
 
-// What a suite provokes is not worth a line each: the last sentence is kept, for bench_refuse().
+// Keep the last message for bench_refuse(). Suites provoke too many messages to print each.
 static void keep_log(hair_log_level level, const char* sentence, void* user)
 {
     struct bench* bench = user;
@@ -43,7 +43,7 @@ static void keep_log(hair_log_level level, const char* sentence, void* user)
     if (bench->options.verbose) hair_complain(BENCH_TOOL, "%s", sentence);
 }
 
-// Rows in turn ----------------------------------------------------------------------------------------------
+// Rows --------------------------------------------------------------------------------------------
 
 static void note_case(struct bench* bench, const char* name)
 {
@@ -62,7 +62,7 @@ static void show_progress(const struct bench* bench, const char* name, const cha
     fprintf(stderr, "%s %s", name, method);
 }
 
-// A wanted name that ends with * is any name that begins as it does.
+// Compare a name with the requested one. A trailing * matches any end.
 static bool is_wanted(const char* wanted, const char* name)
 {
     size_t length = wanted ? strlen(wanted) : 0;
@@ -90,7 +90,7 @@ void bench_refuse(struct bench* bench, const char* name, const char* method)
     hair_complain(BENCH_TOOL, "%s, %s: no row: %s", name, method, bench->sentence);
 }
 
-// The whole -------------------------------------------------------------------------------------------------
+// Main program ------------------------------------------------------------------------------------
 
 static bool is_software(const char* renderer)
 {
@@ -129,7 +129,7 @@ static int plan(struct bench* bench)
     return HAIR_EXIT_USAGE;
 }
 
-// As Linux names it; nothing where it does not.
+// Find the processor's name as Linux reports it. The name is empty on other systems.
 static void name_processor(char* name, int size)
 {
     char line[256];
@@ -162,7 +162,7 @@ static void write_csv(const struct bench* bench, FILE* file)
     bench_write_csv(&bench->rows, file);
 }
 
-// Opened before the work, so that what cannot be written is known early.
+// An output file of the tool. It is opened before the measurements, so that an error appears early.
 struct target {
     const char* path;
     void (*write)(const struct bench* bench, FILE* file);

@@ -1,4 +1,5 @@
-// capture.c - hair-capture: a scene simulated and drawn off-screen, into pictures, videos and hashes.
+// capture.c - hair-capture, which simulates and draws a scene off-screen into pictures, videos and
+// hashes.
 #define _POSIX_C_SOURCE 200809L
 #include <hair/hair_egl.h>
 
@@ -20,7 +21,8 @@
 
 #define TOOL "hair-capture"
 #define MOST_SHADER ((size_t)1 << 20) // bytes
-#define LONGEST_STEP 0.1f // s: hair_desc.max_dt by default. A frame that lasts longer is stepped in parts.
+// Maximum step, s, the default of hair_desc.max_dt. A longer frame is stepped in parts.
+#define LONGEST_STEP 0.1f
 
 static volatile sig_atomic_t interrupted;
 
@@ -31,15 +33,15 @@ struct capture {
     hair_egl* egl;
     hair_context* context;
     hair_instance* hair;
-    hair_shader* shader; // NULL: the library's
-    struct hair_world* world; // NULL: nothing of Bullet's is in the scene
+    hair_shader* shader; // NULL uses the library's shading
+    struct hair_world* world; // NULL if the scene has no Bullet objects
     hair_solid* solids;
     uint32_t solid_room;
     struct hair_render* render;
     struct hair_sink sink;
     struct hair_stats stats;
-    float reach; // of the head, m
-    float* vertices; // of all guides, for the hash
+    float reach; // radius of the head's reach, m
+    float* vertices; // vertices of all guides, for the hash
     XXH3_state_t* strands;
     XXH3_state_t* pixels;
     double started; // ms
@@ -58,7 +60,7 @@ static void catch_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
-    action.sa_handler = SIG_IGN; // A reader that went away is seen where it is written to.
+    action.sa_handler = SIG_IGN; // A failed write reports a reader that went away.
     sigaction(SIGPIPE, &action, NULL);
 }
 
@@ -84,7 +86,8 @@ static int make_groom(struct capture* capture)
     if (!scene->head && !scene->pivot_is_said)
         for (int i = 0; i < 3; ++i) scene->motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
     if (!scene->framed) hair_camera_frame(scene, &bounds);
-    capture->reach = 1.15f * hair_camera_reach(scene, &bounds); // Hair that swings goes beyond its rest.
+    // Hair swings beyond its bounds at rest.
+    capture->reach = 1.15f * hair_camera_reach(scene, &bounds);
     return HAIR_EXIT_OK;
 }
 
@@ -136,7 +139,7 @@ static bool reserve_solids(struct capture* capture, uint32_t count)
     return true;
 }
 
-// The scene's own, and of Bullet's objects those that the hair can reach.
+// Set the scene's colliders and those of Bullet objects that the hair can reach.
 static hair_result set_solids(struct capture* capture, float time, const float transform[16])
 {
     const hair_solid* others = NULL;
@@ -214,7 +217,7 @@ static float time_of(const struct capture* capture, double frame)
     return (float)(frame / (double)capture->options.scene.fps);
 }
 
-// The head at one place, while the hair finds its own.
+// Simulate with the head at rest, so that the hair settles.
 static hair_result settle(struct capture* capture)
 {
     const struct hair_scene* scene = &capture->options.scene;
@@ -224,7 +227,7 @@ static hair_result settle(struct capture* capture)
     return result;
 }
 
-// From the frame before to this one.
+// Step from the previous frame to this one.
 static hair_result step(struct capture* capture, uint32_t frame)
 {
     const struct hair_scene* scene = &capture->options.scene;
@@ -298,7 +301,7 @@ static int run_frames(struct capture* capture)
     return HAIR_EXIT_OK;
 }
 
-// The whole -------------------------------------------------------------------------------------------------
+// Main program ------------------------------------------------------------------------------------
 
 static int make(struct capture* capture)
 {

@@ -1,6 +1,7 @@
-// embed.c - write files as one array of bytes in C: name, 0, text, 0, and so on; an empty name ends it.
+// embed.c - Write files as one array of bytes in C.
 //
-// One array and no pointers means no relocations and no writable section.
+// The array is name, 0, text, 0 for each file, and an empty name at the end. One array without
+// pointers needs no relocations and no writable section.
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ int main(int count, char** arguments)
     fprintf(out, "const unsigned char hair_sources[] = {");
     long column = 0;
     for (int i = 2; i < count; ++i) {
-        const char* name = strchr(arguments[i], '/'); // Relative to glsl/.
+        const char* name = strchr(arguments[i], '/'); // relative to glsl/
         FILE* in = fopen(arguments[i], "rb");
         if (!in || !name) return fprintf(stderr, "embed: cannot read %s\n", arguments[i]), 1;
         for (++name; *name; ++name) put(out, *name, &column);

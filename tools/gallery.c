@@ -1,4 +1,5 @@
-// gallery.c - hair-gallery: one picture of many with captions, each made by hair-capture. gallery.inl says of what.
+// gallery.c - hair-gallery, which makes one sheet of many pictures with captions. hair-capture
+// makes each picture. gallery.inl lists them.
 #define _GNU_SOURCE
 #include "tools/common/file.h"
 #include "tools/common/letters.h"
@@ -12,18 +13,18 @@
 #include <unistd.h>
 
 #define TOOL "hair-gallery"
-#define COLUMNS 5u // pictures beside each other
-#define MARGIN 8u // pixels around each
-#define TITLE 3u // pixels for a dot of the letters
+#define COLUMNS 5u // pictures per row
+#define MARGIN 8u // pixels around each picture
+#define TITLE 3u // pixels per dot of a title's letters
 #define CAPTION 2u
 #define CAPTION_LINES 3u
 #define PICTURE_PATH 4128
-#define SAMPLES "--supersample 4 " // unless a row says how many
+#define SAMPLES "--supersample 4 " // default, a row of gallery.inl can override it
 
 static const struct entry {
-    const char* title; // of a row; of a picture NULL
-    const char* caption; // of a picture
-    const char* arguments; // of hair-capture
+    const char* title; // title of a row, NULL for a picture
+    const char* caption; // caption of a picture
+    const char* arguments; // arguments of hair-capture
 } entries[] = {
 #define ROW(title) {title, NULL, NULL},
 #define PICTURE(caption, arguments) {NULL, caption, SAMPLES arguments},
@@ -35,14 +36,14 @@ static const struct entry {
 
 struct gallery {
     const char* out;
-    const char* only; // NULL: every row
+    const char* only; // NULL shows every row
     uint32_t width, height, jobs;
     char capture[4096]; // path of hair-capture
     char folder[4096];
     struct {
-        uint32_t x, y; // of its upper left
+        uint32_t x, y; // upper left corner
         bool is_shown;
-        pid_t process; // that makes it; 0: none
+        pid_t process; // process that makes the picture, 0 if none
     } place[ENTRIES];
     struct hair_image sheet;
 };
@@ -63,7 +64,7 @@ static int print_help(void)
     return hair_flush(TOOL);
 }
 
-// Where everything goes ---------------------------------------------------------------------------------------
+// Layout ------------------------------------------------------------------------------------------
 
 static void arrange(struct gallery* gallery)
 {
@@ -133,7 +134,7 @@ static void name_picture(const struct gallery* gallery, uint32_t i, char name[PI
     snprintf(name, PICTURE_PATH, "%s/%u.png", gallery->folder, i);
 }
 
-// A process that becomes hair-capture. The shell takes the arguments of the table apart.
+// Start hair-capture as a child process. The shell splits the arguments of the table.
 static bool begin_picture(struct gallery* gallery, uint32_t i)
 {
     char script[1024], size[32], name[PICTURE_PATH];
@@ -169,7 +170,7 @@ static bool read_picture(struct gallery* gallery, uint32_t i)
     return ok;
 }
 
-// Waits for any picture. False: it could not be made, or there is none to wait for.
+// Wait for any picture. Return false if it failed, or if no picture is in progress.
 static bool end_picture(struct gallery* gallery)
 {
     int status;

@@ -1,5 +1,5 @@
-// gallery.inl - what `make gallery` shows: rows of pictures, each made by hair-capture with the arguments beside its
-// caption. Paths start where make does.
+// gallery.inl - Contents of `make gallery`, as rows of pictures. hair-capture makes each picture
+// with the arguments beside its caption. Paths are relative to the folder that make runs in.
 ROW("Followers and solids: a ball comes into hair that follows three guides at once")
 PICTURE("Guides collide; no follower does (collision=none)",
         "tools/scenes/ball.json --show hair,head,solids --set collision=none")

@@ -1,4 +1,5 @@
-// groom.c - hair-groom: look into haircuts, convert them from format to format, make the built-in ones.
+// groom.c - hair-groom, which describes haircuts, converts them between formats, and makes the
+// built-in ones.
 #define _GNU_SOURCE
 #include <hair/hair_asset.h>
 #include "tools/common/file.h"
@@ -31,7 +32,7 @@ enum choice { SCALE = 256, UP, TIP_FIRST, SHARE, VERTICES, GUIDES, LENGTH, SEED,
 static const struct row {
     const char* name;
     int option, commands;
-    const char* argument; // NULL: it takes none
+    const char* argument; // NULL if the option takes no argument
     const char* about;
 } rows[] = {
     {"scale", SCALE, INFO | CONVERT, "X", "metres per unit of the file; 1"},
@@ -50,15 +51,15 @@ static const struct row {
 #define COMMANDS (sizeof commands / sizeof *commands)
 #define ROWS (sizeof rows / sizeof *rows)
 
-// What the command line says.
+// Parsed command line.
 struct said {
     const struct command* command;
     const char* operand[2];
     hair_import import;
     hair_style_desc style;
-    hair_format format; // HAIR_FORMAT_NONE: as the name of OUT ends
-    int given; // the commands that every option given goes with
-    const char* wrong; // an option that does not go with all of them
+    hair_format format; // HAIR_FORMAT_NONE chooses by the end of OUT
+    int given; // commands that accept all given options
+    const char* wrong; // first option that some command does not accept
 };
 
 static const hair_host host = {NULL, NULL, hair_print_log, TOOL};
@@ -98,7 +99,7 @@ static int print_version(void)
 
 // The command line -------------------------------------------------------------------------------------------
 
-// The library checks ranges; here only that it is a number at all.
+// Parse a number. The library checks ranges.
 static bool parse_number(const char* name, const char* text, float* out)
 {
     char* end;
@@ -121,7 +122,7 @@ static bool parse_count(const char* name, const char* text, uint32_t* out)
 
 static bool parse_up(const char* text, hair_up* out)
 {
-    static const char axes[] = "yzx"; // In the order of hair_up.
+    static const char axes[] = "yzx"; // in the order of hair_up
     const char* axis = text[0] && !text[1] ? strchr(axes, text[0]) : NULL;
     if (axis) *out = (hair_up)(axis - axes);
     if (!axis) hair_complain(TOOL, "--up is %s, not y, z or x", text);
@@ -208,7 +209,7 @@ static int take_operands(int count, char** operands, struct said* said)
     return -1;
 }
 
-// Returns what to exit with, or -1 to go on.
+// Parse the arguments. Return an exit status, or -1 to continue.
 static int parse(int count, char** arguments, struct said* said)
 {
     struct option options[ROWS + 1];
@@ -269,7 +270,7 @@ static int write_bytes(const char* path, const void* bytes, size_t size)
 {
     struct hair_output output;
     if (!hair_output_open(TOOL, path, &output)) return HAIR_EXIT_RUNTIME;
-    fwrite(bytes, 1, size, output.file); // The commit sees whether it failed.
+    fwrite(bytes, 1, size, output.file); // hair_output_commit() reports a failed write.
     return hair_output_commit(&output) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
@@ -333,7 +334,7 @@ static void print_asset(const hair_asset_info* info)
            info->file_vertices, info->fewest, info->most);
     printf("%-10s least %.6g, mean %.6g, greatest %.6g m\n", "length:", (double)info->length[0],
            (double)info->length[1], (double)info->length[2]);
-    // Adding 0 turns the -0 of a turned axis into 0.
+    // Adding 0 turns the -0 of a rotated axis into 0.
     printf("%-10s x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g m\n", "bounds:", l[0] + 0.0, u[0] + 0.0,
            l[1] + 0.0, u[1] + 0.0, l[2] + 0.0, u[2] + 0.0);
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
@@ -405,7 +406,7 @@ static int run(int count, char** arguments)
 
 int main(int count, char** arguments)
 {
-    signal(SIGPIPE, SIG_IGN); // A reader that went away is a failed write, not a death.
+    signal(SIGPIPE, SIG_IGN); // A write to a closed pipe must fail instead of ending the program.
     int code = run(count, arguments), printed = hair_flush(TOOL);
     return code ? code : printed;
 }

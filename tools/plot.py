@@ -17,7 +17,8 @@ def rows(path):
         yield from csv.DictReader(file)
 
 
-# A point: series, across, down, label, whether it is on the front, whether it is a solver's own setting.
+# Yield points as (series, across, down, label, whether on the front, whether the solver's own
+# setting).
 def accuracy_points(path, case, vertices):
     for row in rows(path):
         if row["measured_by"] == "here" and row["case"] == case and row["vertices"] == vertices and row["rms_error"]:
@@ -33,7 +34,7 @@ def render_points(path, case):
             yield row["samples"], float(row["ms"]), float(row["flip"]), label, row["front"] == "true", False
 
 
-# Marks from below the least value to above the greatest.
+# Return marks from below the minimum value to above the maximum.
 def marks(values, steps):
     at = [s * 10.0**e for e in range(-9, 9) for s in steps]
     low = max(m for m in at if m <= min(values))
@@ -76,7 +77,8 @@ def panel(out, left, head, title, data, colors, style):
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" {size} fill="{color}"/>{ring}{text}')
 
 
-# `cases` is a list of name and function from a file to its points: a row of panels each.
+# Write one row of panels for each case. `cases` is a list of (name, function from a file to its
+# points).
 def write(path, files, colors, style, cases, unit):
     width, height = len(files) * (WIDTH + GAP), len(cases) * HEIGHT
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height + 24}" font-family="sans-serif" font-size="11">',
@@ -103,7 +105,7 @@ def write(path, files, colors, style, cases, unit):
         file.write("\n".join(out))
 
 
-# NAME=CASE:VERTICES,...
+# Parse NAME=CASE:VERTICES,...
 def accuracy_cases(text):
     for named in text.split(","):
         name, _, case = named.rpartition("=")

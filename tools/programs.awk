@@ -1,8 +1,12 @@
-# programs.awk - what `make glsl` compiles: options of glslc, one shader a line, for programs that rows of passes.inl can be compiled to.
-# Reads what the preprocessor leaves of the table: '@"DEFINE" NAME' for each feature, '"features" "stages"' for each row. Of the
-# mixtures of a row's features those with none, one, all and all but one of them, and any number of solids by themselves; solvers also as one subgroup of 32 threads.
+# programs.awk - List the shader programs that `make glsl` compiles, as options of glslc, one shader
+# per line.
+#
+# The input is the preprocessed table of passes.inl, with '@"DEFINE" NAME' for each feature and
+# '"features" "stages"' for each row. Not all combinations of a row's features are listed. The list
+# has those with none, one, all, and all but one of the features, and any combination of collider
+# features alone. Solvers are also compiled for one subgroup of 32 threads.
 
-function exists(mixture) # some scene needs it
+function exists(mixture) # return whether some scene needs the combination
 {
     if (mixture ~ / (ANY|BODIES) / && mixture !~ / SOLIDS /) return 0
     if (mixture ~ / FEW / && (mixture !~ / ANY / || mixture ~ / THREAD /)) return 0
@@ -52,7 +56,7 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
         all = all substr(features, RSTART + 13, RLENGTH - 14) " "
         features = substr(features, RSTART + RLENGTH)
     }
-    # What stands for another thing than colour is not mixed.
+    # Features that replace colour output are not combined.
     mixed = all
     gsub(/ (DEPTH|IDS|MOTION)/, "", mixed)
     count = split(all, has, " ")
@@ -61,7 +65,7 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     if (all ~ / ANY /) print_program(" SOLIDS ANY ", stages)
     if (all ~ / FEW /) print_program(" SOLIDS ANY FEW ", stages)
     if (all ~ / FEW /) print_program(" SOLIDS ANY BODIES FEW ", stages)
-    if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity
+    if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity pass
     for (i = 1; i <= count; i++) {
         print_program(" " has[i] " ", stages)
         without = mixed

@@ -1,5 +1,5 @@
 #!/bin/sh
-# setup.sh [LIST] - install the Debian packages of LIST (packages.txt) that are missing, saying so first.
+# setup.sh [LIST] - Print and install the missing Debian packages of LIST (default packages.txt).
 set -eu
 file=${1:-$(dirname "$0")/packages.txt}
 list=$(sed 's/#.*//' "$file" | tr -s ' \n' ' ')

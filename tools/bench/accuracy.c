@@ -1,4 +1,4 @@
-// accuracy.c - the suite `accuracy`: run time against error, for every solver and setting.
+// accuracy.c - Suite `accuracy`, run time against error for every solver and setting.
 #include "lib/reference/continuum.h"
 #include "tools/bench/accuracy.h"
 #include "tools/bench/living.h"
@@ -12,7 +12,8 @@
 #define FRAME BENCH_MOTION_FRAME
 #define MOST_SUBSTEPS 4096
 #define FINE_SUBSTEPS 512
-#define TOLERANCE 1e-7 // of the length: how far halving its substeps may move the reference
+// Maximum change of the reference when its substep is halved, as a fraction of the length.
+#define TOLERANCE 1e-7
 
 static const char* const columns[] = {"case",
                                       "method",
@@ -39,7 +40,7 @@ static const char* const columns[] = {"case",
                                       BENCH_MATERIAL_COLUMNS,
                                       NULL};
 
-// A solver and how finely it is run; substeps 0: as it wants.
+// A solver and its resolution. 0 substeps uses the solver's default.
 struct setting {
     hair_solver solver;
     uint32_t substeps, iterations;
@@ -69,7 +70,8 @@ static bool bring_to_life(struct bench* bench, const struct bench_motion* motion
     return false;
 }
 
-// One strand among solids, of which the reference knows nothing: by the solver with the least error.
+// Simulate one strand among colliders with the most accurate solver, because the reference has no
+// colliders.
 static bool run_finely(struct bench* bench, const struct bench_motion* motion, uint32_t substeps,
                        double* positions)
 {
@@ -132,10 +134,10 @@ static bool find_truth(struct bench* bench, struct bench_motion* motion)
 
 struct error {
     double squares, stretch;
-    double farthest; // m: of a vertex at the end of a frame
+    double farthest; // maximum over vertices at the ends of frames, m
 };
 
-// All frames, against the truth.
+// Simulate all frames and accumulate the errors against the truth.
 static bool run_frames(struct bench_living* living, const struct bench_motion* motion, const double* truth,
                        struct error* out)
 {
@@ -156,7 +158,7 @@ static bool run_frames(struct bench_living* living, const struct bench_motion* m
     return true;
 }
 
-// All runs, the first at last, so that it is the one to be timed.
+// Simulate all runs. The first run is last, because it is the one that is timed.
 static bool run_all(struct bench_living* living, struct bench_motion* motion, struct error* out)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
@@ -200,13 +202,15 @@ static void add_row(const struct bench_motion* motion, struct bench_living* livi
     bench_set_material(row, living);
 }
 
-// What the solver wants, made to divide a frame: strands are read where the last substep left them.
+// Set the solver's own substep, rounded such that it divides a frame. Strands are read at the end
+// of the last substep.
 static bool settle_substep(struct bench* bench, struct bench_motion* motion)
 {
     struct bench_living living;
     motion->scene.substep = 0;
     if (!bring_to_life(bench, motion, &living)) return false;
-    hair_health health = hair_health_default(); // Among solids it is shorter from the first step on.
+    // Colliders shorten the substep from the first step on.
+    hair_health health = hair_health_default();
     if (bench_step(&living, NULL, FRAME) && !hair_get_health(living.hair, &health))
         living.substep = (double)health.substep;
     motion->scene.substep = FRAME / ceil(FRAME / living.substep - 1e-3);

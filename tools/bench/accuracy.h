@@ -1,4 +1,4 @@
-// accuracy.h - the motions of the suite `accuracy`.
+// accuracy.h - Motions of the suite `accuracy`.
 #ifndef HAIR_TOOLS_BENCH_ACCURACY_H
 #define HAIR_TOOLS_BENCH_ACCURACY_H
 
@@ -8,35 +8,40 @@
 #define BENCH_MOTION_FRAMES 60
 #define BENCH_MOTION_FRAME (1.0 / 60) // s
 
-// A scene in motion and what the reference makes of it.
+// A scene in motion and its reference solution.
 struct bench_motion {
     const char* name;
     struct bench_scene scene;
     double length; // m
     uint32_t frames;
     struct hair_reference_rod_pose heads[BENCH_MOTION_FRAMES];
-    bool moves; // heads are in use
+    bool moves; // uses `heads`
     hair_solid solids[2];
     uint32_t solid_count;
-    uint32_t runs; // the motion has: of contact one for each shoulder, else 1
-    double* truth; // per run, frame and vertex; NULL: not found yet
+    uint32_t runs; // number of runs, one for each shoulder of contact, else 1
+    double* truth; // per run, frame and vertex, NULL until computed
     char reference[96];
 };
 
-// Straight strands: yawed with the head, over solids, without bending, let go level, spun up by the
-// head.
+// Make straight strands on a head that yaws.
 void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
+// Make straight strands that fall on colliders.
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
+// Make a horizontal chain without bending stiffness that is released.
 void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
+// Make a level strand with bending stiffness that is released.
 void bench_make_whip(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
+// Make a strand that the head spins up.
 void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_motion* out);
 
-// Strands that are curved at rest, clamped, when gravity sets in 30 degrees from their axis.
+// Make a clamped strand with a plane wave at rest. Gravity of 30 degrees from its axis sets in.
 void bench_make_wave(const struct bench* bench, struct bench_motion* out);
+// Make a clamped curl, as bench_make_wave().
 void bench_make_curl(const struct bench* bench, struct bench_motion* out);
+// Make a clamped coil, as bench_make_wave().
 void bench_make_coil(const struct bench* bench, struct bench_motion* out);
 
-// Put the shoulder of a contact motion where the run `run` has it.
+// Move the shoulder of a contact motion to its position in run `run`.
 void bench_set_shoulder(struct bench_motion* motion, uint32_t run);
 
 #endif

@@ -1,15 +1,15 @@
-// accuracy_motion.c - the motions of the suite `accuracy`.
+// accuracy_motion.c - Motions of the suite `accuracy`.
 #include "tools/bench/accuracy.h"
 #include "tools/bench/coil.h"
 
 #include <math.h>
 
-#define LENGTH 0.3 // m, of straight strands and of the wave
+#define LENGTH 0.3 // length of straight strands and of the wave, m
 
 static struct bench_scene make_scene(const struct bench* bench, uint32_t vertices, double clamp)
 {
     struct bench_scene scene = bench_scene_default();
-    const double root[3] = {0.1, 0, 0}; // On a head of this radius.
+    const double root[3] = {0.1, 0, 0}; // on a head of this radius
     const double along[3] = {cos(clamp), sin(clamp), 0};
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     scene.strands = bench->options.strands;
@@ -18,7 +18,7 @@ static struct bench_scene make_scene(const struct bench* bench, uint32_t vertice
     return scene;
 }
 
-// The head yaws by 0.6 sin^2(pi t) while the strand, let go straight, falls.
+// The head yaws by 0.6 sin^2(pi t) rad. The strand is released straight and falls.
 void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     *out = (struct bench_motion){
@@ -36,11 +36,12 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
     }
 }
 
-// Where shoulders are, and how thick. One strand's luck makes its error half as large again or half as
-// small: so there are several. Left out are those over which it may fall either way, so that the
-// reference itself has not converged: its error, against half as many substeps, is below 1e-4 of the
-// length for each of these. By 2 cm farther out or in than the first it is 2e-3 and 6e-4, by 2 cm out
-// and up 6e-4, of a radius of 0.25 with the same top 3e-3.
+// Positions and radii of shoulders. The error of one strand can be half larger or half smaller by
+// chance, therefore there are several shoulders. Shoulders over which the strand can fall to either
+// side are excluded, because the reference itself does not converge there. The reference differs
+// from half as many substeps by less than 1e-4 of the length for each shoulder. The difference is
+// 2e-3 and 6e-4 if the first shoulder is 2 cm farther out or in. The difference is 6e-4 for 2 cm
+// out and up, and 3e-3 for a radius of 0.25 with the same top.
 static const struct {
     float x, y, radius; // m
 } shoulders[] = {
@@ -58,15 +59,15 @@ void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
     shoulder->size[0] = shoulders[run].radius;
 }
 
-// The same head as a sphere, and a shoulder, over which the strand falls and is drawn. (Against an
-// upright body the tip strikes like a whip, and over a ridge along it a strand may fall either way:
-// there any two runs go apart.)
+// The head is a sphere, and the strand falls on a shoulder and is drawn over it. Other colliders
+// make any two runs diverge. The tip strikes an upright collider like a whip, and over a ridge
+// along the strand it can fall to either side.
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     bench_make_shake(bench, vertices, out);
     hair_solid head = hair_solid_default(), shoulder = head;
     head.size[0] = 0.095f;
-    shoulder.shape = HAIR_SHAPE_CAPSULE; // Its axis along z.
+    shoulder.shape = HAIR_SHAPE_CAPSULE; // The axis is along z.
     shoulder.rotation[0] = shoulder.rotation[3] = (float)sqrt(0.5);
     shoulder.size[1] = 0.12f;
     out->name = "contact";
@@ -77,7 +78,8 @@ void bench_make_contact(const struct bench* bench, uint32_t vertices, struct ben
     bench_set_shoulder(out, 0);
 }
 
-// A chain without bending, let go horizontal: the whip at 0.25 s is what separates solvers.
+// Make a chain without bending stiffness that is released horizontally. The whip at 0.25 s
+// distinguishes solvers.
 void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     *out = (struct bench_motion){.name = "swing", .length = LENGTH, .frames = 24, .runs = 1};
@@ -86,7 +88,7 @@ void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench
     out->scene.physics.bend = 0;
 }
 
-// A strand with bending and without damping, let go level.
+// Make a level strand with bending stiffness and without damping that is released.
 void bench_make_whip(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     *out = (struct bench_motion){.name = "whip", .length = LENGTH, .runs = 1};
@@ -94,7 +96,7 @@ void bench_make_whip(const struct bench* bench, uint32_t vertices, struct bench_
     out->scene = make_scene(bench, vertices, 0);
 }
 
-// The head turns ever faster, up to 3 Hz after a second.
+// The head turns at a rate that grows to 3 Hz after a second.
 void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
@@ -121,7 +123,7 @@ static void set_curved(struct bench_motion* out)
     out->runs = 1;
 }
 
-// Three waves of 20 mm in a plane. The angle to the axis is a cosine of the arc length.
+// Make three waves of 20 mm in a plane. The angle to the axis is a cosine of the arc length.
 void bench_make_wave(const struct bench* bench, struct bench_motion* out)
 {
     enum { VERTICES = 48, WAVES = 3 };

@@ -1,4 +1,4 @@
-// bench.h - what the suites of hair-bench share: the context, what was asked for, rows, progress.
+// bench.h - Context, options, rows and progress, which the suites of hair-bench share.
 #ifndef HAIR_TOOLS_BENCH_BENCH_H
 #define HAIR_TOOLS_BENCH_BENCH_H
 
@@ -8,22 +8,22 @@
 
 #define BENCH_TOOL "hair-bench"
 
-#define BENCH_MOST_PASSES 256 // of hair_timings: more than any bench needs
+#define BENCH_MOST_PASSES 256 // maximum of hair_timings, more than any suite needs
 
 struct bench_suite;
 
-// What the command line says.
+// Parsed command line.
 struct bench_options {
     const struct bench_suite* suite;
-    const char* json; // NULL: not asked for
+    const char* json; // NULL disables it
     const char* csv;
-    const char* only_case; // NULL: all
+    const char* only_case; // NULL selects all
     const char* only_method;
     hair_mapping mapping;
-    uint32_t strands; // 0: as the suite has it
-    uint32_t scene; // of random ones, the first, and
-    uint32_t scenes; // how many; 0: as the suite has it
-    uint32_t size; // of pictures, pixels to each side; 0: as the suite has it
+    uint32_t strands; // 0 uses the suite's number
+    uint32_t scene; // first random scene
+    uint32_t scenes; // number of random scenes, 0 uses the suite's number
+    uint32_t size; // pixels per side of pictures, 0 uses the suite's size
     int device;
     bool quick, quiet, verbose;
 };
@@ -34,15 +34,15 @@ struct bench {
     hair_egl* egl;
     hair_context* context;
     const char* renderer;
-    bool software; // A driver whose timer queries do not see compute shaders.
+    bool software; // the driver's timer queries do not measure compute shaders
     struct bench_rows rows;
 
-    bool planning; // Nothing is run, rows are only counted.
+    bool planning; // nothing is run, rows are only counted
     uint32_t planned, done;
-    char cases[2048]; // the names of all that were met, for a wrong --case
+    char cases[2048]; // names of all cases, for the message about a wrong --case
     double started; // ms
-    char sentence[512]; // the last of the library's log
-    char refused[512]; // the last that was passed on
+    char sentence[512]; // last sentence of the library's log
+    char refused[512]; // last sentence that was printed
 };
 
 struct bench_suite {
@@ -56,16 +56,16 @@ extern const struct bench_suite bench_accuracy, bench_bounds, bench_collision, b
     bench_render, bench_lod, bench_paths, bench_scale, bench_shadow, bench_skip, bench_stability, bench_table,
     bench_wind;
 
-// Whether to make the row, or rows, of this case and method: it is asked for, this is no planning, and nobody
-// has interrupted. Shows progress.
+// Return whether to make the rows of this case and method, and show progress. Return false if the
+// row is not requested, during planning, and after an interrupt.
 bool bench_begin(struct bench* bench, const char* name, const char* method);
 
-// The row's measurement has failed: say why, once per sentence. The row is not made.
+// Print why a row's measurement failed, once per sentence. The row is not made.
 void bench_refuse(struct bench* bench, const char* name, const char* method);
 
 bool bench_was_interrupted(void);
 
-// Returns what to exit with, or -1 to go on.
+// Parse the command line. Return an exit status, or -1 to continue.
 int bench_parse(int count, char** arguments, struct bench_options* out);
 
 #endif

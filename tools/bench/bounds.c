@@ -1,5 +1,5 @@
-// bounds.c - the suite `bounds`: how long each kind of work takes, what it could not take less than on this machine, and what
-// holds it up. Kinds of work only where the driver's timers see compute.
+// bounds.c - Suite `bounds`, the time of each kind of work, its lower bound on this machine, and
+// its bottleneck. Kinds of work are measured only where the driver's timers measure compute.
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
 
@@ -12,7 +12,7 @@
 #define FRAMES 31
 #define MOST_WORKS 32
 #define WARM 300 // ms
-#define MORE 4 // times as much of everything
+#define MORE 4 // factor of guides and followers
 
 static const char* const columns[] = {"case",     "method",   "pass",     "guides", "followers", "runs",
                                       "ms",       "ms_more",  "ms_small", "bytes",  "launch_ms", "bytes_ms",
@@ -24,10 +24,10 @@ static const struct point {
     bool quick;
 } points[] = {{"demo", 166, 18000, true}, {"many guides", 1024, 18000, false}};
 
-// What the machine cannot do faster.
+// Lower bounds of this machine.
 struct floors {
-    double launch; // of a pass that does nothing. ms
-    double byte; // read or written. ms
+    double launch; // time of an empty pass, ms
+    double byte; // time to read or write a byte, ms
 };
 
 struct work {
@@ -135,7 +135,7 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
     return true;
 }
 
-// Frames of a head that shakes, each stepped and drawn.
+// Simulate and draw frames of a head that shakes.
 static bool live(struct bench* bench, const struct point* point, uint32_t times, uint32_t size,
                  struct work works[MOST_WORKS], uint32_t* count)
 {
@@ -151,7 +151,7 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
     shot.samples = 4;
     shot.view.path = HAIR_PATH_AUTO;
     bool done = bench_studio_set(&studio, &shot);
-    for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two compile what they need.
+    for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two frames compile shaders.
         if (i == 2) done = bench_studio_warm_up(&studio, WARM);
         done = done && bench_studio_step(&studio, NULL) && bench_studio_draw(&studio, NULL);
         glFinish();
@@ -166,13 +166,15 @@ static bool draws(const struct work* work)
     return !strcmp(work->name, "color") || !strcmp(work->name, "depth");
 }
 
-// Of the field only what has moved is written.
+// Return whether the work touches all of its memory. The field is written only where something
+// moved.
 static bool moves_all(const struct work* work)
 {
     return !draws(work) && strcmp(work->name, "field") != 0;
 }
 
-// Four times the work in less than twice the time leaves threads idle that wait for each other or for memory.
+// Name the bottleneck. If four times the work takes less than twice the time, threads are idle and
+// wait for each other or for memory.
 static const char* name_bound(const struct work* work, double ms, double more, double small, double launch,
                               double moved)
 {
@@ -206,7 +208,7 @@ static void add_row(struct bench* bench, const struct point* point, const struct
     bench_set_number(row, "ms_more", grown);
     bench_set_number(row, "ms_small", shrunk);
     bench_set_number(row, "bytes", (double)work->bytes);
-    if (!draws(work)) { // Nobody knows how fast vertices and pixels may be.
+    if (!draws(work)) { // The maximum rates of vertices and pixels are unknown.
         bench_set_number(row, "launch_ms", launch);
         bench_set_number(row, "bytes_ms", moved);
         bench_set_number(row, "floor_ms", least);
@@ -217,7 +219,8 @@ static void add_row(struct bench* bench, const struct point* point, const struct
 
 static void measure(struct bench* bench, const struct point* point, const struct floors* floors)
 {
-    static struct work works[3][MOST_WORKS]; // as it is, more of it, and in a picture half as wide and high
+    // The work itself, more work, and a picture of half the width and height.
+    static struct work works[3][MOST_WORKS];
     uint32_t count[3] = {0, 0, 0}, size = bench->options.size ? bench->options.size : SIZE;
     if (!bench_begin(bench, point->name, "direct")) return;
     for (uint32_t i = 0; i < 3; ++i)
@@ -232,7 +235,8 @@ static void measure(struct bench* bench, const struct point* point, const struct
 static void run_suite(struct bench* bench)
 {
     struct floors floors = measure_floors(bench);
-    if (bench->software || (!bench->planning && floors.launch == 0)) return; // Its timers do not see compute.
+    // Timers do not measure compute.
+    if (bench->software || (!bench->planning && floors.launch == 0)) return;
     for (size_t i = 0; i < sizeof points / sizeof *points; ++i)
         if (points[i].quick || !bench->options.quick) measure(bench, &points[i], &floors);
 }

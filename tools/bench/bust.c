@@ -1,4 +1,4 @@
-// bust.c - long hair on a head and shoulders in motion.
+// bust.c - Long hair on a moving head and shoulders.
 #include "tools/bench/bust.h"
 #include "tools/common/stats.h"
 #include "tools/common/subject.h"
@@ -61,7 +61,8 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     if (!hair_scene_named(BENCH_TOOL, "demo", &out->scene)) return false;
     if (followers) out->scene.settings.groom.follower_count = followers;
     out->look = out->scene.settings.look;
-    out->look.tip_strays = out->look.strays = 0; // Turns are to be those that interpolation and solids make.
+    // Only interpolation and colliders may turn strands.
+    out->look.tip_strays = out->look.strays = 0;
     if (segments) out->look.segments = segments;
     if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
         bring_to_life(out, first_hit))
@@ -113,7 +114,7 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
     return ok;
 }
 
-// All solids of the bust are capsules.
+// Return the distance to the nearest collider. All colliders of the bust are capsules.
 double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 {
     double least = INFINITY;
@@ -149,7 +150,8 @@ static double time_of_passes(hair_context* context)
     return ms;
 }
 
-// A frame of which next to nothing is drawn. What it finds, a second one need not look for.
+// Draw a frame with a minimum of hair. With `again` the hair is unchanged, and the hits of the
+// previous call are reused.
 static bool ask_for_frame(struct bench_bust* bust, bool again)
 {
     hair_look look = bust->look;
@@ -157,8 +159,9 @@ static bool ask_for_frame(struct bench_bust* bust, bool again)
     view.pass = HAIR_PASS_DEPTH;
     view.primitive = HAIR_LINES;
     for (int k = 0; k < 3; ++k)
-        view.projection[5 * k] = 0.01f; // Of what is out of view nothing is looked for.
-    bust->turn = again ? bust->turn : !bust->turn; // Where nothing has changed nothing is looked for either.
+        view.projection[5 * k] = 0.01f; // Hits are not searched for hair out of view.
+    // Hits are not searched for unchanged hair, therefore alternate the density.
+    bust->turn = again ? bust->turn : !bust->turn;
     look.density = bust->turn ? 1e-6f : 2e-6f;
     return (again || !hair_set_look(bust->hair, &look)) && !hair_draw(bust->hair, &view);
 }
@@ -173,7 +176,7 @@ static bool draw(struct bench_bust* bust, bool again, double* ms)
     return true;
 }
 
-// A GPU that has had nothing to do is slower at first.
+// Draw for a while, because an idle GPU is slower at first.
 static bool warm_up(struct bench_bust* bust)
 {
     enum { WARM = 300, AT_ONCE = 20 }; // ms, frames
@@ -195,7 +198,7 @@ bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* 
     bust->look.collision = collision;
     *runs = 0;
     if (!warm_up(bust)) return false;
-    for (int k = -2; k < MOST_RUNS; ++k) { // The first two compile what they need.
+    for (int k = -2; k < MOST_RUNS; ++k) { // The first two runs compile shaders.
         if (!draw(bust, false, &first) || !draw(bust, true, &second) || bench_was_interrupted()) return false;
         if (k < 0) start = hair_now();
         if (k >= 0) all[(*runs)++] = fmax(first - second, 0);

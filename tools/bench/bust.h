@@ -1,4 +1,4 @@
-// bust.h - long hair on a head and shoulders in motion: what the suite `collision` looks at.
+// bust.h - Long hair on a moving head and shoulders, for the suite `collision`.
 #ifndef HAIR_TOOLS_BENCH_BUST_H
 #define HAIR_TOOLS_BENCH_BUST_H
 
@@ -13,31 +13,34 @@ struct bench_bust {
     hair_groom* groom;
     hair_instance* hair;
     hair_look look;
-    hair_solid solids[HAIR_RIG_SOLIDS]; // where they are
+    hair_solid solids[HAIR_RIG_SOLIDS]; // in world space
     uint32_t solid_count;
-    uint32_t followers, guides, smooth; // smooth: vertices of a smoothed guide
+    uint32_t followers, guides, smooth; // `smooth` is the number of vertices of a smoothed guide
     uint32_t frame;
-    bool turn; // of what is changed so that it is looked at again
-    unsigned target[2]; // a framebuffer and its colour
+    bool turn; // alternates to change the look
+    unsigned target[2]; // framebuffer and its colour buffer
 };
 
-// Hung for half a second. Followers and their segments, 0: as the scene has them. False: bench->sentence says why not.
+// Make the scene and simulate half a second of hanging. 0 followers or segments uses the scene's
+// numbers. Return false after writing the reason to bench->sentence.
 bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_first_hit first_hit,
                      struct bench_bust* out);
 void bench_bust_free(struct bench_bust* bust);
-bool bench_bust_step(struct bench_bust* bust); // to the next frame
+bool bench_bust_step(struct bench_bust* bust); // Advance to the next frame.
 
-// Vertices of all followers, look.segments + 1 each, and of guides at as many places.
+// Read the vertices of all followers, look.segments + 1 each.
 bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* followers);
+// Read the guides, interpolated to look.segments + 1 vertices each.
 bool bench_bust_read_guides(struct bench_bust* bust, float* guides);
 
-// Of finding hits, and leading followers round solids if that is asked for: ms, the median of some runs.
+// Measure the time of finding hits and, if requested, of pushing followers out of colliders. `ms`
+// is the median over `runs` runs.
 bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* ms, uint32_t* runs);
 
-// world.c: rows of a Bullet world among whose many objects the hair is.
+// Make the rows of a Bullet world with many objects around the hair. Defined in world.c.
 void bench_measure_world(struct bench* bench);
 
-// From the nearest solid to a point, m, below 0 inside.
+// Return the distance from the nearest collider to a point, in m, negative inside.
 double bench_bust_distance(const struct bench_bust* bust, const float at[3]);
 
 #endif

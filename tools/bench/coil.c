@@ -1,4 +1,4 @@
-// coil.c - a helical strand.
+// coil.c - A helical strand.
 #include "tools/bench/coil.h"
 
 #include <math.h>

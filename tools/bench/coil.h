@@ -1,4 +1,4 @@
-// coil.h - a helical strand, for the suites.
+// coil.h - A helical strand for the suites.
 #ifndef HAIR_TOOLS_BENCH_COIL_H
 #define HAIR_TOOLS_BENCH_COIL_H
 
@@ -11,7 +11,7 @@ struct bench_coil {
     uint32_t vertices;
 };
 
-// A helix rooted at the origin, whose axis points along -y.
+// Make a helix that is rooted at the origin and whose axis is along -y.
 void bench_scene_coil(struct bench_scene* scene, const struct bench_coil* coil);
 
 #endif

@@ -1,4 +1,4 @@
-// none.c - in place of world.cpp, where a tool is built without Bullet.
+// none.c - Replacement of world.cpp for a tool that is built without Bullet.
 #include "tools/bullet/world.h"
 #include "tools/common/file.h"
 

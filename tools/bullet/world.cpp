@@ -1,4 +1,4 @@
-// world.cpp - the objects of a scene in a world of Bullet's.
+// world.cpp - Objects of a scene in a world of Bullet.
 #include <btBulletCollisionCommon.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <hair/hair_bullet.h>
@@ -20,7 +20,7 @@ struct hair_world {
     std::vector<std::unique_ptr<btStridingMeshInterface>> meshes;
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btCollisionObject>> objects;
-    std::vector<uint32_t> moving; // of them
+    std::vector<uint32_t> moving; // indices of objects that move
 
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
@@ -47,7 +47,7 @@ static btTransform pose(const float position[3], const float rotation[4])
     return btTransform(turn.normalized(), vector(position));
 }
 
-// Of three shapes that differ by their axis.
+// Create one of three shapes that differ by their axis.
 template <class X, class Y, class Z, class... A> static btCollisionShape* along(uint32_t axis, A... a)
 {
     if (axis == 0) return new X(a...);
@@ -83,7 +83,7 @@ static btCollisionShape* make_spheres(const hair_bullet_shape& from)
     return new btMultiSphereShape(centres.data(), radii.data(), static_cast<int>(centres.size()));
 }
 
-// Bullet reads the vertices where the scene has them.
+// Create a triangle mesh. Bullet reads the vertices from the scene's memory.
 static btCollisionShape* make_mesh(hair_world* world, const hair_bullet_shape& from)
 {
     btIndexedMesh mesh;
@@ -180,7 +180,7 @@ static void move(hair_world* world, float time, const float transform[16])
     }
 }
 
-// Every object must be one that hair can collide with, wherever it is.
+// Check that hair can collide with every object, wherever it is.
 static int try_objects(hair_world* world, const char* name)
 {
     for (uint32_t i = 0; i < world->objects.size(); ++i) {

@@ -182,8 +182,7 @@ static void filter(const struct planes* p, const float* in, const struct kernel*
     }
 }
 
-// Planes of a picture
-// ---------------------------------------------------------------------------------------
+// Planes of a picture -----------------------------------------------------------------------------
 
 enum { PLANES = 8 };
 
@@ -275,8 +274,7 @@ static bool look_at(const struct colors* colors, const float* picture, uint32_t 
     return true;
 }
 
-// Comparison
-// ------------------------------------------------------------------------------------------------
+// Comparison --------------------------------------------------------------------------------------
 
 // Map a colour difference to [0, 1]. The lower 40 % of the input range get 95 % of the output
 // range.

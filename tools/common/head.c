@@ -288,8 +288,7 @@ void head_mesh_free(struct head_mesh* mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-// Colliders
-// ------------------------------------------------------------------------------------------------
+// Colliders ---------------------------------------------------------------------------------------
 
 struct pill {
     point a, b; // ends of its axis

@@ -54,8 +54,7 @@ int hair_rig_ball(float radius, struct head_mesh* out)
     return 0;
 }
 
-// Colliders
-// -------------------------------------------------------------------------------------------------
+// Colliders ---------------------------------------------------------------------------------------
 
 // Return the weight of the head's motion at a height, by smoothstep as in the vertex shader of the
 // mesh.

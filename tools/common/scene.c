@@ -1,4 +1,4 @@
-// scene.c - what a capture shows, from JSON.
+// scene.c - Content of a capture, from JSON.
 #include "tools/common/scene.h"
 #include "tools/common/builtin.h"
 #include "tools/common/file.h"
@@ -47,7 +47,7 @@ void hair_scene_set_groom(const char* path, struct hair_scene* scene)
     if (!scene->head_is_said) scene->head = false;
 }
 
-static hair_style style_named(const char* name) // HAIR_STYLE_COUNT: none
+static hair_style style_named(const char* name) // HAIR_STYLE_COUNT if there is none
 {
     int i = 0;
     while (i < HAIR_STYLE_COUNT && strcmp(hair_style_name((hair_style)i), name)) ++i;
@@ -149,7 +149,7 @@ static bool read_camera(const place* json, const char* key, const json_t* value,
     return hair_json_wrong(json, key, "given with an eye that is not its target");
 }
 
-// Numbers as the same text that --set takes.
+// Apply all settings. Numbers and strings become the text that --set takes.
 static bool read_settings(const place* json, const char* key, const json_t* value, void* out)
 {
     struct hair_scene* scene = out;
@@ -163,7 +163,7 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
     return true;
 }
 
-// The whole -------------------------------------------------------------------------------------------------
+// Whole scenes ------------------------------------------------------------------------------------
 
 static const entry light[] = {HAIR_NUMBERS("to", AT(settings.light.to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                               HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
@@ -236,7 +236,7 @@ bool hair_scene_read(const char* tool, const char* path, struct hair_scene* scen
     return ok;
 }
 
-// What is built in ------------------------------------------------------------------------------------------
+// Built-in scenes ---------------------------------------------------------------------------------
 
 static const char* text_of(const struct hair_builtin* builtin, const char* name)
 {
@@ -244,7 +244,7 @@ static const char* text_of(const struct hair_builtin* builtin, const char* name)
     return builtin->text;
 }
 
-// The JSON of a text whose quotes are written '.
+// Parse a text whose quotes are written as '.
 static json_t* load_builtin(const char* tool, const char* name, const char* text)
 {
     char quoted[2048];
@@ -255,7 +255,7 @@ static json_t* load_builtin(const char* tool, const char* name, const char* text
     return load(tool, name, quoted, size);
 }
 
-// Into the scene, by the reader of the key that a scene file would say it under.
+// Read a built-in text into the scene with the reader of its key in scene files.
 static bool read_builtin(const char* tool, const char* name, const char* text, const char* key,
                          bool (*read)(const place*, const char*, const json_t*, void*),
                          struct hair_scene* scene)
@@ -280,7 +280,7 @@ bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene
     return text && read_builtin(tool, name, text, "motion", read_motion, scene);
 }
 
-// A style is shown as the first scene shows its own.
+// Load a built-in scene or style. A style is shown in the first built-in scene.
 bool hair_scene_named(const char* tool, const char* name, struct hair_scene* scene)
 {
     const char* text = text_of(hair_builtin_scenes, name);

@@ -1,4 +1,4 @@
-// scene_bullet.c - Bullet's shapes and objects in a scene, from JSON.
+// scene_bullet.c - Shapes and objects of Bullet in a scene, from JSON.
 #include "tools/common/scene_bullet.h"
 #include "tools/common/file.h"
 
@@ -8,14 +8,15 @@
 
 #define MOST_OBJECTS 100000u
 #define MOST_ROWS 1048576u
-#define DEEPEST 8 // compounds in compounds
+#define DEEPEST 8 // maximum depth of nested compounds
 
 typedef struct hair_json place;
 typedef struct hair_json_entry entry;
 typedef struct hair_bullet_shape
-    shape; // the first member of an object: what reads an object's keys has its shape
+    // First member of an object. The readers of an object's keys therefore receive its shape.
+    shape;
 
-// Which keys go with which shape; of those in brackets one has to be there.
+// Allowed keys of each shape. Exactly one key of `needs` is required.
 static const struct {
     const char* name;
     const char* keys;
@@ -80,7 +81,7 @@ static bool read_row(const place* json, const char* key, const json_t* row, uint
     return ok || hair_json_wrong(json, key, must);
 }
 
-// `columns`: 0: as many as the first row has.
+// Read an array of arrays of numbers. `columns` 0 uses the length of the first row.
 static bool read_table(const place* json, const char* key, const json_t* value, uint32_t columns,
                        uint32_t fewest, struct hair_bullet_table* out)
 {
@@ -171,7 +172,7 @@ static const entry of_object[] = {
     HAIR_BOOLEAN("stays", AT(body.stays)),
     HAIR_END};
 
-// Keys of other shapes, and none of those that this one is made of.
+// Reject keys of other shapes, and require the keys that define this shape.
 static bool check_keys(const place* json, const json_t* object, const shape* own)
 {
     const char *needs = kinds[own->kind].needs, *key;
@@ -210,7 +211,7 @@ static void set_usual(shape* own)
     for (int k = 0; k < 3; ++k) own->scale[k] = 1, own->size[k] = 0.1f;
 }
 
-// Element i, which is set as usual.
+// Read element i, which already has the defaults.
 static bool read_one(const place* json, const char* key, const json_t* array, size_t i, const entry* entries,
                      shape* out, const float* rotation)
 {

@@ -1,4 +1,5 @@
-// scene_bullet.h - Bullet's shapes and objects in a scene, from JSON. Of what they are made here there is no Bullet.
+// scene_bullet.h - Shapes and objects of Bullet in a scene, from JSON. This file does not use
+// Bullet itself.
 #ifndef HAIR_TOOLS_COMMON_SCENE_BULLET_H
 #define HAIR_TOOLS_COMMON_SCENE_BULLET_H
 
@@ -27,24 +28,24 @@ struct hair_bullet_table {
 
 struct hair_bullet_shape {
     enum hair_bullet_kind kind;
-    uint32_t axis; // 0 to 2: x to z
+    uint32_t axis; // 0 to 2 for x to z
     float radius, half_length, size[3];
     float normal[3], distance;
     float scale[3];
-    float margin; // m; below 0: Bullet's
-    float spacing; // of a height field's nodes, m
-    struct hair_bullet_table points; // of a hull
-    struct hair_bullet_table spheres; // xyz, radius
-    struct hair_bullet_table heights; // a row for every line of nodes
-    struct hair_obj mesh; // of a hull or a mesh
-    struct hair_bullet_shape* children; // of a compound
+    float margin; // m, below 0 selects Bullet's margin
+    float spacing; // distance of a height field's nodes, m
+    struct hair_bullet_table points; // points of a hull
+    struct hair_bullet_table spheres; // xyz and radius
+    struct hair_bullet_table heights; // one row for each line of nodes
+    struct hair_obj mesh; // mesh of a hull or a mesh shape
+    struct hair_bullet_shape* children; // children of a compound
     uint32_t child_count;
-    float position[3], rotation[4]; // of a child in its compound
+    float position[3], rotation[4]; // pose of a child in its compound
 };
 
 struct hair_bullet_object {
     struct hair_bullet_shape shape;
-    struct hair_scene_solid body; // where it is, and its friction; its own shape and size say nothing
+    struct hair_scene_solid body; // pose, motion and friction, its shape and size are ignored
 };
 
 struct hair_bullet_list {
@@ -52,7 +53,8 @@ struct hair_bullet_list {
     uint32_t count;
 };
 
-// False: `json->tool` has complained. Either way hair_scene_free_bullet is due.
+// Read the list. Return false after printing an error. Call hair_scene_free_bullet() in either
+// case.
 bool hair_scene_read_bullet(const struct hair_json* json, const char* key, const json_t* value,
                             struct hair_bullet_list* out);
 void hair_scene_free_bullet(struct hair_bullet_list* objects);

@@ -1,4 +1,4 @@
-// scene_lights.c - the lights of a scene, from JSON and for shaders.
+// scene_lights.c - Lights of a scene, from JSON and for shaders.
 #include "tools/common/scene_lights.h"
 
 #include <math.h>

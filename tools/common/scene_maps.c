@@ -1,4 +1,5 @@
-// scene_maps.c - digits to images, and from above onto the scalp.
+// scene_maps.c - Maps of a scene, from digits in JSON to images that are projected onto the scalp
+// from above.
 #include "tools/common/scene_maps.h"
 
 #include <string.h>
@@ -29,7 +30,7 @@ static bool read_density(const struct hair_json* json, const char* key, const js
 
 static bool read_thickness(const struct hair_json* json, const char* key, const json_t* value, void* out)
 {
-    struct hair_scene_map* density = out; // Beside which it is.
+    struct hair_scene_map* density = out; // Thickness is the next member.
     return read_rows(json, key, value, 3, density + 1);
 }
 
@@ -43,7 +44,7 @@ bool hair_scene_read_maps(const struct hair_json* json, const char* key, const j
                            &maps->count);
 }
 
-// Seen from above; the face looks along +z.
+// Compute texture coordinates of the scalp as seen from above. The face looks along +z.
 static void look_from_above(const hair_groom_desc* desc, float* uvs)
 {
     float lower[3], upper[3];

@@ -1,4 +1,4 @@
-// scene_maps.h - how densely hair grows and how thick it is on a scene's scalp, drawn as digits in JSON.
+// scene_maps.h - Hair density and thickness on a scene's scalp, drawn as digits in JSON.
 #ifndef HAIR_TOOLS_COMMON_SCENE_MAPS_H
 #define HAIR_TOOLS_COMMON_SCENE_MAPS_H
 
@@ -7,11 +7,11 @@
 #include "tools/common/json.h"
 
 #define HAIR_SCENE_SETS 4
-#define HAIR_SCENE_MAP 64 // rows and columns, at most
+#define HAIR_SCENE_MAP 64 // maximum number of rows and of columns
 
 struct hair_scene_map {
     float value[HAIR_SCENE_MAP * HAIR_SCENE_MAP];
-    uint32_t width, height; // 0: there is none
+    uint32_t width, height; // 0 if there is no map
 };
 
 struct hair_scene_maps {
@@ -21,12 +21,14 @@ struct hair_scene_maps {
     uint32_t count;
 };
 
-// [{"density": ["09", "90"], "thickness": ["36"]}]: a row of digits after the other, as the scalp is seen from above,
-// the face at the bottom. Density in ninths; thickness in thirds, so that 3 is what the look says.
+// Read maps such as [{"density": ["09", "90"], "thickness": ["36"]}]. Each string is a row of
+// digits. The scalp is seen from above, with the face at the bottom. Density is in ninths.
+// Thickness is in thirds, so that 3 is the thickness of the look.
 bool hair_scene_read_maps(const struct hair_json* json, const char* key, const json_t* value,
                           struct hair_scene_maps* maps);
 
-// Have `desc`, which has a scalp, grow by the maps. `sets` and `uvs`, two for each of its vertices, must live as long.
+// Assign the maps to `desc`, which has a scalp. `sets` and `uvs`, two for each scalp vertex, must
+// live as long as `desc`.
 void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[HAIR_SCENE_SETS], float* uvs,
                          hair_groom_desc* desc);
 

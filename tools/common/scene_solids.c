@@ -1,4 +1,4 @@
-// scene_solids.c - what hair collides with in a scene, from JSON, and where it is over time.
+// scene_solids.c - Colliders of a scene, from JSON, and their poses over time.
 #include "tools/common/scene_solids.h"
 
 #include <cglm/cglm.h>
@@ -86,7 +86,8 @@ void hair_solid_carry(const float transform[16], float share, hair_solid* solid)
     memcpy(solid->rotation, own, sizeof own);
 }
 
-// Turned about its middle by its spin and along its keys, and moved by its velocity.
+// Compute the collider at a time. It rotates about its middle by its spin and its keys, and moves
+// by its velocity.
 hair_solid hair_scene_solid_at(const struct hair_scene_solid* from, float time)
 {
     struct hair_motion motion = {.count = from->key_count};

@@ -1,4 +1,4 @@
-// scene_wind.c - the wind of a scene, from JSON.
+// scene_wind.c - Wind of a scene, from JSON.
 #include "tools/common/scene_wind.h"
 
 #include <stddef.h>

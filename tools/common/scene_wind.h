@@ -1,4 +1,4 @@
-// scene_wind.h - the wind of a scene: its numbers are settings, its sources are here.
+// scene_wind.h - Wind of a scene. Its numbers are settings, its sources are stored here.
 #ifndef HAIR_TOOLS_COMMON_SCENE_WIND_H
 #define HAIR_TOOLS_COMMON_SCENE_WIND_H
 
@@ -15,10 +15,10 @@ struct hair_scene_wind {
 bool hair_scene_read_wind(const struct hair_json* json, const char* key, const json_t* value,
                           struct hair_settings* settings, struct hair_scene_wind* out);
 
-// As hair_set_wind takes it, with pointers into `wind`.
+// Return the wind for hair_set_wind(), with pointers into `wind`.
 hair_wind hair_scene_wind_of(const struct hair_settings* settings, const struct hair_scene_wind* wind);
 
-// A number, or the name of a choice, as the text that --set takes; `prefix` goes before its name.
+// Set a setting from a JSON number or the name of a choice. `prefix` goes before its name.
 bool hair_scene_set(const struct hair_json* json, const char* prefix, const char* name, const json_t* value,
                     struct hair_settings* settings);
 

@@ -1,4 +1,4 @@
-// settings.c - every number of a capture that a user may set by name.
+// settings.c - Every setting of a capture that a user can set by name.
 #include "tools/common/settings.h"
 #include "tools/common/file.h"
 
@@ -16,12 +16,13 @@
 
 enum kind { FLOAT, COUNT, CURVE, PRESET, LOOK, COLOR, LIKE };
 
-// Where one key goes. Several places where several descs ask the same question.
+// Key of a setting and its destinations. There are several if several descriptors have the same
+// field.
 struct row {
     const char* key;
     const char* about;
     enum kind kind;
-    uint16_t target[MAX_TARGETS]; // offsets into hair_settings; 0 ends the list
+    uint16_t target[MAX_TARGETS]; // offsets into hair_settings, 0 ends the list
     const char* choice[MAX_CHOICES]; // names of the values 0, 1, …
 };
 
@@ -268,7 +269,7 @@ static bool set_choice(struct hair_settings* settings, const struct row* row, co
     return false;
 }
 
-// The i-th name of what sets several numbers at once, or NULL.
+// Return the i-th name of a preset that sets several numbers, or NULL.
 static const char* preset_of(enum kind kind, int i)
 {
     if (kind == PRESET) return hair_preset_name((hair_preset)i);
@@ -284,7 +285,7 @@ static bool set_preset(struct hair_settings* settings, enum kind kind, const cha
     return hair_look_color(&settings->look, (hair_color)preset) == HAIR_OK;
 }
 
-// Of the first strand of a file all is one turn.
+// Set the curl from the first strand of a file. The whole strand is one turn.
 static bool set_curl_like(struct hair_settings* settings, const char* path)
 {
     struct hair_bytes bytes;
@@ -318,7 +319,8 @@ static bool set_number(struct hair_settings* settings, const struct row* row, co
     return true;
 }
 
-// "0.6", "0,1": numbers at even places from root to tip, at most as many as the curve has.
+// Parse a curve such as "0.6" or "0,1". The numbers are evenly spaced from root to tip, at most as
+// many as the curve has.
 static bool set_curve(struct hair_settings* settings, const struct row* row, const char* value)
 {
     hair_curve curve;
@@ -352,7 +354,7 @@ static bool set_value(struct hair_settings* settings, const struct row* row, con
     return row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value);
 }
 
-// The i-th name that a row takes, or NULL.
+// Return the i-th name that a row accepts, or NULL.
 static const char* choice_of(const struct row* row, int i)
 {
     if (row->kind == PRESET || row->kind == LOOK || row->kind == COLOR) return preset_of(row->kind, i);
@@ -394,7 +396,7 @@ bool hair_settings_set(const char* tool, struct hair_settings* settings, const c
     return false;
 }
 
-// One number where all are alike.
+// Print one number if all values of the curve are equal.
 static void print_curve(const void* value, char* text, size_t size)
 {
     hair_curve curve;

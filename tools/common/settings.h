@@ -1,5 +1,5 @@
-// settings.h - every number of a capture that a user may set by name: one table for the command line, scene
-// files and --help.
+// settings.h - Every setting of a capture that a user can set by name. One table serves the command
+// line, scene files and --help.
 #ifndef HAIR_TOOLS_COMMON_SETTINGS_H
 #define HAIR_TOOLS_COMMON_SETTINGS_H
 
@@ -10,7 +10,7 @@
 #include <hair/hair.h>
 #include <hair/hair_asset.h>
 
-#define HAIR_SCALE_GUESSED INFINITY // import.scale when none was said
+#define HAIR_SCALE_GUESSED INFINITY // value of import.scale if none is given
 
 struct hair_settings {
     hair_import import;
@@ -21,19 +21,20 @@ struct hair_settings {
     hair_look look;
     hair_desc desc;
     hair_view view;
-    hair_light light; // the first of the view's
+    hair_light light; // first light of the view
     hair_lod lod;
-    uint32_t has_lod; // 1: views have it
-    uint32_t hides; // 1: and the depth of the head, which is drawn before hair
+    uint32_t has_lod; // 1 enables level of detail in views
+    uint32_t hides; // 1 enables occlusion culling by the head, which is drawn before the hair
 };
 
 struct hair_settings hair_settings_default(void);
 
-// Set what `key` names from text: a number, or the name of a choice ("lines"). False: no such key, or not a
-// number of its kind, and `tool` has complained. Ranges are the library's to check.
+// Set the setting `key` from text, a number or the name of a choice ("lines"). Return false after
+// printing an error if the key is unknown or the value is not of its kind. The library checks
+// ranges.
 bool hair_settings_set(const char* tool, struct hair_settings* settings, const char* key, const char* value);
 
-// Every key, one a line, with its unit and default.
+// Print every key with its unit and default, one per line.
 void hair_settings_print(FILE* file);
 
 #endif

@@ -1,4 +1,4 @@
-// shaders.c - GLSL of what a capture draws beside the hair.
+// shaders.c - GLSL of everything that a capture draws except the hair.
 #include "tools/common/shaders.h"
 #include "tools/common/file.h"
 
@@ -8,10 +8,10 @@
 #define AT(x) "layout(location = " TEXT(x) ") uniform "
 #define HEAD "#version 450 core\n"
 
-// GLSL keeps its own lines.
+// clang-format would merge the lines of GLSL.
 // clang-format off
 const char hair_whole_vert[] = HEAD
-    AT(HAIR_AT_TILE) "vec4 tile;\n" // Of the picture: xy from its upper left, zw its size, as shares.
+    AT(HAIR_AT_TILE) "vec4 tile;\n" // xy from the upper left, zw size, as fractions of the picture
     "layout(location = 0) out vec2 place;\n"
     "void main()\n"
     "{\n"
@@ -36,7 +36,7 @@ const char hair_mesh_vert[] = HEAD
     AT(HAIR_AT_HEAD) "mat4 head;\n"
     AT(HAIR_AT_VIEW) "mat4 view;\n"
     AT(HAIR_AT_PROJECTION) "mat4 clip;\n"
-    AT(HAIR_AT_BEND) "vec2 bend;\n" // Heights: above the first it moves, below the second it rests.
+    AT(HAIR_AT_BEND) "vec2 bend;\n" // Vertices above bend.x move, vertices below bend.y rest.
     "layout(location = 0) in vec3 rest_position;\n"
     "layout(location = 1) in vec3 rest_normal;\n"
     "layout(location = 2) in vec3 paint;\n"
@@ -55,9 +55,10 @@ const char hair_mesh_vert[] = HEAD
 
 const char hair_nothing_frag[] = HEAD "void main() {}\n";
 
-// Skin lets red light farther round the terminator than blue; its gloss, of the first light, is faint and wide. What the
-// body and, where some is before it, hair leave of a light is an average over Vogel's spiral, turned from pixel to pixel (interleaved gradient noise, Jimenez 2014). `tone`
-// keeps the bust darker than its paint, so that what is seen first is the hair.
+// Shader of the skin. `wrap` lets red light reach farther around the terminator than blue. The
+// first light has a faint, wide gloss. The shadow of the body and of hair in front of it is
+// averaged over Vogel's spiral. The spiral is rotated per pixel by interleaved gradient noise
+// (Jimenez 2014). `tone` keeps the bust darker than its paint, so that the hair stands out.
 const char hair_skin_frag[] = HEAD
     AT(HAIR_AT_EYE) "vec3 eye;\n"
     AT(HAIR_AT_TAPS) "int taps;\n"
@@ -68,8 +69,8 @@ const char hair_skin_frag[] = HEAD
     AT(HAIR_AT_MORE) "vec2 light_more[16];\n"
     AT(HAIR_AT_AMBIENT) "vec3 ambient;\n"
     AT(HAIR_AT_MAP) "int light_map[16];\n"
-    AT(HAIR_AT_SHADOW) "mat4 shadow[4];\n" // World to texture and depth, times w.
-    AT(HAIR_AT_TEXEL) "float texel[4];\n"  // Of the maps, m.
+    AT(HAIR_AT_SHADOW) "mat4 shadow[4];\n" // from world to texture coordinates and depth, times w
+    AT(HAIR_AT_TEXEL) "float texel[4];\n"  // width of a texel, m
     "layout(binding = 0) uniform sampler2DShadow body_map[4];\n"
     "layout(binding = 4) uniform sampler2D hair_map[4];\n"
     "layout(binding = 8) uniform sampler2D opacity_map[4];\n"
@@ -88,7 +89,8 @@ const char hair_skin_frag[] = HEAD
     "    float sum   = 0.0;\n"
     "    for (int i = 0; i < taps; ++i) {\n"
     "        vec2  tap    = at.xy + 7.0 * sqrt((float(i) + 0.5) / float(taps)) * size * way;\n"
-    "        way          = mat2(-0.737369, 0.675490, -0.675490, -0.737369) * way;\n" // by the golden angle
+    // Rotation by the golden angle.
+    "        way          = mat2(-0.737369, 0.675490, -0.675490, -0.737369) * way;\n"
     "        float body   = textureLod(body_map[map], vec3(tap, at.z), 0.0);\n"
     "        float before = textureLod(hair_map[map], tap, 0.0).r < at.z ? 1.0 : 0.0;\n"
     "        sum += body * (1.0 - before * textureLod(opacity_map[map], tap, 0.0).r);\n"
@@ -119,12 +121,13 @@ const char hair_skin_frag[] = HEAD
     "    color         = vec4(sum, 1.0);\n"
     "}\n";
 
-// Straight up to a half, then a shoulder that never quite reaches white; then the sRGB curve (IEC 61966-2-1)
-// and half a step of noise, so that the gradient shows no bands.
+// Tone mapping. The curve is linear up to 0.5, followed by a shoulder that approaches white
+// asymptotically. The sRGB curve (IEC 61966-2-1) follows. Noise of half a step hides bands in
+// gradients.
 const char hair_tone_frag[] = HEAD
     AT(HAIR_AT_SUPERSAMPLE) "int supersample;\n"
     AT(HAIR_AT_EXPOSURE) "float exposure;\n"
-    AT(HAIR_AT_HEIGHT) "int height;\n" // Of the tile, in the picture's pixels: the upper row goes first.
+    AT(HAIR_AT_HEIGHT) "int height;\n" // height of the tile in pixels, because the top row is first
     "layout(binding = 0) uniform sampler2D drawn;\n"
     "layout(location = 0) out vec4 encoded;\n"
     "layout(location = 1) out vec4 linear;\n"

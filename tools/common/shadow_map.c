@@ -1,4 +1,5 @@
-// shadow_map.c - what is seen from a light: depth of bodies, depth of hair, and how much of the light hair takes.
+// shadow_map.c - Shadow maps of a light, with depth of opaque geometry, depth of hair, and opacity
+// of hair.
 #include "tools/common/shadow_map.h"
 
 #include <epoxy/gl.h>

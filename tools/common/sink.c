@@ -1,4 +1,4 @@
-// sink.c - where frames go: pictures, numbered pictures, or a video.
+// sink.c - Output of frames as pictures, numbered pictures, or a video.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/common/sink.h"
 #include "tools/common/video.h"
@@ -34,7 +34,8 @@ bool hair_sink_is_picture(const char* path)
     return (kind == HAIR_SINK_PNG || kind == HAIR_SINK_EXR) && !strchr(path, '%');
 }
 
-// Of "%d" or "%04d" at `at`: its length, and in `digits` how many it asks for. 0: it is neither.
+// Return the length of "%d" or "%04d" at `at`, or 0 if it is neither. `digits` receives the
+// requested number of digits.
 static size_t pattern_length(const char* at, int* digits)
 {
     *digits = 0;
@@ -183,7 +184,7 @@ bool hair_sink_commit(struct hair_sink* sink)
 void hair_sink_discard(struct hair_sink* sink)
 {
     if (sink->encoder) {
-        kill(sink->process, SIGKILL); // What it has made so far is not wanted.
+        kill(sink->process, SIGKILL); // The partial video is discarded.
         fclose(sink->encoder);
         hair_encoder_wait(sink->process);
     }

@@ -1,4 +1,4 @@
-// sink.h - where frames go: pictures, numbered pictures, or a video.
+// sink.h - Output of frames as pictures, numbered pictures, or a video.
 #ifndef HAIR_TOOLS_COMMON_SINK_H
 #define HAIR_TOOLS_COMMON_SINK_H
 
@@ -13,24 +13,25 @@ struct hair_sink {
     const char* tool;
     const char* path;
     enum hair_sink_kind kind;
-    const char* number; // where in path the frame's number goes; NULL: one file
-    struct hair_output output; // of one file
+    const char* number; // position of the frame number in the path, NULL for a single file
+    struct hair_output output; // used for a single file
     uint32_t width, height;
-    unsigned char* planes; // of one video frame
-    FILE* encoder; // its standard input
+    unsigned char* planes; // planes of one video frame
+    FILE* encoder; // standard input of the encoder
     pid_t process;
 };
 
-// Whether the name is that of one picture, and so can hold one frame only.
+// Return whether the name is that of one picture, which can hold one frame only.
 bool hair_sink_is_picture(const char* path);
 
-// Told by the end of the name: .png .exr .y4m .mp4; a pipe or device of another name, and "-", get .y4m. A
-// picture's name may hold one %d or %04d for the frame's number. `path` NULL takes nothing. Returns what the
-// tool should exit with, having complained.
+// Choose the output by the end of the name, .png, .exr, .y4m or .mp4. A pipe or device with another
+// name and "-" get .y4m. A picture's name may contain one %d or %04d for the frame number. `path`
+// NULL disables output. Return an exit status for the tool, after printing any error.
 int hair_sink_plan(const char* tool, const char* path, uint32_t width, uint32_t height, uint32_t frames,
                    struct hair_sink* sink);
 
-// Begin; put each frame; then exactly one of commit and discard. False: complained.
+// Open the output. Call hair_sink_put() for each frame, then exactly one of hair_sink_commit() and
+// hair_sink_discard(). Return false after printing an error.
 bool hair_sink_open(struct hair_sink* sink, double fps);
 bool hair_sink_put(struct hair_sink* sink, const struct hair_image* image, uint32_t frame);
 bool hair_sink_commit(struct hair_sink* sink);

@@ -1,4 +1,4 @@
-// stats.c - what a capture drew and how long it took, as JSON.
+// stats.c - Statistics of a capture and its timings, as JSON.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/common/stats.h"
 #include "tools/common/file.h"
@@ -14,7 +14,7 @@ double hair_now(void)
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
-// What finds no memory is not counted.
+// Append a time. The time is dropped if memory runs out.
 void hair_clock_add(struct hair_clock* clock, double ms)
 {
     if (clock->count == clock->room) {
@@ -42,7 +42,7 @@ static json_t* clock_row(const char* name, const char* method, const struct hair
                      (double)clock->ms[clock->count - 1], "runs", clock->count);
 }
 
-// Those that ran.
+// Append the passes that ran.
 static void add_passes(json_t* rows, const char* name, hair_context* context)
 {
     uint32_t count = hair_timings(context, NULL, 0);
@@ -67,7 +67,7 @@ static json_t* rows_of(const struct hair_stats* stats, hair_context* context)
     return rows;
 }
 
-// What became of all work in the last frame.
+// Return the library's report of all work in the last frame.
 static json_t* report_of(hair_instance* hair)
 {
     hair_report_info info = hair_report_info_default();

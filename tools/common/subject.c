@@ -1,4 +1,4 @@
-// subject.c - the haircut of a scene: from a file, in a built-in style, or fur on a ball.
+// subject.c - The haircut of a scene, from a file, in a built-in style, or as fur on a ball.
 #include "tools/common/subject.h"
 #include "tools/common/file.h"
 
@@ -39,9 +39,10 @@ static int build(const hair_host* host, const struct hair_scene* scene, hair_ass
     return hair_exit_for(result);
 }
 
-#define LONGEST_STRAND 3.0f // m: a file with longer ones is in smaller units
+#define LONGEST_STRAND 3.0f // m, a file with longer strands is in smaller units
 
-// Files do not say their unit: metres, unless strands would be longer than any hair; then centimetres or millimetres.
+// Guess the unit of a file, because files do not state it. The unit is metres unless strands would
+// be longer than LONGEST_STRAND. Then centimetres or millimetres are used.
 static float guess_scale(const char* tool, const char* path, const hair_asset* asset)
 {
     hair_asset_info info = hair_asset_info_default();
@@ -77,7 +78,8 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
     hair_result result = read_asset(&named, import, &bytes, &asset);
     if (!result && guesses) {
         import.scale = guess_scale(tool, scene->groom, asset);
-        if (import.scale != 1) { // Again, since what is too short to keep depends on it.
+        // Read the file again, because the minimum strand length depends on the scale.
+        if (import.scale != 1) {
             hair_asset_destroy(asset);
             result = read_asset(&named, import, &bytes, &asset);
         }
@@ -97,7 +99,8 @@ static int make_style(const hair_host* host, const struct hair_scene* scene, hai
 
 // Fur -------------------------------------------------------------------------------------------------------
 
-// Even in [-1, 1), from an integer: the finaliser of MurmurHash3 (Appleby 2011).
+// Return evenly distributed noise in [-1, 1) from an integer. This is the finalizer of MurmurHash3
+// (Appleby 2011).
 static float noise(uint32_t x)
 {
     x ^= x >> 16;
@@ -108,8 +111,9 @@ static float noise(uint32_t x)
     return (float)(x >> 8) * (2.0f / 16777216.0f) - 1;
 }
 
-// Roots on Fibonacci's lattice, which spreads any number of points evenly over a sphere; each strand leans
-// down and at random, the more the farther out.
+// Make strand i of the fur. Roots lie on Fibonacci's lattice, which distributes any number of
+// points evenly over a sphere. Each strand leans down and randomly. The lean increases towards the
+// tip.
 static void grow(const struct hair_scene* scene, uint32_t i, float* out)
 {
     uint32_t seed = scene->settings.groom.seed * 2654435761u + 8 * i;

@@ -1,13 +1,13 @@
-// subject.h - the haircut of a scene, made ready for an instance.
+// subject.h - The haircut of a scene, ready for an instance.
 #ifndef HAIR_TOOLS_COMMON_SUBJECT_H
 #define HAIR_TOOLS_COMMON_SUBJECT_H
 
 #include "tools/common/scene.h"
 
-// What a tool should exit with for what the library said.
+// Return the exit status of a tool for a result of the library.
 int hair_exit_for(hair_result result);
 
-// Returns what the tool should exit with, having complained.
+// Load the haircut. Return an exit status for the tool, after printing any error.
 int hair_subject_load(const char* tool, const hair_host* host, const struct hair_scene* scene,
                       hair_groom** out);
 

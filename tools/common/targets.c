@@ -1,4 +1,4 @@
-// targets.c - what a capture draws into: the samples, the picture.
+// targets.c - Render targets of a capture.
 #include "tools/common/targets.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,4 @@
-// video.c - frames as YUV4MPEG2, and ffmpeg to make .mp4 of it.
+// video.c - Frames as YUV4MPEG2, which ffmpeg encodes to .mp4.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/common/video.h"
 #include "tools/common/file.h"
@@ -19,21 +19,22 @@ size_t hair_y4m_size(uint32_t width, uint32_t height)
     return (size_t)width * height + 2 * (size_t)((width + 1) / 2) * ((height + 1) / 2);
 }
 
-// C420jpeg: colour stands in the middle of its four pixels, where the average below puts it.
+// Write the header. C420jpeg places chroma in the middle of its four pixels, as the average below
+// does.
 bool hair_y4m_begin(FILE* file, uint32_t width, uint32_t height, double fps)
 {
     return fprintf(file, "YUV4MPEG2 W%u H%u F%ld:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n", width, height,
                    lround(1000 * fps)) > 0;
 }
 
-// BT.709, 8 bits, limited range, in 16.16 fixed point: brightness 16 to 235, colour 16 to 240 (ITU-R
-// BT.709-6, items 3.2 to 3.5). Each row of weights sums to 219/255, or to 0.
+// Compute luma of BT.709, 8 bits, limited range, in 16.16 fixed point (ITU-R BT.709-6, items 3.2 to
+// 3.5). Luma is 16 to 235, chroma 16 to 240. Each row of weights sums to 219/255 or to 0.
 static unsigned char brightness(const int rgb[3])
 {
     return (unsigned char)((11966 * rgb[0] + 40254 * rgb[1] + 4064 * rgb[2] + (16 << 16) + (1 << 15)) >> 16);
 }
 
-// Of the sum of four pixels: 18 fractional bits.
+// Compute chroma from the sum of four pixels, with 18 fractional bits.
 static void colour(const int sum[3], unsigned char* blue, unsigned char* red)
 {
     *blue =
@@ -43,7 +44,7 @@ static void colour(const int sum[3], unsigned char* blue, unsigned char* red)
 
 static void pixel(const struct hair_image* image, uint32_t x, uint32_t y, int rgb[3])
 {
-    // At an odd edge the last row or column counts twice.
+    // Repeat the last row or column at an odd edge.
     if (x >= image->width) x = image->width - 1;
     if (y >= image->height) y = image->height - 1;
     const unsigned char* from = image->encoded + 3 * ((size_t)y * image->width + x);
@@ -78,7 +79,8 @@ bool hair_y4m_frame(FILE* file, const struct hair_image* image, unsigned char* p
 
 // Encoder ---------------------------------------------------------------------------------------------------
 
-// The child reads `input`, and keeps the terminal's Ctrl-C for its parent to answer.
+// Start a process that reads `input`. Its own process group leaves the terminal's Ctrl-C to the
+// parent.
 static int spawn(const char* const* arguments, int input, int output, pid_t* process)
 {
     posix_spawn_file_actions_t actions;
@@ -104,11 +106,12 @@ static int spawn(const char* const* arguments, int input, int output, pid_t* pro
 
 FILE* hair_encoder_start(const char* tool, const char* path, int descriptor, pid_t* process)
 {
-    // A file is rearranged so that playing can start before all of it is there; a pipe cannot be.
+    // A file is rearranged so that playback can start before all of it is loaded. A pipe cannot be
+    // rearranged.
     const char* layout = path ? "+faststart" : "+frag_keyframe+empty_moov";
     const char* const arguments[] = {
         "ffmpeg", "-loglevel", "error", "-y", "-f", "yuv4mpegpipe", "-i", "pipe:0",
-        // What the planes hold, as tags: nothing is converted.
+        // The tags describe the planes. Nothing is converted.
         "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
         "tv", "-pix_fmt", "yuv420p", "-c:v", "libx264", "-crf", "18", "-movflags", layout, "-f", "mp4",
         path ? path : "pipe:1", NULL};

@@ -19,7 +19,8 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from suites import SUITES
 
-# Okabe and Ito 2008: told apart by all kinds of colour vision; and markers, for who sees none.
+# Colours of Okabe and Ito 2008, which all kinds of colour vision can distinguish. Markers serve
+# readers who see no colours.
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 SIGNIFICANT = 4
@@ -56,7 +57,8 @@ def number(value):
     return str(value)
 
 
-# What is not put in a column of its own: the least and greatest of a time stand beside it.
+# Return whether a column has no column of its own. The minimum and maximum of a time are shown
+# beside the time.
 def is_of_another(column, columns):
     return column.endswith(("_min", "_max")) and column[:-4] in columns
 
@@ -79,7 +81,9 @@ def table(title, rows, folded, columns=None):
             "rows": [[cell(row, c) for c in columns] for row in rows]}
 
 
-# A panel for each machine. `series` to [(across, down, label, (least, greatest))], of what is across unless style["spread"] is down.
+# Draw one panel per machine. `panels` is a list of (title, series). `series` maps a name to points
+# (across, down, label, (minimum, maximum)). The range applies to `across`, or to `down` if
+# style["spread"] is "down".
 def plot(panels, style):
     panels = [p for p in panels if any(p[1].values())]
     if not panels:
@@ -87,7 +91,7 @@ def plot(panels, style):
     names = sorted({name for _, series in panels for name in series})
     columns = 1 if max(map(len, names)) > 24 else 2
     key = 0.2 * -(-len(names) // columns) + 0.2
-    # One under the other, so that they can be read on a telephone; what marks mean below.
+    # Panels are stacked so that they are readable on a telephone. The legend is at the bottom.
     named = {p[1] for _, series in panels for points in series.values() for p in points if isinstance(p[1], str)}
     tall = max(3.6, 0.21 * len(named) + 1)
     figure, axes = plt.subplots(len(panels) + 1, 1, figsize=(4.8, tall * len(panels) + key), squeeze=False,
@@ -120,7 +124,8 @@ def plot(panels, style):
             ax.set_yscale(scale)
             ax.yaxis.set_minor_formatter(NullFormatter())
         for axis, (low, high) in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
-            if axis.get_scale() == "log" and high < 30 * low:  # Powers of ten alone may be one, or none.
+            # Powers of ten alone would give one mark or none.
+            if axis.get_scale() == "log" and high < 30 * low:
                 axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
                 axis.set_major_formatter(StrMethodFormatter("{x:g}"))
         ax.set(title=title, xlabel=style["across"], ylabel=style.get("down", ""))

@@ -77,7 +77,8 @@ def cost(case, column):
 
 
 def divergence(rows):
-    # A line for each way to relax: joined by method alone it would jump between them.
+    # Join points of each relaxation setting, because a line per method alone would jump between
+    # settings.
     return grouped(rows, lambda row: f'{row["method"]}, {row["relax"] or 0:g}',
                    lambda row: (row["ms"], row["divergence"], "", bounds(row, "ms")) if row["divergence"] and row["ms"] else None)
 
@@ -86,7 +87,7 @@ def through_a_ball(rows):
     def point(row):
         return (row["along"], row["speed"]) if row.get("along") is not None else None
 
-    # A line each way: it would go through the ball.
+    # Use one line for each side of the ball, because a single line would cross the ball.
     return grouped(rows, lambda row: f'{row["method"]}, {row["resolution"]} cells, {"behind" if (row.get("along") or 0) > 0 else "before"}', point)
 
 

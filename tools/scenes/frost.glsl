@@ -1,4 +1,5 @@
-// frost.glsl - what hair-capture --shader takes: hair that glows towards its tips, and has an edge on either side.
+// frost.glsl - Example for hair-capture --shader. Hair glows towards its tips and has an edge on
+// either side.
 vec4 hair_shade(hair_fragment f)
 {
     float frost = smoothstep(0.35, 1.0, f.t + 0.25 * f.random);

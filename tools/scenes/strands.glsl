@@ -1,4 +1,5 @@
-// strands.glsl - what hair-capture --shader takes: each lock has a colour of its own, darker from root to tip.
+// strands.glsl - Example for hair-capture --shader. Each lock has its own colour, darker from root
+// to tip.
 vec4 hair_shade(hair_fragment f)
 {
     vec3 hue = 0.5 + 0.5 * cos(6.2831853 * (0.61803 * float(f.lock) + vec3(0.0, 0.33, 0.67)));
