@@ -2,7 +2,7 @@
 # make test            build and run every test; filter=groom runs the programs whose names contain groom
 # make config=asan     release (default), debug, asan, tsan, coverage
 # make BULLET=0        build without libhair_bullet, libhair is unchanged
-# make bench device=0  run all cases on EGL device 0; without device=, a quick run on the first that works
+# make bench device=0  run all cases on EGL device 0; without it, a quick run on the first that works
 # make V=1             show every command
 # make setup           install the missing Debian packages of tools/packages.txt; SETUP=0 skips it
 MAKEFLAGS += -r --no-print-directory

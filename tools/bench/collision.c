@@ -1,5 +1,6 @@
-// collision.c - the suite `collision`: followers inside a head and shoulders though no guide is, and what is done about
-// it (figure 6 of Tariq 2010); how long it takes to find them; what guides pay for many solids.
+// collision.c - Suite `collision`, followers inside a head and shoulders that no guide is inside of
+// (figure 6 of Tariq 2010). The suite measures the treatment of these followers, the time to find
+// them, and the cost of many colliders to guides.
 #include "tools/bench/bust.h"
 #include "tools/bench/many.h"
 
@@ -37,9 +38,9 @@ static const char* const columns[] = {"case",
                                       "pass",
                                       NULL};
 
-static const char* const names[] = {"push", "switch", "none"}; // In the order of hair_collision.
+static const char* const names[] = {"push", "switch", "none"}; // in the order of hair_collision
 
-// What is done to followers, summed over frames.
+// Effects of the treatment on followers, summed over frames.
 struct found {
     uint64_t inside_before, inside_after, moved, dropped, vertices_moved;
     double depth_before, depth, displacement, most_displacement, length_error, turn, turn_of_guides;
@@ -47,7 +48,7 @@ struct found {
 };
 
 struct frame {
-    float *before, *after; // of all followers, without and with
+    float *before, *after; // all followers, without and with the treatment
     float *last_before, *last_after;
     float* guides;
 };
@@ -58,7 +59,7 @@ static double distance(const float* a, const float* b)
     return sqrt(x * x + y * y + z * z);
 }
 
-// Greatest angle from a segment to the next, degrees.
+// Return the maximum angle between successive segments, in degrees.
 static double turn_of(const float* p, uint32_t segments)
 {
     double most = 0;
@@ -91,7 +92,7 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
             found->jump = fmax(found->jump, sqrt(square));
             found->jump_of_strands = fmax(found->jump_of_strands, distance(p + 3 * k, a));
         }
-        if (k == 0) continue; // The root is where it is.
+        if (k == 0) continue; // The root does not move.
         before += distance(p + 3 * k, p + 3 * k - 3);
         after += distance(q + 3 * k, q + 3 * k - 3);
         double depth = -bench_bust_distance(bust, p + 3 * k), left = -bench_bust_distance(bust, q + 3 * k);
@@ -159,7 +160,7 @@ static void add_row(struct bench_bust* bust, hair_collision collision, uint32_t 
     bench_set_count(row, "runs", runs);
 }
 
-// Three times a second, and 1/240 s after that, which tells what jumps.
+// Examine the followers three times a second, and again 1/240 s later to detect jumps.
 static bool run_frames(struct bench_bust* bust, hair_collision collision, struct frame* frame)
 {
     enum { EVERY = BUST_FPS / 3 };
@@ -200,7 +201,7 @@ static void measure_shoulders(struct bench* bench, hair_collision collision)
     bench_bust_free(&bust);
 }
 
-// The same scene by both ways. Returns ms, or 0.
+// Time one method on the scene that all methods use. Return the time in ms, or 0.
 static double measure_first_hit(struct bench* bench, hair_first_hit way, double compute)
 {
     static const char* const ways[] = {"auto", "compute", "prepass"};

@@ -1,4 +1,4 @@
-// drag.c - drag of a straight strand across an even wind, against published drag of cylinders.
+// drag.c - Drag of a straight strand across a uniform wind, against published drag of cylinders.
 #include "tools/bench/physics.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #define SUBSTEPS 20
 
-// Without bound in a viscous flow: Kaplun 1957.
+// Return the drag coefficient of a cylinder in an unbounded viscous flow (Kaplun 1957).
 static double slow_drag(double reynolds)
 {
     double e = 1 / (0.5 - 0.57721566 - log(reynolds / 8));
@@ -14,7 +14,7 @@ static double slow_drag(double reynolds)
 }
 
 static const struct {
-    double reynolds, published; // 0: by slow_drag
+    double reynolds, published; // 0 uses slow_drag()
     const char* reference;
 } rows[] = {{0.1, 0, "Kaplun 1957"},
             {0.2, 0, "Kaplun 1957"},
@@ -30,7 +30,8 @@ static const struct {
             {80, 1.35, "Park, Kwon, Choi 1998"},
             {100, 1.33, "Park, Kwon, Choi 1998"}};
 
-// By how fast a strand that nothing holds gathers speed: of the velocity that it lacks, a share `rate` in a second.
+// Measure the drag by the acceleration of a free strand. The velocity difference decays by a
+// fraction `rate` per second.
 static bool measure(struct bench* bench, double speed, double guess, double* rate)
 {
     const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
@@ -48,7 +49,8 @@ static bool measure(struct bench* bench, double speed, double guess, double* rat
     if (!bench_live(bench, &scene, &living)) return false;
     bool ok = bench_step(&living, NULL, (SUBSTEPS + 0.5) * scene.substep) && bench_read(&living, now);
     double time = SUBSTEPS * scene.substep;
-    // From rest z = speed (t - (1 - exp(-rate t)) / rate) = speed rate t^2 / 2 (1 - rate t / 3 + ...).
+    // From rest z = speed (t - (1 - exp(-rate t)) / rate) = speed rate t^2 / 2 (1 - rate t / 3 +
+    // ...). z is the distance and t the time.
     *rate = 2 * now[2] / (speed * time * time);
     *rate *= 1 + *rate * time / 3;
     bench_die(&living);
@@ -64,7 +66,8 @@ void bench_drag(struct bench* bench)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         double re = rows[i].reynolds, speed = re * (double)scene.wind.viscosity / (density * diameter);
         double published = rows[i].published > 0 ? rows[i].published : slow_drag(re), rate;
-        double by_rate = 2 * section.line_density / (density * diameter * speed); // to a coefficient
+        // Factor from a rate to a coefficient.
+        double by_rate = 2 * section.line_density / (density * diameter * speed);
         if (!measure(bench, speed, published / by_rate, &rate)) {
             bench_refuse(bench, "drag", "accurate");
             return;

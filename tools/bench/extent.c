@@ -1,12 +1,13 @@
-// extent.c - by the projections of camera and light.
+// extent.c - Extents of a studio's picture and shadow map, from the projections of camera and
+// light.
 #include "tools/bench/extent.h"
 
 #include <math.h>
 
-#define TEXELS 4 // of a shadow map to a pixel, at least
-#define LEAST_MAP 256 // texels to each side
+#define TEXELS 4 // minimum texels of a shadow map per pixel
+#define LEAST_MAP 256 // texels per side
 
-// What is seen through a projection at a distance: pixels per metre.
+// Return the pixels per metre of a projection at a distance.
 static float scale_of(const struct hair_matrices* matrices, float distance, uint32_t pixels)
 {
     const float* p = matrices->projection;
@@ -71,7 +72,8 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
     return size;
 }
 
-// The sphere that the head's turns keep all hair in, whose box is seen in perspective.
+// Return the bounds of the hair's sphere in the picture. The sphere contains all hair for any
+// rotation of the head. The perspective bounds of its box are used.
 struct bench_rectangle bench_extent_hair(const struct bench_studio* studio,
                                          const struct hair_matrices* camera, uint32_t pixels)
 {

@@ -1,31 +1,34 @@
-// extent.h - where what a studio shows is in its picture and in its shadow map, and how large.
+// extent.h - Positions and sizes of a studio's content in its picture and in its shadow map.
 #ifndef HAIR_TOOLS_BENCH_EXTENT_H
 #define HAIR_TOOLS_BENCH_EXTENT_H
 
 #include "tools/bench/studio.h"
 #include "tools/common/camera.h"
 
-// The camera of what is drawn next; and by how many pixels what a picture of such a size shows moves.
+// Compute the camera of the next draw.
 void bench_extent_aim(const struct bench_studio* studio, struct hair_matrices* out);
+// Shift a projection by `by` pixels of a picture of `size` pixels per side.
 void bench_extent_shift(struct hair_matrices* matrices, const float by[2], uint32_t size);
 
-// Pixels to a metre where the scene's camera looks, from so many times its distance.
+// Return the pixels per metre at the camera's target, seen from `away` times the scene's distance.
 float bench_extent_scale(const struct bench_studio* studio, float away);
 
-// Pixels of the picture to a texel of a shadow map of such a size.
+// Return the pixels of the picture per texel of a shadow map of `size` texels per side.
 float bench_extent_texel(const struct bench_studio* studio, const struct hair_matrices* camera,
                          const struct hair_matrices* light, uint32_t size);
 
-// Whether the shadow map is to be as coarse as strands are wide, those that make up for others too, and at that size they
-// still fill its texels.
+// Return whether the shot requests a shadow map as coarse as strands are wide, and strands still
+// fill its texels at `size`. The width includes the widening of strands that replace others.
 bool bench_extent_fits(const struct bench_studio* studio, const struct hair_matrices* light, uint32_t size);
 
-// Texels to a side of the shadow map: no more than strands fill, where it fits them; where the picture has levels of detail, no
-// more than that needs.
+// Return the texels per side of the shadow map. If the shot fits the map to strands, the map is the
+// smallest one whose texels strands fill. With dynamic level of detail it has no more than TEXELS
+// texels per pixel.
 uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_matrices* camera,
                           const struct hair_matrices* light);
 
-// Around all that hair can reach. `pixels` to each side of the picture.
+// Return the bounds of everything that hair can reach in the picture. The picture has `pixels` per
+// side.
 struct bench_rectangle bench_extent_hair(const struct bench_studio* studio,
                                          const struct hair_matrices* camera, uint32_t pixels);
 

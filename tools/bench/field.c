@@ -1,6 +1,8 @@
-// field.c - the suite `field`: what voxelising solids costs, and how far it is from their exact distances.
+// field.c - Suite `field`, the cost of voxelizing colliders and the error of the field against
+// exact distances.
 //
-// Through the public interface: solids are set, hair_get_field brings the field up to date, and its texture is read.
+// The suite uses the public interface. It sets colliders, hair_get_field() updates the field, and
+// the field's texture is read.
 #include "lib/collide/distance.h"
 #include "tools/bench/bench.h"
 #include "tools/common/stats.h"
@@ -10,8 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIDE 0.6 // m: of the field's box
-#define BAND 3 // voxels on either side of a surface, where an interpolated value has all its neighbours
+#define SIDE 0.6 // side of the field's box, m
+// Voxels on either side of a surface where an interpolated value has all its neighbours.
+#define BAND 3
 #define MOST_RUNS 41
 #define MIXED 20
 #define MANY 10000
@@ -28,9 +31,9 @@ struct subject {
     hair_field_info info;
 };
 
-// Living ----------------------------------------------------------------------------------------------------
+// Instances ---------------------------------------------------------------------------------------
 
-// A strand along each axis, either way: the box is a cube around them.
+// Make one strand in each direction of each axis, so that the field's box is a cube.
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     enum { VERTICES = 4 };
@@ -78,7 +81,7 @@ static bool update(struct subject* subject, const hair_solid* solids, uint32_t c
            !hair_get_field(subject->hair, &subject->info);
 }
 
-// Of the passes that write the field: GPU time, and how often they ran.
+// Return the GPU time of the passes that write the field. `runs` receives how often they ran.
 static double sum_passes(struct bench* bench, uint32_t* runs)
 {
     hair_timing timings[BENCH_MOST_PASSES];
@@ -93,7 +96,8 @@ static double sum_passes(struct bench* bench, uint32_t* runs)
     return sum;
 }
 
-// By the clock where the driver's timers do not see compute shaders, with the work of the CPU in it. NAN: refused.
+// Measure an update. If the driver's timers do not measure compute shaders, wall time is used,
+// which includes CPU work. Return NAN if the library refused.
 static double time_update(struct subject* subject, const hair_solid* solids, uint32_t count)
 {
     struct bench* bench = subject->bench;
@@ -136,7 +140,7 @@ static json_t* new_row(struct subject* subject, const char* name, uint32_t solid
     return row;
 }
 
-// Solids ----------------------------------------------------------------------------------------------------
+// Colliders ---------------------------------------------------------------------------------------
 
 static uint32_t random_of(uint32_t* seed)
 {
@@ -166,7 +170,7 @@ static hair_solid any_solid(hair_shape shape, double size, double reach, uint32_
 
 #define ROWS 128u
 
-// A ball of so many triangles that it is round to 1e-4 of its radius.
+// Make a ball with enough triangles to be round to 1e-4 of its radius.
 static hair_form* make_ball(struct bench* bench, double radius)
 {
     size_t vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
@@ -178,7 +182,7 @@ static hair_form* make_ball(struct bench* bench, double radius)
     for (uint32_t i = 0; positions && indices && i < vertices; ++i) {
         uint32_t row = i / (2 * ROWS), column = i % (2 * ROWS);
         double around = row % ROWS ? sin(pi * row / ROWS) : 0,
-               turn = pi * column / ROWS; // At the poles one point.
+               turn = pi * column / ROWS; // one point at the poles
         positions[3 * i] = (float)(radius * around * sin(turn));
         positions[3 * i + 1] = (float)(radius * cos(pi * row / ROWS));
         positions[3 * i + 2] = (float)(radius * around * cos(turn));
@@ -203,11 +207,11 @@ static hair_form* make_ball(struct bench* bench, double radius)
 // Errors ----------------------------------------------------------------------------------------------------
 
 struct errors {
-    double most, square, centre; // voxels
-    uint64_t points, wrong; // wrong: of sign, farther than a voxel from the surface
+    double most, square, centre; // in voxels
+    uint64_t points, wrong; // `wrong` counts wrong signs farther than a voxel from the surface
 };
 
-// As OpenGL filters.
+// Interpolate as OpenGL's linear filter does.
 static double interpolate(const struct subject* subject, const float* texels, const double at[3])
 {
     const uint32_t* size = subject->info.size;
@@ -227,7 +231,7 @@ static double interpolate(const struct subject* subject, const float* texels, co
     return sum;
 }
 
-// `exact` is what the solid stands for.
+// Compare the field with the exact distance to `exact`, the ideal shape of the collider.
 static void measure(const struct subject* subject, const float* texels, const hair_solid* exact,
                     uint32_t points, struct errors* out)
 {
@@ -243,7 +247,7 @@ static void measure(const struct subject* subject, const float* texels, const ha
                     between(&seed, -2e-5, 2e-5) * info->size[k];
             if (centre) at[k] = floor(at[k]) + 0.5;
             at[k] = fmin(fmax(at[k], 0.5), (double)info->size[k] - 0.5);
-            // The head is at the origin: the transform is a scale and a shift.
+            // The head is at the origin, therefore the transform is a scale and a translation.
             point[k] =
                 (at[k] / info->size[k] - (double)info->transform[12 + k]) / (double)info->transform[5 * k];
         }
@@ -261,13 +265,13 @@ static void measure(const struct subject* subject, const float* texels, const ha
 struct shape_row {
     const char* name;
     hair_shape shape;
-    double rounding; // of its size
-    double limit; // voxels
+    double rounding; // as a fraction of the size
+    double limit; // in voxels
 };
 
 static void set_errors(json_t* row, const struct shape_row* shape, const struct errors* errors)
 {
-    // What was sampled from a grid is off at the middles of voxels too.
+    // A field that is sampled from a grid has errors at voxel centres too.
     double centre = shape->shape == HAIR_SHAPE_FORM ? shape->limit : 0.05;
     bench_set_text(row, "shape", shape->name);
     bench_set_number(row, "max_error", errors->most);
@@ -335,7 +339,7 @@ static void run_shapes(struct bench* bench)
     hair_form_destroy(ball);
 }
 
-// What moves ------------------------------------------------------------------------------------------------
+// Moving colliders --------------------------------------------------------------------------------
 
 static void make_mixed(hair_solid* solids, uint32_t count, double size)
 {
@@ -344,7 +348,8 @@ static void make_mixed(hair_solid* solids, uint32_t count, double size)
         solids[i] = any_solid((hair_shape)(i % HAIR_SHAPE_PLANE), size, 0.26, &seed);
 }
 
-// Each in turn moves among the others, and alone; one after the other, so that both see the same machine.
+// Move each collider in turn among the others and alone. The two runs alternate, so that both see
+// the same state of the machine.
 static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t count)
 {
     hair_solid solids[MIXED];
@@ -362,7 +367,8 @@ static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t cou
         }
         for (int i = 0; i < 2; ++i) {
             sums[i] += median(ms[i], runs) / count;
-            least[i] += ms[i][0] / count; // What else runs on the machine makes no time shorter.
+            // The minimum is used, because other load on the machine only lengthens times.
+            least[i] += ms[i][0] / count;
         }
     }
     for (int i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// flow.c - the fluid about a ball, and what it does.
+// flow.c - The fluid around a ball, and its measures.
 #include "tools/bench/flow.h"
 
 #include "lib/reference/fluid.h"
@@ -8,7 +8,7 @@
 
 static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
 
-// A strand along each axis, either way: the field is a cube around them.
+// Make one strand in each direction of each axis, so that the field's box is a cube.
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     enum { VERTICES = 4 };
@@ -155,7 +155,7 @@ double bench_flow_flux(const struct bench_flow* flow, const double* velocity)
     enum { POINTS = 20000 };
     double n = flow->fluid.desc.cells, radius = 1 + (double)FLOW_BALL * n / (double)FLOW_SIDE, sum = 0,
            in = 0;
-    for (int i = 0; i < POINTS; ++i) { // Evenly, along a spiral.
+    for (int i = 0; i < POINTS; ++i) { // evenly spaced along a spiral
         double z = 1 - (2 * i + 1.0) / POINTS, side = sqrt(1 - z * z), out = 0;
         double normal[3] = {side * cos(2.399963 * i), side * sin(2.399963 * i), z}, place[3];
         for (int k = 0; k < 3; ++k) place[k] = n / 2 + radius * normal[k];

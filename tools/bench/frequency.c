@@ -1,12 +1,13 @@
-// frequency.c - how fast something swings, from samples of it.
+// frequency.c - Frequency of an oscillation, from samples of it.
 #include "tools/bench/frequency.h"
 
 #include <math.h>
 
 #define PI 3.14159265358979323846
 
-// Squares left when the samples are fitted by a cos + b sin of the frequency, both with a slope in time. They count
-// less towards both ends (Hann's window), so that other swings at the same time matter little.
+// Return the weighted sum of squares that a fit leaves. The fit is a cos + b sin of the frequency,
+// both with a linear slope in time. Hann's window lowers the weights towards both ends, so that
+// other oscillations matter little.
 static double misfit(const double* samples, uint32_t count, double dt, double frequency)
 {
     enum { N = 4 };
@@ -23,7 +24,8 @@ static double misfit(const double* samples, uint32_t count, double dt, double fr
     }
     double right[N];
     for (int i = 0; i < N; ++i) right[i] = a[i][N];
-    for (int i = 0; i < N; ++i) // Gauss; the matrix is definite.
+    // Gaussian elimination without pivoting. The matrix is positive definite.
+    for (int i = 0; i < N; ++i)
         for (int j = i + 1; j < N; ++j) {
             double f = a[j][i] / a[i][i];
             for (int k = i; k <= N; ++k) a[j][k] -= f * a[i][k];

@@ -1,4 +1,4 @@
-// lee.c - air by formulas against the fluid: past a ball, and what both cost on a head.
+// lee.c - Closed-form wind against the fluid, around a ball, and the cost of both on hair.
 #include "tools/bench/flow.h"
 #include "tools/bench/living.h"
 
@@ -10,7 +10,7 @@
 #define STRANDS 64
 #define FRAMES 4
 
-// At a place in radii from the ball's middle, by the wind.
+// Return the fluid's velocity at a place in radii from the ball's middle.
 static void fluid_at(const struct bench_flow* flow, const double* mean, const double place[3], double out[3])
 {
     double n = flow->fluid.desc.cells, radius = (double)FLOW_BALL * n / (double)FLOW_SIDE, at[3];
@@ -18,7 +18,7 @@ static void fluid_at(const struct bench_flow* flow, const double* mean, const do
     for (int k = 0; k < 3; ++k) out[k] = bench_flow_at(flow, mean, k, at);
 }
 
-// Root mean square difference all around the ball, and behind it.
+// Compute the root mean square difference all around the ball (off[0]) and behind it (off[1]).
 static void compare(const struct bench_flow* flow, const double* mean, double off[2])
 {
     static const double wind[3] = {1, 0, 0};
@@ -29,7 +29,8 @@ static void compare(const struct bench_flow* flow, const double* mean, double of
             for (int x = -REACH; x <= REACH; ++x) {
                 double place[3] = {0.5 * x, 0.5 * y, 0.5 * z}, fluid[3], formulas[3], square = 0;
                 double beside = sqrt(place[1] * place[1] + place[2] * place[2]);
-                if (place[0] * place[0] + beside * beside < 1.2) continue; // Less than a cell off.
+                // Skip points inside the ball or less than a cell away.
+                if (place[0] * place[0] + beside * beside < 1.2) continue;
                 fluid_at(flow, mean, place, fluid);
                 hair_reference_around_ball(wind, place, formulas);
                 for (int k = 0; k < 3; ++k) square += (fluid[k] - formulas[k]) * (fluid[k] - formulas[k]);
@@ -81,7 +82,7 @@ static bool measure(struct bench* bench, struct bench_scene* scene, struct bench
     return ok;
 }
 
-// A frame's step, of strands that hang around a ball.
+// Measure the step of a frame, of strands that hang around a ball.
 void bench_lee_cost(struct bench* bench)
 {
     static const char* const methods[] = {"no wind", "formulas", "fluid", "fluid, slowed by hair"};

@@ -1,4 +1,4 @@
-// living.c - a scene brought to life, stepped, read and timed.
+// living.c - A simulated scene that is stepped, read and timed.
 #include "tools/bench/living.h"
 #include "tools/common/stats.h"
 
@@ -34,7 +34,7 @@ static hair_result make_groom(struct bench_living* living)
     return result;
 }
 
-// A strand that the groom repaired, or thinned out, is not the one to be measured.
+// Check that the groom has not repaired or thinned the strands.
 static hair_result check_groom(struct bench_living* living)
 {
     hair_groom_info info = hair_groom_info_default();
@@ -61,7 +61,8 @@ static hair_result make_instance(struct bench_living* living)
     hair_result result = hair_create(living->bench->context, living->groom, &desc, &living->hair);
     if (!result) result = hair_set_wind(living->hair, &scene->wind);
     if (result) return result;
-    // The groom moves vertices that are too near to each other. Where it has them is read with the head at the origin.
+    // The groom moves vertices that are too close together. Read its positions while the head is at
+    // the origin.
     float head[16];
     uint32_t count;
     bench_matrix(&scene->head, head);
@@ -168,7 +169,7 @@ double bench_stretch(const struct bench_living* living, const double* positions)
         const double* p = positions + 3 * i;
         double length = hypot(hypot(p[3] - p[0], p[4] - p[1]), p[5] - p[2]);
         double error = fabs(length / living->lengths[i] - 1);
-        if (!(error <= most)) most = error; // NaN too.
+        if (!(error <= most)) most = error; // NaN too
     }
     return most;
 }
@@ -182,7 +183,7 @@ bool bench_are_finite(const double* positions, uint32_t vertices)
 
 // Timing ----------------------------------------------------------------------------------------------------
 
-// GPU time of all passes that ran since `before`, which becomes now.
+// Return the GPU time in ms of all passes since `before`, and set `before` to now.
 static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_PASSES])
 {
     hair_timing now[BENCH_MOST_PASSES];
@@ -195,7 +196,8 @@ static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_
     return ms;
 }
 
-// On hardware frame by frame, by the driver's timers: waiting between frames costs time that is not the GPU's.
+// Simulate frames. On hardware, the driver's timers measure each frame, because waiting between
+// frames takes time that is not the GPU's.
 static bool run_frames(struct bench_living* living, uint32_t frames,
                        const struct hair_reference_rod_pose* heads, double dt, double* ms)
 {
@@ -221,7 +223,7 @@ static bool run_once(struct bench_living* living, uint32_t frames,
     return !bench_was_interrupted() && bench_restart(living) && run_frames(living, frames, heads, dt, ms);
 }
 
-// A GPU that has had nothing to do is slower at first: it is kept busy, frame upon frame, until it no longer is.
+// Simulate frames for a while, because an idle GPU is slower at first.
 static bool warm_up(struct bench_living* living, double dt)
 {
     enum { WARM = 300, AT_ONCE = 20 }; // ms, frames
@@ -256,7 +258,7 @@ void bench_set_material(json_t* row, const struct bench_living* living)
     bench_set_text(row, "mapping", mappings[scene->mapping]);
     bench_set_number(row, "substep", living->substep);
     bench_set_number(row, "damping", (double)p->damping);
-    if (!rod) return; // redblack has no material.
+    if (!rod) return; // redblack has no material
     bench_set_number(row, "young", (double)p->young);
     bench_set_number(row, "poisson", (double)p->poisson);
     bench_set_number(row, "fiber_radius", (double)p->fiber_radius);

@@ -1,5 +1,5 @@
-// lod.c - the suite `lod`: what is drawn of hair that is thinned or far away, against all of it: coverage, the calm of a
-// walk away from it, and the rate far away.
+// lod.c - Suite `lod`, thinned or distant hair against full detail. The suite measures coverage,
+// temporal stability of a walk away from the hair, and speed far away.
 #include "tools/bench/picture.h"
 #include "tools/bench/studio.h"
 #include "tools/bench/turn.h"
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 #define SIZE 256
-#define FRAMES 300 // of the walk
-#define FAR 16 // where it ends, in distances of where it starts
-#define AWAY 8 // of the case far
+#define FRAMES 300 // frames of the walk
+#define FAR 16 // end of the walk, as a multiple of the start distance
+#define AWAY 8 // distance of the case `far`, as a multiple of the scene's distance
 
 static const char* const columns[] = {
     "case",          "method",    "scene",       "strands", "size",          "samples",
@@ -23,7 +23,7 @@ static const char* const columns[] = {
 static const char* const scenes[] = {"still", "short", "afro"};
 static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
 
-// A scene brought to life when the first row needs it.
+// A scene whose studio is created when the first row needs it.
 struct scene {
     struct bench* bench;
     const char* name;
@@ -117,11 +117,11 @@ static void measure_coverage(struct bench* bench)
 
 // The walk --------------------------------------------------------------------------------------------------------
 
-// With and without, this frame and the one before.
+// Pictures with and without level of detail, of the previous and the current frame.
 struct walk {
     struct bench_picture picture[2][2];
-    double flip, flip_without, flip_more; // the greatest
-    uint64_t first, last; // segments that are drawn with
+    double flip, flip_without, flip_more; // maxima
+    uint64_t first, last; // segments drawn with level of detail, first and last
 };
 
 static bool walk_on(struct scene* scene, struct walk* walk, uint32_t frame, uint32_t frames)
@@ -135,13 +135,14 @@ static bool walk_on(struct scene* scene, struct walk* walk, uint32_t frame, uint
         walk->picture[i][1] = before;
         shot.has_lod = i == 0;
         if (!take(&scene->studio, &shot, &walk->picture[i][1])) return false;
-        if (i == 0) walk->last = scene->studio.primitives / 2; // of a ribbon
+        if (i == 0) walk->last = scene->studio.primitives / 2; // two triangles per ribbon segment
     }
     if (frame == 0) {
         walk->first = walk->last;
         return true;
     }
-    // Farther away all is nearer to the middle: what covered before covers as well.
+    // The picture shrinks towards the middle, therefore the previous frame's mask covers the
+    // current frame too.
     struct bench_picture* before = &walk->picture[1][0];
     if (!bench_picture_cover(before)) return false;
     if (!bench_picture_compare(before, &walk->picture[0][0], &walk->picture[0][1], &with)) return false;

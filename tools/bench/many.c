@@ -1,5 +1,5 @@
-// many.c - what a step costs by how many solids the guides collide with: ten, a thousand, ten thousand balls as large as
-// each other, all of them among the hair and in motion; the same of forms.
+// many.c - Cost of a step by the number of colliders. Ten to ten thousand moving balls of equal
+// size, or collision meshes, are among the hair.
 #include "tools/bench/many.h"
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 
 #define VERTICES 32
 #define LENGTH 0.3f // m
-#define SIDE 0.4f // m: of the square that roots are on
+#define SIDE 0.4f // side of the square of roots, m
 #define RADIUS 0.01f
 #define MOST_RUNS 41
 #define POSTS 10
@@ -39,7 +39,7 @@ static float random_in(uint32_t* state, float least, float most)
     return least + (most - least) * (float)(*state >> 8) / 16777216.0f;
 }
 
-// Straight strands that hang from a level square.
+// Make straight strands that hang from a horizontal square.
 static hair_result make_groom(struct subject* subject)
 {
     uint32_t row = (uint32_t)sqrt((double)subject->guides), count = row * row;
@@ -70,7 +70,7 @@ static hair_result make_groom(struct subject* subject)
     return result;
 }
 
-// An octahedron, each of whose faces is cut into four: nearly a ball.
+// Make an octahedron with each face subdivided into four, projected onto a sphere.
 static hair_result make_form(struct subject* subject)
 {
     static const float corners[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -107,7 +107,8 @@ static void die(struct subject* subject)
     free(subject->solids);
 }
 
-// Anywhere among the hair; or posts in two rows, each a capsule or as many balls one upon the other as there are for it.
+// Return a collider at a random place among the hair, or a part of posts in two rows. Each post is
+// one capsule or a stack of balls.
 static hair_solid solid_of(const struct subject* subject, enum kind kind, uint32_t i, uint32_t* random)
 {
     hair_solid solid = hair_solid_default();
@@ -163,7 +164,7 @@ static double time_of_passes(hair_context* context)
     return ms;
 }
 
-// Posts move together, else every solid its own way.
+// Draw one frame. Posts move together, other colliders move along different axes.
 static bool ask_for_frame(struct subject* subject, double* ms_host)
 {
     float way = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
@@ -176,7 +177,7 @@ static bool ask_for_frame(struct subject* subject, double* ms_host)
     return whole;
 }
 
-// Timed are the GPU, and the thread that asks it to.
+// Measure the GPU time and the CPU time of the thread that submits the work.
 static bool run_frame(struct subject* subject, double* ms, double* ms_host)
 {
     double passes = time_of_passes(subject->bench->context), start = hair_now();
@@ -213,7 +214,8 @@ static void add_row(struct subject* subject, double* ms, double* host, uint32_t 
     }
 }
 
-// A GPU that waits for the host most of the time slows down: before it is timed it has frames of another subject to do.
+// Measure one frame. A GPU that mostly waits for the CPU lowers its clock, therefore first run
+// frames of another subject.
 static bool time_frame(struct subject* subject, struct subject* other, double* ms, double* ms_host)
 {
     double none;
@@ -223,7 +225,7 @@ static bool time_frame(struct subject* subject, struct subject* other, double* m
     return whole && run_frame(subject, ms, ms_host);
 }
 
-// Many beside a few, frame by frame.
+// Measure many colliders next to a few, in alternating frames.
 static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind, uint32_t count,
                          double limit)
 {
@@ -257,9 +259,9 @@ static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind
 void bench_many_solids(struct bench* bench)
 {
     bool quick = bench->options.quick;
-    // The same bodies: what many solids cost where they are touched as often as a few.
+    // The bodies have the same shape, so that many colliders are touched as often as a few.
     compare_with(bench, POSTS_WHOLE, POSTS_OF_BALLS, quick ? 100 : 1000, 2);
-    // More bodies, which are touched more often.
+    // More bodies are touched more often.
     if (!quick) compare_with(bench, BALLS, BALLS, 100, 0);
     compare_with(bench, BALLS, BALLS, 1000, 0);
     if (!quick) compare_with(bench, BALLS, BALLS, 10000, 0);

@@ -1,4 +1,4 @@
-// many.h - the case `many solids` of the suite `collision`.
+// many.h - Case `many solids` of the suite `collision`.
 #ifndef HAIR_TOOLS_BENCH_MANY_H
 #define HAIR_TOOLS_BENCH_MANY_H
 

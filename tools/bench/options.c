@@ -1,4 +1,4 @@
-// options.c - the command line of hair-bench: one table for getopt and --help.
+// options.c - Command line of hair-bench. One table serves getopt and --help.
 #include "tools/bench/bench.h"
 #include "tools/common/file.h"
 
@@ -33,7 +33,7 @@ enum name {
 static const struct row {
     const char* name;
     int option;
-    const char* argument; // NULL: it takes none
+    const char* argument; // NULL if the option takes no argument
     const char* about;
 } rows[] = {
     {"json", JSON, "FILE", "write the rows as JSON"},
@@ -66,7 +66,8 @@ static const char* const methods[] = {
     "direct",  "accurate",     "follow",    "redblack", "none",     "switch",    "push",       "compute",
     "prepass", "tessellation", "instanced", "expanded", "computed", "multigrid", "relaxation", "jacobi",
     "depth",   "strands",      "grid",      "mean",     "layers",   NULL};
-static const char* const mappings[] = {"auto", "group", "thread", NULL}; // In the order of hair_mapping.
+// In the order of hair_mapping.
+static const char* const mappings[] = {"auto", "group", "thread", NULL};
 
 static int print_help(void)
 {
@@ -108,7 +109,7 @@ static bool parse_count(const char* option, const char* text, uint32_t least, ui
     return false;
 }
 
-// Of scenes: N, or N-M with both ends.
+// Parse a range of scenes, N or N-M with both ends included.
 static bool parse_range(const char* option, const char* text, struct bench_options* out)
 {
     char first[16] = "";

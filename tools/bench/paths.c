@@ -1,6 +1,8 @@
-// paths.c - the suite `paths`: which path of drawing is the fastest on this driver. Its rows are what lib/draw/paths.inl
-// holds, by which HAIR_PATH_AUTO goes. The paths take turns, so that what slows the machine down slows all of them; and what a
-// software rasteriser takes is the time of all of its threads, which others on the machine change less.
+// paths.c - Suite `paths`, the fastest drawing path on this driver. lib/draw/paths.inl stores its
+// rows, which HAIR_PATH_AUTO uses.
+//
+// The paths take turns, so that a slowdown of the machine affects all of them. On a software
+// rasterizer the CPU time of all threads is measured, because other processes affect it less.
 #include "tools/bench/studio.h"
 #include "tools/common/stats.h"
 
@@ -11,7 +13,7 @@
 #define SIZE 720
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 6000
-#define AWAY 4 // of what has levels of detail, in distances of the near picture
+#define AWAY 4 // distance of kinds with level of detail, as a multiple of the scene's distance
 #define ROUNDS 9
 
 static const char* const columns[] = {"case",   "method",  "strands", "size", "samples",
@@ -30,7 +32,7 @@ static const struct way {
 static const struct kind {
     const char* name;
     hair_primitive primitive;
-    bool has_lod, of_depth; // else of colour
+    bool has_lod, of_depth; // `of_depth` measures the depth pass instead of the colour pass
 } kinds[] = {{"ribbons", HAIR_RIBBONS, false, false},
              {"lines", HAIR_LINES, false, false},
              {"ribbons, lod", HAIR_RIBBONS, true, false},
@@ -65,8 +67,8 @@ static double now(const struct bench* bench)
     return bench->software ? 1e3 * (double)clock() / CLOCKS_PER_SEC : hair_now();
 }
 
-// The picture by that path and its shadow map by HAIR_PATH_AUTO; or the other way round. Hair moves from frame to frame, so that
-// what a path keeps of it is made anew.
+// Draw the picture by `path` and its shadow map by HAIR_PATH_AUTO, or vice versa if kind->of_depth.
+// Hair moves between frames, so that vertices that a path caches are recomputed.
 static bool run_frames(struct scene* scene, const struct kind* kind, hair_path path, uint32_t frames,
                        double* ms)
 {
@@ -89,7 +91,7 @@ static bool run_frames(struct scene* scene, const struct kind* kind, hair_path p
     return true;
 }
 
-// What the report calls the pass that drew.
+// Return the name of the pass that drew, from the library's report.
 static const char* drawn_by(struct scene* scene, const struct kind* kind)
 {
     hair_report_info info = hair_report_info_default();
@@ -105,11 +107,11 @@ static bool compare(struct scene* scene, const struct kind* kind)
 {
     double ms[WAYS][ROUNDS], first;
     struct bench_times times[WAYS];
-    const char *passes[WAYS], *taken; // by HAIR_PATH_AUTO
+    const char *passes[WAYS], *taken; // `taken` is the pass that HAIR_PATH_AUTO chose
     bool software = scene->bench->software;
     uint32_t frames = software ? 1 : 60, rounds = scene->bench->options.quick ? 2 : ROUNDS, fastest = 0;
     if (!need(scene)) return false;
-    for (uint32_t i = 0; i < WAYS; ++i) { // They compile what they need.
+    for (uint32_t i = 0; i < WAYS; ++i) { // the first runs compile shaders
         if (!run_frames(scene, kind, ways[i].path, 1, &first)) return false;
         passes[i] = drawn_by(scene, kind);
     }

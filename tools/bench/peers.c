@@ -1,10 +1,10 @@
-// peers.c - what others do of the suite `accuracy`, measured elsewhere, as rows.
+// peers.c - Rows of other libraries in the suite `accuracy`, measured elsewhere.
 #include "tools/bench/peers.h"
 
 #include <math.h>
 #include <string.h>
 
-#define LENGTH 0.3 // m, of a swing
+#define LENGTH 0.3 // length of the strand of `swing`, m
 
 static json_t* add_peer(struct bench* bench, const char* name, const char* method, double length)
 {

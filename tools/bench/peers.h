@@ -1,4 +1,4 @@
-// peers.h - what others do of the suite `accuracy`, measured elsewhere, as rows.
+// peers.h - Rows of other libraries in the suite `accuracy`, measured elsewhere.
 #ifndef HAIR_TOOLS_BENCH_PEERS_H
 #define HAIR_TOOLS_BENCH_PEERS_H
 

@@ -1,4 +1,5 @@
-// physics.c - the suite `physics`: hair at rest and in motion against what is known of rods and chains.
+// physics.c - Suite `physics`, hair at rest and in motion against known results for rods and
+// chains.
 #include "tools/bench/physics.h"
 
 #include <math.h>

@@ -1,33 +1,33 @@
-// physics.h - what the files of the suite `physics` share.
+// physics.h - Functions that the files of the suite `physics` share.
 #ifndef HAIR_TOOLS_BENCH_PHYSICS_H
 #define HAIR_TOOLS_BENCH_PHYSICS_H
 
 #include "tools/bench/living.h"
 
-#define BENCH_RODS 2 // Solvers of rods that the suite holds to physics.
+#define BENCH_RODS 2 // rod solvers that the suite tests
 extern const hair_solver bench_rod_solvers[BENCH_RODS];
 
-// `limit` of a row that has none.
+// Value of `limit` for a row without a limit.
 #define BENCH_NO_LIMIT (-1.0)
 
-// A row with relative_error = |measured / expected - 1|, or |measured| where 0 is expected; it passes when that is
-// within `limit`.
+// Add a row with relative_error = |measured / expected - 1|, or |measured| if `expected` is 0. The
+// row passes if relative_error is at most `limit`.
 json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
                           double limit, const char* reference);
 
-// Create the scene with the substep that the solver wants, shortened where needed so that it divides `dt`: strands
-// are read where the last substep left them. Return false when the library refused.
+// Create the scene with the solver's own substep, shortened if needed such that it divides `dt`.
+// Strands are read at the end of the last substep. Return false if the library refused.
 bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out);
 
 // Return a level straight strand of `length` whose root is at x = `root`, with a damping of 4/s.
 struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,
                                      double root, double length);
 
-// Return the greatest distance between vertices of the same number, or NaN where a position is.
+// Return the maximum distance between corresponding vertices, or NaN if any position is NaN.
 double bench_farthest(const double* a, const double* b, uint32_t vertices);
 
-// physics_rest.c, physics_swing.c, physics_order.c, physics_same.c, drag.c, physics_body.c, physics_spin.c,
-// physics_capstan.c, physics_fine.c: the cases.
+// Run the cases of the suite. Their files are physics_rest.c, physics_swing.c, physics_order.c,
+// physics_same.c, drag.c, physics_body.c, physics_spin.c, physics_capstan.c and physics_fine.c.
 void bench_cantilever(struct bench* bench);
 void bench_catenary(struct bench* bench);
 void bench_bend_twist(struct bench* bench);

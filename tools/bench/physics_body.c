@@ -1,5 +1,5 @@
-// physics_body.c - a free helix that spins: its angular momentum stays, and it turns as the reference
-// does.
+// physics_body.c - A free spinning helix, whose angular momentum is conserved and whose motion must
+// match the reference.
 #include "tools/bench/coil.h"
 #include "tools/bench/physics.h"
 
@@ -8,8 +8,8 @@
 
 #define VERTICES 48
 #define SPIN 8.0 // rad/s
-#define PULL 10.0f // Hz: what carries the helix along with the head until it is let go
-#define DRAG 20.0f // 1/s, meanwhile
+#define PULL 10.0f // pull in Hz that moves the helix with the head until its release
+#define DRAG 20.0f // damping in 1/s during the pull
 #define SECONDS_UP 1.0
 #define STEP (1.0 / 240)
 
@@ -30,7 +30,8 @@ static struct bench_scene make_helix(const struct bench* bench, hair_solver solv
     return scene;
 }
 
-// The head turns about an axis through the middle of the helix, ever faster and then evenly.
+// Return the head's pose. It rotates about an axis through the middle of the helix, first with
+// constant acceleration, then at constant speed.
 static struct hair_reference_rod_pose find_head(const double axis[3], double time)
 {
     const double middle[3] = {-0.02, -0.06, 0};
@@ -46,7 +47,7 @@ static struct hair_reference_rod_pose find_head(const double axis[3], double tim
     return bench_pose(axis, angle, move);
 }
 
-// Pulled round with the head, then let go.
+// Pull the helix around with the head, then release it.
 static bool spin_up(struct body* body, const double axis[3])
 {
     struct bench_living* living = &body->living;
@@ -61,7 +62,8 @@ static bool spin_up(struct body* body, const double axis[3])
     return !hair_set_physics(living->hair, &calm) && bench_step(living, NULL, 4 * living->substep);
 }
 
-// Velocities are central differences; the hair is two substeps farther then.
+// Measure positions and velocities. Velocities are central differences, therefore the hair is
+// advanced by two substeps.
 static bool look(struct body* body)
 {
     double before[3 * VERTICES], after[3 * VERTICES], h = body->living.substep;
@@ -73,7 +75,7 @@ static bool look(struct body* body)
     return true;
 }
 
-// About the centre of mass, whose place and motion add nothing.
+// Compute the angular momentum about the centre of mass, without the motion of the centre.
 static void find_momentum(const struct body* body, const double* masses, double out[3])
 {
     double centre[3] = {0}, drift[3] = {0}, mass = 0;
@@ -109,8 +111,8 @@ static double length_of(const double v[3])
     return hypot(hypot(v[0], v[1]), v[2]);
 }
 
-// Farthest of a vertex from the reference, which starts as the solver does, half a second on. Relative
-// to the length.
+// Return the maximum distance of a vertex from the reference after half a second, over the length.
+// The reference starts from the solver's state.
 static double compare(struct body* body, struct hair_reference_rod* rod)
 {
     double truth[3 * VERTICES], most = 0, h = body->living.substep;

@@ -1,23 +1,27 @@
-// physics_capstan.c - a chain over a rough cylinder, both ends hanging: it holds, or slips.
+// physics_capstan.c - A chain over a rough cylinder with both ends hanging, which holds or slips.
 #include "tools/bench/physics.h"
 
 #include <math.h>
 
-#define RADIUS 0.05 // m, of the collider
-#define SHORT 0.02 // m, that hangs on the side of the root
-#define SLIPPED 0.01 // m, in two seconds
-#define CREEP 5e-5 // m/s
+#define RADIUS 0.05 // radius of the collider, m
+#define SHORT 0.02 // length that hangs on the root's side, m
+#define SLIPPED 0.01 // threshold of slip in two seconds, m
+#define CREEP 5e-5 // maximum creep of a chain that holds, m/s
 
-// The chain slips when the long side hangs down by as much as this. With the angle t over the
-// cylinder, a weight w of a metre, friction m and radius R, tension grows as T' = m T + w R (cos t + m
-// sin t): T = C e^(m t) + w R (A cos t + (m A + 1) sin t) with A = -2 m / (1 + m^2).
+// Return the length of the long side beyond which the chain slips.
+//
+// Let t be the angle over the cylinder, T(t) the tension, w the weight per metre, m the friction
+// coefficient and R the radius. At the limit of slip, T' = m T + w R (cos t + m sin t). The
+// solution is T = C e^(m t) + w R (A cos t + (m A + 1) sin t) with A = -2 m / (1 + m^2). T(0) = w
+// SHORT determines C. The result is T(pi) / w.
 static double find_limit(double friction, double radius)
 {
     double a = -2 * friction / (1 + friction * friction);
     return radius * ((SHORT / radius - a) * exp(friction * BENCH_PI) - a);
 }
 
-// Where the chain is, `at` from its root: up, over the cylinder about the origin, down.
+// Compute the chain's position at arc length `at` from its root. The chain goes up, over the
+// cylinder about the origin, and down.
 static void find_place(double at, double radius, double out[2])
 {
     double angle = (at - SHORT) / radius;
@@ -89,7 +93,7 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
     cylinder.shape = HAIR_SHAPE_CAPSULE;
     cylinder.size[0] = (float)RADIUS;
     cylinder.size[1] = 0.2f;
-    cylinder.rotation[0] = cylinder.rotation[3] = (float)sqrt(0.5); // local y along z
+    cylinder.rotation[0] = cylinder.rotation[3] = (float)sqrt(0.5); // maps local y to z
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "capstan", method);
         return;

@@ -1,4 +1,4 @@
-// physics_fine.c - what strains numbers: short segments, heavy tips.
+// physics_fine.c - Numerically hard cases, short segments and heavy tips.
 #include "lib/reference/continuum.h"
 #include "tools/bench/physics.h"
 #include "tools/bench/rest.h"
@@ -41,7 +41,7 @@ static void measure_fine(struct bench* bench, hair_solver solver, uint32_t verti
 
 void bench_fine_segments(struct bench* bench)
 {
-    const double length = 0.0631; // m: of a gamma of 2 by default
+    const double length = 0.0631; // length in m that gives gamma 2 with default material
     bool quick = bench->options.quick;
     for (int s = 0; s < BENCH_RODS; ++s) {
         for (uint32_t vertices = 32; vertices <= (quick ? 32 : 256); vertices *= 2)
@@ -55,7 +55,8 @@ void bench_fine_segments(struct bench* bench)
 #define TIP_MASS 1000
 #define TIP_LENGTH 0.1 // m
 
-// The fastest vertex within the last half of 14 s goes into the row as `speed`.
+// Measure the chain with a heavy tip. The row's `speed` is the maximum vertex speed in the last
+// half of 14 s.
 static bool run_tip(struct bench_living* living, const double* truth, double gamma)
 {
     struct bench_rest_desc desc = {14, 0.5, 14, bench_was_interrupted};

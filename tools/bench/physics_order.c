@@ -1,4 +1,4 @@
-// physics_order.c - how the error shrinks with the substep, and whether energy stays.
+// physics_order.c - Order of convergence in the substep, and conservation of energy.
 #include "tools/bench/physics.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #define FRAME (1.0 / 60)
 #define LENGTH 0.3 // m
 
-// Let go at an angle from the horizontal, degrees, upwards positive.
+// Make a strand that is released at an angle from the horizontal, in degrees, upwards positive.
 static struct bench_scene make_hair(const struct bench* bench, hair_solver solver, uint32_t vertices,
                                     double angle)
 {
@@ -24,10 +24,11 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
 
 // Order -----------------------------------------------------------------------------------------------------
 
-#define ORDER_VERTICES 8 // Few enough for bending to be explicit in long substeps.
+#define ORDER_VERTICES 8 // few enough that long substeps treat bending explicitly
 #define ORDER_FRAMES 12
 
-// Root mean square of the vertices, over the frames, against the converged rod, over the length. NaN: refused.
+// Return the root mean square error of the vertices over the frames, against the converged rod,
+// over the length. Return NaN if the library refused.
 static double error_of(struct bench_living* living, const double* truth)
 {
     double positions[3 * ORDER_VERTICES], squares = 0;
@@ -79,10 +80,13 @@ void bench_order(struct bench* bench)
 // Energy ----------------------------------------------------------------------------------------------------
 
 #define WINDOW                                                                                               \
-    4000 // Substeps that the energy is averaged over: some swings, in which it comes and goes a little.
+    // Substeps that the energy is averaged over. They span several swings, because energy
+    // oscillates a little within one.
+    4000
 #define VERTICES 32
 
-// Mean energy over a window: the velocity between two substeps is the difference of their positions.
+// Compute the mean energy over a window. The velocity between two substeps is the difference
+// quotient of their positions.
 static bool average_energy(struct bench_living* living, struct hair_reference_rod* rod, double* out)
 {
     double before[3 * VERTICES], now[3 * VERTICES], velocity[3 * VERTICES], sum = 0;
@@ -108,8 +112,8 @@ static bool pass_substeps(struct bench_living* living, uint32_t count)
     return true;
 }
 
-// Swings of 30 degrees to both sides have a limit; from farther up the strand cracks as a whip, which few substeps do
-// not resolve.
+// Measure the drift of the energy. Only swings of 30 degrees to both sides have a limit. A strand
+// released from higher up cracks like a whip, which few substeps do not resolve.
 static void measure_energy(struct bench* bench, hair_solver solver, double angle)
 {
     const char* method = bench_solver_name(solver);
@@ -144,7 +148,7 @@ void bench_energy(struct bench* bench)
         measure_energy(bench, bench_rod_solvers[i / 2], i % 2 ? -30 : -60);
 }
 
-// Measure the energy of a strand, let go level, after five seconds, above that of hanging down.
+// Measure the energy of a strand five seconds after its level release, relative to hanging down.
 static bool run_whip(struct bench_living* living, struct hair_reference_rod* rod)
 {
     double weight = bench_section_of(&living->scene->physics).line_density * LENGTH * BENCH_GRAVITY;

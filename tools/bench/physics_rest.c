@@ -1,12 +1,13 @@
-// physics_rest.c - hair at rest: the heavy cantilever, straight and curved; the catenary; rods that leave
-// their plane.
+// physics_rest.c - Hair at rest as heavy cantilevers, straight and curved, the catenary, and rods
+// that leave their plane.
 #include "lib/reference/continuum.h"
 #include "tools/bench/physics.h"
 
 #include <math.h>
 
 #define ARRAY_SIZE(a) (sizeof(a) / sizeof *(a))
-#define FINE_SEGMENTS 254u // of the chain that an arc is compared with, which has at most BENCH_MOST_VERTICES
+// Segments of the chain that an arc is compared with, limited by BENCH_MOST_VERTICES.
+#define FINE_SEGMENTS 254u
 
 static const double nowhere[3] = {0, 0, 0};
 
@@ -15,7 +16,7 @@ static double degrees(double angle)
     return angle * BENCH_PI / 180;
 }
 
-// Add how far the tip is from where it belongs, over the length.
+// Add the distance of the tip from its expected position, over the length.
 static void add_tip_row(struct bench_living* living, const char* name, const double* positions, double across,
                         double down, double gamma, double angle, const char* reference)
 {
@@ -27,8 +28,9 @@ static void add_tip_row(struct bench_living* living, const char* name, const dou
     bench_set_number(row, "angle", angle);
 }
 
-// Clamped at an angle, degrees from the horizontal, upwards positive: how far it hangs, over how far it
-// reaches. A limp strand reaches little, and the ratio is then off by much more than the strand is by its
+// Measure a strand clamped at an angle in degrees from the horizontal, upwards positive. One row is
+// the height that the tip hangs down (H) over its horizontal reach (W). A limp strand reaches
+// little, therefore the relative error of H/W is much larger than the distance error over the
 // length.
 static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma,
                                double angle)
@@ -65,8 +67,9 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
     bench_die(&living);
 }
 
-// Find where the tip of the scene's arc rests, as the limit of two chains whose errors are as the squares of
-// their segments: one of twice as many vertices as the other.
+// Compute the rest position of the tip of the scene's arc. The result is extrapolated from two
+// chains, one with twice as many segments, because their errors are proportional to the squared
+// segment length.
 static bool find_arc_at_rest(const struct bench_scene* scene, double length, double turn, double tip[2])
 {
     const double along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
@@ -86,7 +89,8 @@ static bool find_arc_at_rest(const struct bench_scene* scene, double length, dou
     return true;
 }
 
-// A strand that is a circle at rest leaves its clamp level and curls down. `turn` is in degrees.
+// Measure a strand that is a circle at rest. It leaves its clamp horizontally and curls down.
+// `turn` is in degrees.
 static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertices, double gamma, double turn)
 {
     const char* method = bench_solver_name(solver);
@@ -131,8 +135,8 @@ void bench_cantilever(struct bench* bench)
         }
 }
 
-// Sag of a chain of length 1 between two ends at one height, `span` apart. With x half the span over the catenary's
-// parameter a, sinh(x) / x = 1 / span.
+// Return the sag of a chain of length 1 between two ends at one height, `span` apart. With x = span
+// / (2 a) and the catenary's parameter a, sinh(x) / x = 1 / span.
 static double catenary_sag(double span)
 {
     double low = 1e-6, high = 700;
@@ -146,7 +150,7 @@ static double catenary_sag(double span)
     return span / (2 * low) * (cosh(low) - 1);
 }
 
-// A chain, hinged at its root and tied at its tip.
+// Measure a chain that is hinged at its root and pinned at its tip.
 static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t vertices, double span)
 {
     const char* method = bench_solver_name(solver);
@@ -186,18 +190,19 @@ void bench_catenary(struct bench* bench)
 
 // Out of the plane ------------------------------------------------------------------------------------------
 
-// A rod that lies in the plane z = 0 but for 1e-4 of its length, under gravity that rises slowly to 9.81 m/s^2 and
-// then stays: how far out of the plane it comes to be, over its length. Below the threshold it is plane.
+// Threshold of leaving the plane, as a fraction of the rod's length. The rod lies in the plane z =
+// 0, disturbed by 1e-4 of its length. Gravity rises slowly to 9.81 m/s^2 and then stays constant.
+// The rod counts as plane if its maximum distance from the plane is below the threshold.
 #define THRESHOLD 0.02
 #define RISE 6.0 // s
 
 struct buckling {
     const char* name;
     struct bench_scene scene;
-    double critical; // of gamma
-    double share; // of that, at the end
-    bool leaves; // the plane
-    double phi; // natural turn, for the row: degrees
+    double critical; // critical gamma
+    double share; // fraction of the critical gamma at the end
+    bool leaves; // whether the rod leaves the plane
+    double phi; // natural turn for the row, degrees
 };
 
 static void disturb(struct bench_scene* scene, double length)
@@ -248,8 +253,8 @@ static void measure_buckling(struct bench* bench, hair_solver solver, struct buc
     bench_die(&living);
 }
 
-// A rod of natural curvature hangs from its clamp, which points down: it is helical between two weights
-// (solver.md's table for a Poisson's ratio of 0.45).
+// Test a rod of natural curvature that hangs from a downward clamp. The rod is helical between two
+// critical weights (table of solver.md for a Poisson's ratio of 0.45).
 void bench_bend_twist(struct bench* bench)
 {
     static const struct {
@@ -262,7 +267,8 @@ void bench_bend_twist(struct bench* bench)
             b.phi = 360 * rows[i / 4].turns;
             b.critical = rows[i / 4].critical[i / 2 % 2];
             b.share = i % 2 ? 1.05 : 0.95;
-            b.leaves = i / 2 % 2 != i % 2; // Above the first, below the second.
+            // It leaves the plane above the first and below the second critical weight.
+            b.leaves = i / 2 % 2 != i % 2;
             bench_scene_arc(&b.scene, 64, length, degrees(b.phi), down, across);
             disturb(&b.scene, length);
             b.scene.physics.fiber_radius = 1e-4f;
@@ -272,8 +278,10 @@ void bench_bend_twist(struct bench* bench)
         }
 }
 
-// A deep horizontal cantilever leans to its side when w L^3 / sqrt(EI GJ), EI that of its weak direction, is beyond
-// 13.0452, which holds for EI one and GJ 1.38 hundredths of the stiffness in its strong direction.
+// A deep horizontal cantilever buckles sideways if w L^3 / sqrt(EI GJ) exceeds 13.0452. w is the
+// weight per length, L the length, EI the bending stiffness in the weak direction and GJ the
+// torsional stiffness. The value holds if EI is 0.01 and GJ is 0.0138 of the bending stiffness in
+// the strong direction.
 void bench_lateral_buckling(struct bench* bench)
 {
     const double along[3] = {1, 0, 0}, length = 0.1, critical = 13.0452;
