@@ -1,5 +1,5 @@
-// physics_same.c - the same hair at other frame rates and with other numbers of vertices: where its tip rests, and
-// how fast it swings about there.
+// physics_same.c - The same hair at other frame rates and with other numbers of vertices. The rest
+// position of the tip and the frequency of its swing must agree.
 #include "tools/bench/frequency.h"
 #include "tools/bench/physics.h"
 
@@ -8,22 +8,23 @@
 #define LENGTH 0.1 // m
 #define SECONDS 6
 #define MOST_RATE 240 // Hz
-#define NUDGE 1.02 // Times gravity, to set it swinging.
+#define NUDGE 1.02 // factor of gravity that starts the swing
 
 struct seen {
     double sag; // H/W
     double frequency; // Hz
 };
 
-// It comes to rest under slightly more gravity, which then is made right and the damping taken away: the angle under
-// which the root sees the tip swings.
+// Measure the sag and the swing. The strand comes to rest under slightly stronger gravity. Then
+// gravity is restored, and damping is removed. The direction from the root to the tip oscillates.
 static bool look(struct bench_living* living, hair_physics physics, uint32_t rate, const double modes[2],
                  struct seen* out)
 {
     double positions[3 * BENCH_MOST_VERTICES], samples[SECONDS * MOST_RATE], tip = 0;
     uint32_t last = 3 * (living->scene->vertices - 1), count = SECONDS * rate;
     physics.gravity[1] *= (float)NUDGE;
-    for (int part = 0; part < 2; ++part) { // Part 0: to rest, for where it rests. Part 1: to rest, nudged.
+    // Part 0 measures the rest position, part 1 comes to rest under stronger gravity.
+    for (int part = 0; part < 2; ++part) {
         if (part && hair_set_physics(living->hair, &physics)) return false;
         for (uint32_t k = 0; k < 4 * rate; ++k)
             if (!bench_step(living, NULL, 1.0 / rate)) return false;
@@ -56,7 +57,7 @@ static void add_rows(struct bench_living* living, const char* name, double gamma
     }
 }
 
-// `standard`: what others are to be like; set by the first that is measured.
+// Measure one variant. The first one measured sets `standard`, which the others are compared with.
 static void measure(struct bench* bench, const char* name, hair_solver solver, double gamma,
                     uint32_t vertices, uint32_t rate, struct seen* standard, const char* const references[2])
 {
@@ -66,7 +67,7 @@ static void measure(struct bench* bench, const char* name, hair_solver solver, d
     struct bench_living living;
     struct bench_scene scene = bench_scene_default();
     struct seen seen;
-    double modes[2]; // in the plane and across it, whichever is lower first
+    double modes[2]; // in the plane and across it, in ascending order
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;

@@ -1,12 +1,12 @@
-// physics_spin.c - hair on a head that spins steadily: where it trails.
+// physics_spin.c - Hair on a head that spins steadily, and how far it trails.
 #include "tools/bench/physics.h"
 
 #include <math.h>
 
 #define LENGTH 0.3 // m
-#define ROOT 0.1 // m, from the axis
-#define RISE 2.0 // s, until the head turns evenly
-#define STEADY 4.0 // s, evenly
+#define ROOT 0.1 // distance of the root from the axis, m
+#define RISE 2.0 // time until the head's speed is constant, s
+#define STEADY 4.0 // time at constant speed, s
 #define STEP (1.0 / 240)
 
 static const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
@@ -28,8 +28,8 @@ static bool turn(struct bench_living* living, struct hair_reference_rod* rod, do
     return true;
 }
 
-// The rod, which stands straight out and turns as the head does, comes to trail in the time that it is
-// damped.
+// Compute the reference. The rod starts straight outwards and rotating with the head. It reaches
+// its trailing shape within the damping time.
 static bool find_truth(const struct bench_scene* scene, double rate, double* truth)
 {
     double start[3 * BENCH_MOST_VERTICES], velocities[3 * BENCH_MOST_VERTICES];

@@ -1,4 +1,5 @@
-// physics_swing.c - chains without stiffness: the small swings of a hanging one, the large ones of one and two links.
+// physics_swing.c - Chains without stiffness, with small swings of a hanging chain and large swings
+// of one and two links.
 #include "lib/reference/continuum.h"
 #include "tools/bench/frequency.h"
 #include "tools/bench/physics.h"
@@ -23,15 +24,17 @@ static struct bench_scene make_chain(const struct bench* bench, hair_solver solv
 #define VERTICES 32
 #define LINKS (VERTICES - 1)
 #define FRAMES 720
-#define WIDEST 0.01 // rad: the steepest link. By a sixteenth of its square large swings are slower.
+// Angle of the steepest link, rad. Frequencies drop by a sixteenth of its square.
+#define WIDEST 0.01
 
 struct mode {
     double frequency; // rad/s
-    double y[VERTICES]; // across, to some scale
+    double y[VERTICES]; // transverse displacement, up to a factor
     double mass[VERTICES];
 };
 
-// From the tip upwards, each vertex in balance with its inertia: m w^2 y = what both links pull.
+// Compute a mode from the tip upwards. Each vertex balances its inertia, m w^2 y = sum of both
+// links' transverse forces. m is the vertex mass, w the angular frequency and y the displacement.
 static struct mode find_mode(uint32_t number)
 {
     struct mode mode = {0};
@@ -42,7 +45,7 @@ static struct mode find_mode(uint32_t number)
     }
     mode.frequency = hair_reference_linkage_frequency(number, LINKS, lengths, mode.mass + 1, BENCH_GRAVITY);
     mode.y[LINKS] = 1;
-    double pull = 0; // of the links below, across
+    double pull = 0; // transverse force of the links below
     for (int i = LINKS; i > 0; --i) {
         hanging += mode.mass[i];
         pull += mode.mass[i] * mode.frequency * mode.frequency * mode.y[i];
@@ -80,7 +83,7 @@ static bool record(struct bench_living* living, const struct mode* mode, double*
 
 static void measure_mode(struct bench* bench, hair_solver solver, uint32_t number)
 {
-    static const double far[] = {0.001, 0.005, 0.02}; // Limits against the continuous chain.
+    static const double far[] = {0.001, 0.005, 0.02}; // limits against the continuous chain
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "chain_modes", method)) return;
     double samples[FRAMES];
@@ -120,7 +123,8 @@ void bench_chain_modes(struct bench* bench)
 
 // Large swings ----------------------------------------------------------------------------------------------
 
-// Farthest from where the linkage is, at the end of any frame of a second. Negative: the library refused.
+// Return the maximum distance from the exact linkage at the ends of all frames of a second. Return
+// a negative value if the library refused.
 static double farthest(struct bench_living* living)
 {
     uint32_t links = living->scene->vertices - 1;

@@ -1,4 +1,5 @@
-// picture.c - a picture of hair as it is shown: the same curve as hair-capture's, without its noise.
+// picture.c - A picture of hair as it is shown, with the tone curve of hair-capture but without its
+// noise.
 #include "tools/bench/picture.h"
 
 #include <math.h>
@@ -24,7 +25,8 @@ void bench_picture_free(struct bench_picture* picture)
     *picture = (struct bench_picture){0};
 }
 
-// Straight up to a half, then a shoulder that never quite reaches white; then the sRGB curve.
+// Apply the tone curve, linear up to 0.5, then a shoulder that approaches white asymptotically,
+// then the sRGB curve.
 static double encode(double light)
 {
     double c = light > 0.5 ? 1 - 0.5 * exp(1 - 2 * light) : fmax(light, 0);

@@ -1,4 +1,4 @@
-// picture.h - a picture of hair, as light and as it is shown, and what two of them differ by.
+// picture.h - A picture of hair in linear light and as shown, and the difference of two pictures.
 #ifndef HAIR_TOOLS_BENCH_PICTURE_H
 #define HAIR_TOOLS_BENCH_PICTURE_H
 
@@ -6,23 +6,24 @@
 
 struct bench_picture {
     uint32_t size;
-    double* rgba; // light, and how much of the pixel is hair
-    float* shown; // RGB, sRGB
-    unsigned char* mask; // of pixels to compare; NULL: bench_picture_cover has not made it
-    double coverage; // pixels' worth of hair
+    double* rgba; // linear light, and the fraction of the pixel that hair covers
+    float* shown; // sRGB-encoded RGB
+    unsigned char* mask; // pixels to compare, NULL until bench_picture_cover()
+    double coverage; // area of hair in pixels
 };
 
-// Black. False: out of memory, then it is to be freed as well.
+// Make a black picture. Return false if memory runs out. Free the picture in either case.
 bool bench_picture_make(uint32_t size, struct bench_picture* out);
 void bench_picture_free(struct bench_picture* picture);
 
-// Of the sum of `count` pictures their mean, and what that looks like.
+// Divide the sum of `count` pictures by `count`, and compute its appearance.
 void bench_picture_finish(struct bench_picture* picture, uint32_t count, double exposure);
 
-// Make the mask: all pixels with hair, and 8 around them. False: out of memory.
+// Make the mask of all pixels with hair and 8 pixels around them. Return false if memory runs out.
 bool bench_picture_cover(struct bench_picture* picture);
 
-// Within `where`'s mask. False: out of memory, or no hair.
+// Compare two pictures within the mask of `where`. Return false if memory runs out or there is no
+// hair.
 bool bench_picture_compare(const struct bench_picture* where, const struct bench_picture* reference,
                            const struct bench_picture* test, struct hair_image_error* out);
 

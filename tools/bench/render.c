@@ -1,8 +1,10 @@
-// render.c - the suite `render`: run time against image error, over how hair is drawn and how finely.
+// render.c - Suite `render`, run time against image error over drawing methods and levels of
+// detail.
 //
-// The reference is the same hair at its full detail and 1,024 samples a pixel, out of many pictures that are shifted by
-// parts of a pixel. Half of them make one picture, half another: what is not five times as far from the reference as
-// those are from each other has no error.
+// The reference is the same hair at full detail with 1,024 samples per pixel, the mean of many
+// pictures that are shifted by fractions of a pixel. Two halves of these pictures are averaged
+// separately. An error is reported only if it is at least five times the difference between the
+// halves.
 #include "tools/bench/extent.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/truth.h"
@@ -17,9 +19,9 @@
 #define REFERENCE_SEGMENTS 64
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
-#define STRANDS_OF_SOFTWARE 4500 // As wide on its pixels as 18,000 are on 1,024.
-#define MOST_RADIUS 0.01f // m: hair_look's
-#define LEAST_RATIO 5 // of a reported error and that of the reference
+#define STRANDS_OF_SOFTWARE 4500 // the density of 18,000 strands at 1,024 pixels
+#define MOST_RADIUS 0.01f // maximum of hair_look.radius, m
+#define LEAST_RATIO 5 // minimum ratio of a reported error to that of the reference
 
 static const char* const columns[] = {
     "case",    "width",          "method",        "primitive",  "lod",     "segments",
@@ -27,15 +29,16 @@ static const char* const columns[] = {
     "ms",      "ms_min",         "ms_max",        "runs",       "flip",    "psnr",
     "pixels",  "coverage_error", "halves_differ", "to_ribbons", "front",   NULL};
 
-// A case: a scene from some distance; or one whose strands are so wide everywhere, in pixels, and so many in a picture of 256
-// to each side, that they cover about as much.
+// A case. Either a scene from some distance, or a scene with strands of a given width in pixels
+// everywhere. The number of strands is chosen for a picture of 256 pixels per side, such that all
+// widths cover about the same area.
 static const struct subject {
     const char* name;
     const char* scene;
     float away;
     bool quick;
-    float width; // 0: as the scene has it
-    uint32_t strands; // likewise
+    float width; // in pixels, 0 uses the scene's width
+    uint32_t strands; // 0 uses the scene's number
 } subjects[] = {{"long", "still", 1, true, 0, 0},
                 {"long far", "still", 4, false, 0, 0},
                 {"curly", "curly", 1, false, 0, 0},
@@ -61,7 +64,7 @@ static const struct primitive {
                   {"lines", HAIR_LINES, HAIR_COVERAGE_SAMPLES},
                   {"shares", HAIR_RIBBONS, HAIR_COVERAGE_SHARES}};
 
-// Fewer strands, and wider for it; 0: by how large they appear.
+// Level of detail with fewer and wider strands. A share of 0 selects dynamic level of detail.
 static const struct lod {
     const char* name;
     float share;
@@ -72,10 +75,11 @@ static const struct lod {
             {"10 %", 0.1f, false},
             {"dynamic", 0, true}};
 
-// Of a strand: powers of two, and all between where rows are close.
+// Segments of a strand, powers of two, and all numbers in the range of the close comparison.
 enum { FEWEST_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MOST_OF_CLOSE = 32, MOST_SEGMENTS = 64 };
 
-// Of one pixel. Four pixels for one take software rasterisers less time than four samples.
+// Samples of a pixel. Software rasterizers draw four pixels faster than one pixel with four
+// samples.
 static const struct samples {
     uint32_t msaa, supersample;
     bool quick, of_software;
@@ -84,13 +88,13 @@ static const struct samples {
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
-// A subject brought to life, and its reference.
+// The studio of a subject, and its reference.
 struct scene {
     struct bench* bench;
     const struct subject* subject;
     struct bench_studio studio;
     bool alive, refused;
-    uint32_t most_samples; // of OpenGL
+    uint32_t most_samples; // supported by OpenGL
     struct bench_truth truth;
     double halves_differ;
     struct bench_versus versus;
@@ -103,13 +107,15 @@ static uint32_t strands_of(const struct bench* bench, const struct subject* subj
     return bench->software ? STRANDS_OF_SOFTWARE * size / SIZE_OF_SOFTWARE : 0;
 }
 
-// Of as many strands as there are, so wide that they cover what all of the scene's do.
+// Return a shot whose strands are widened such that fewer strands cover as much as all of the
+// scene's strands.
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
     shot.look.radius = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
     shot.away = scene->subject->away;
-    shot.map_fits = scene->bench->software; // Compute, which is faster elsewhere, makes no lines.
+    // Compute drawing, which is faster on GPUs, supports no lines.
+    shot.map_fits = scene->bench->software;
     if (scene->subject->width > 0) {
         shot.look.radius = 0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
         shot.look.taper = hair_curve_line(1, 1);
@@ -131,7 +137,8 @@ static bool find_truth(struct scene* scene)
     return ok;
 }
 
-// Once: what cannot be made is refused row by row.
+// Create the studio and the reference on the first call. A failure is remembered, and each row is
+// refused.
 static bool need(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
@@ -225,8 +232,10 @@ static bool is_quick(uint32_t segments)
     return segments == 8 || segments == 32;
 }
 
-// How many strands and in how many segments, each with each: what takes about as long as something else is then among the
-// rows. By the path that software rasterisers take. Of strands so wide that lines of a pixel are nearly as good, more closely.
+// Return whether a setting is part of the close comparison. It combines all numbers of strands with
+// all numbers of segments, so that each setting has another one of about equal run time. It uses
+// the path that software rasterizers use. Strands of at least half a pixel, where one-pixel lines
+// are nearly as good, use every number of segments.
 static bool is_wanted_closely(const struct bench* bench, const struct subject* subject,
                               const struct setting* setting)
 {
@@ -238,8 +247,8 @@ static bool is_wanted_closely(const struct bench* bench, const struct subject* s
            (every || setting->segments % 4 == 0);
 }
 
-// Of widths it is how strands are drawn that counts: how many, in how many segments, by three paths, one thing changed at
-// a time where samples are many.
+// Return whether a setting of a case with given width is wanted. These cases compare numbers of
+// strands and segments with three paths. With many samples, only one parameter is varied at a time.
 static bool is_wanted_of_width(const struct bench* bench, const struct subject* subject,
                                const struct setting* setting)
 {
@@ -255,15 +264,18 @@ static bool is_wanted_of_width(const struct bench* bench, const struct subject* 
     return all ? setting->segments >= FEWEST_OF_CLOSE && setting->segments <= MOST_OF_CLOSE : usual;
 }
 
-// What compute makes pixels of; else they are drawn. Software rasterisers have nothing of it, and no time to lose.
+// Return whether to measure compute drawing. Only full-detail ribbons with sample coverage are
+// drawn by compute. Quick runs on software rasterizers skip compute drawing, because it has no
+// benefit there.
 static bool is_computed(const struct bench* bench, const struct setting* setting)
 {
     if (bench->options.quick && bench->software) return false;
     return setting->primitive == primitives && setting->lod == lods;
 }
 
-// All of it by one path, and what compute makes; that the others draw the same is seen by fewer. Shares are drawn by one path
-// alone, and are asked for instead of more samples.
+// Return whether a setting is wanted. One path and compute drawing measure all settings. The other
+// paths draw equal pictures and measure fewer. Blended coverage has one path only and replaces
+// additional samples.
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
     bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
@@ -284,7 +296,8 @@ static void measure(struct scene* scene, const struct setting* setting)
     if (!is_wanted(bench, scene->subject, setting) ||
         !bench_begin(bench, scene->subject->name, setting->path->name))
         return;
-    if (need(scene) && setting->samples->msaa > scene->most_samples) return; // OpenGL has fewer.
+    // OpenGL supports fewer samples.
+    if (need(scene) && setting->samples->msaa > scene->most_samples) return;
     if (!scene->alive || !look(scene, setting))
         bench_refuse(bench, scene->subject->name, setting->path->name);
 }
@@ -292,7 +305,8 @@ static void measure(struct scene* scene, const struct setting* setting)
 static void measure_subject(struct bench* bench, const struct subject* subject)
 {
     struct scene scene = {.bench = bench, .subject = subject};
-    for (size_t n = 0; n < COUNT(samples); ++n) // Framebuffers are made as seldom as can be.
+    // This order recreates framebuffers as rarely as possible.
+    for (size_t n = 0; n < COUNT(samples); ++n)
         for (size_t p = 0; p < COUNT(paths); ++p)
             for (size_t k = 0; k < COUNT(primitives); ++k)
                 for (size_t l = 0; l < COUNT(lods); ++l)

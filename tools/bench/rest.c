@@ -1,4 +1,4 @@
-// rest.c - how fast hair still moves when it should be at rest.
+// rest.c - Speed of hair that should be at rest.
 #include "tools/bench/rest.h"
 
 #include <math.h>
@@ -7,8 +7,9 @@
 
 #define FRAME (1.0 / 60)
 #define MAX_ROWS 64
-// A vertex that goes to and fro every substep is where it was after two: speeds are taken over an odd
-// number of substeps. Over less than this time the last place of a float would pass for a speed.
+// Minimum interval of a speed, s. Over a shorter time, rounding of floats would count as speed. A
+// vertex that oscillates every substep returns to its position after two substeps. Speeds are
+// therefore measured over an odd number of substeps.
 #define MIN_INTERVAL (1.0 / 1000)
 
 struct bench_rest_desc bench_rest_desc_default(void)
@@ -47,7 +48,7 @@ static bool read_guides(struct state* state)
     return !hair_read(state->hair, HAIR_READ_GUIDES, state->now, all, &count) && count == all;
 }
 
-// Step until `until` or asleep.
+// Simulate until the time `until` or until the hair is asleep.
 static bool wait_until(struct state* state, double until, struct bench_rest* out)
 {
     while (state->time < until - 1e-6 && !isfinite(out->seconds_asleep)) {
@@ -71,7 +72,7 @@ static void compare(struct state* state, double passed, struct bench_rest* out)
     }
 }
 
-// The hair moves in whole substeps only: the interval is one, or an odd number of them.
+// Return the interval of a speed, an odd number of substeps. Hair moves in whole substeps only.
 static double find_interval(hair_instance* hair)
 {
     hair_health health = hair_health_default();
@@ -101,7 +102,8 @@ static bool measure(struct state* state, struct bench_rest* out)
     const struct bench_rest_desc* desc = state->desc;
     if (!wait_until(state, desc->seconds - desc->window, out)) return false;
     if (!isfinite(out->seconds_asleep) && !measure_window(state, out)) return false;
-    double patience = out->max_speed <= BENCH_REST_MOVING ? desc->patience : 0; // What moves will not sleep.
+    // Moving hair does not fall asleep.
+    double patience = out->max_speed <= BENCH_REST_MOVING ? desc->patience : 0;
     return wait_until(state, patience, out) && read_guides(state);
 }
 

@@ -1,11 +1,11 @@
-// rows.c - flat rows, and the three ways they are written.
+// rows.c - Flat rows, and their output in three formats.
 #include "tools/bench/rows.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
-#define DIGITS 7 // What a float holds.
+#define DIGITS 7 // precision of a float
 #define MOST_TEXT 96
 
 void bench_rows_create(struct bench_rows* rows, const char* const* columns)
@@ -39,7 +39,7 @@ void bench_set_text(json_t* row, const char* key, const char* text)
 }
 void bench_set_number(json_t* row, const char* key, double number)
 {
-    set(row, key, json_real(number)); // NULL for what is not finite.
+    set(row, key, json_real(number)); // json_real() returns NULL for a number that is not finite
 }
 void bench_set_count(json_t* row, const char* key, uint64_t count)
 {
@@ -108,7 +108,7 @@ void bench_write_json(const struct bench_rows* rows, const struct bench_about* a
     json_decref(root);
 }
 
-// Empty for null.
+// Return the text of a value, empty for null.
 static const char* print(const json_t* value, char text[MOST_TEXT])
 {
     text[0] = 0;
@@ -119,7 +119,7 @@ static const char* print(const json_t* value, char text[MOST_TEXT])
     return text;
 }
 
-// As RFC 4180 has it: quoted where it must be, quotes doubled.
+// Write a field as in RFC 4180, quoted if needed, with quotes doubled.
 static void write_field(const char* text, FILE* file)
 {
     if (!strpbrk(text, ",\"\r\n")) {
@@ -152,7 +152,7 @@ void bench_write_csv(const struct bench_rows* rows, FILE* file)
     }
 }
 
-// Characters on the terminal: of UTF-8, all bytes but those that continue one.
+// Return the number of characters of a UTF-8 text, all bytes except continuation bytes.
 static int width_of(const char* text)
 {
     int width = 0;
@@ -189,7 +189,7 @@ static void write_cell(const char* text, int width, bool left, FILE* file)
     fprintf(file, "%*s%s%*s  ", left ? 0 : room, "", text, left ? room : 0, "");
 }
 
-// What all rows share, in one line.
+// Write the values that are equal in all rows on one line.
 static void write_shared(const struct bench_rows* rows, FILE* file)
 {
     char text[MOST_TEXT];

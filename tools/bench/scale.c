@@ -1,4 +1,5 @@
-// scale.c - the suite `scale`: how the time of a step and of a picture grows with guides and with followers.
+// scale.c - Suite `scale`, time of a step and of a picture against the numbers of guides and
+// followers.
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
 #include "tools/common/stats.h"
@@ -15,7 +16,7 @@ static const char* const columns[] = {
 static const struct point {
     const char* name;
     uint32_t guides, followers;
-    bool quick, small; // small: not too much for a CPU that draws
+    bool quick, small; // `small` means small enough for software rasterizers
 } points[] = {
     {"guides", 64, 4096, true, true},       {"guides", 166, 4096, false, true},
     {"guides", 512, 4096, true, true},      {"guides", 2048, 4096, false, true},
@@ -47,7 +48,7 @@ static void add_row(const struct bench_studio* studio, const struct point* point
     bench_set_number(row, "us_per_follower", 1000 * draw.ms / info->follower_count);
 }
 
-// Frames of a head that shakes, each stepped and drawn.
+// Simulate and draw frames of a head that shakes.
 static bool run(struct bench_studio* studio, const struct point* point)
 {
     enum { MOST_FRAMES = 60 };
@@ -57,7 +58,7 @@ static bool run(struct bench_studio* studio, const struct point* point)
     struct bench_shot shot = bench_studio_shot(studio);
     shot.samples = 4;
     if (!bench_studio_set(studio, &shot)) return false;
-    for (int i = 0; i < 2; ++i) // They compile what they need.
+    for (int i = 0; i < 2; ++i) // the first frames compile shaders
         if (!bench_studio_step(studio, NULL) || !bench_studio_draw(studio, NULL)) return false;
     for (double start = hair_now(); bench_times_want_more(frames, MOST_FRAMES, passed, enough); ++frames) {
         if (!bench_studio_step(studio, &step[frames]) || !bench_studio_draw(studio, &draw[frames]))

@@ -1,5 +1,5 @@
-// scatter.c - rows of the suite `shadow`: the light that hair passes on from strand to strand, as it is drawn, against the
-// paths that light takes there. Only means are compared, of all that is seen of a haircut.
+// scatter.c - Rows of the suite `shadow`. They compare the multiple scattering of drawn hair with
+// path tracing. Only means over the visible part of a haircut are compared.
 #include "lib/draw/fibre.h"
 #include "lib/reference/paths.h"
 #include "tools/bench/picture.h"
@@ -16,14 +16,14 @@
 #define SEGMENTS 24
 #define RAYS 100000
 #define RAYS_OF_QUICK 20000
-#define REFRACTION 1.55f // lib/draw/fibres.c's
+#define REFRACTION 1.55f // as in lib/draw/fibres.c
 
 static const struct color {
     const char* name;
     hair_color color;
 } colors[] = {{"blond", HAIR_COLOR_BLOND}, {"brown", HAIR_COLOR_BROWN}, {"black", HAIR_COLOR_BLACK}};
 
-// Towards the light: to the right of the picture, up in it, out of it.
+// Direction to the light in camera space, right, up and out of the picture.
 static const struct lit {
     const char* name;
     float way[3];
@@ -44,10 +44,11 @@ struct scatter {
     struct bench_shot shot;
     float colors[COLORS][3];
     double to_light[LITS][3];
-    double* from; // of rays
+    double* from; // origins of rays
     double* way;
     struct hair_reference_glow glow;
-    double dark[3], covers; // of a picture without light; pixels' worth of hair, 0: it has not been taken
+    // `dark` is the picture without light, `covers` the area of hair in pixels, 0 until measured.
+    double dark[3], covers;
 };
 
 static bool make(struct scatter* scatter)
@@ -57,13 +58,13 @@ static bool make(struct scatter* scatter)
     struct bench_studio_desc desc = {
         .scene = "still", .size = size ? size : SIZE, .followers = strands ? strands : STRANDS};
     if (!bench_studio_make(scatter->bench, &desc, studio)) return false;
-    hair_set_solids(studio->hair, NULL, 0, 0); // Paths meet none.
+    hair_set_solids(studio->hair, NULL, 0, 0); // Paths hit no colliders.
     studio->bare = true;
     scatter->shot = bench_studio_shot(studio);
     hair_look* look = &scatter->shot.look;
     look->taper = hair_curve_line(1, 1);
     look->segments = SEGMENTS;
-    look->radius = look->radius * studio->fewer; // In all as much hair.
+    look->radius = look->radius * studio->fewer; // Keep the total amount of hair.
     look->tilt_spread = 0;
     scatter->shot.samples = 4;
     scatter->shot.supersample = 2;
@@ -78,7 +79,7 @@ static bool make(struct scatter* scatter)
 
 // Paths -----------------------------------------------------------------------------------------------------------
 
-// Through places all over the picture.
+// Make rays through random places of the picture.
 static bool make_rays(struct scatter* scatter, uint32_t rays)
 {
     const struct hair_scene* scene = &scatter->studio.scene;
@@ -116,7 +117,8 @@ static bool make_rays(struct scatter* scatter, uint32_t rays)
     return true;
 }
 
-// What a strand of such a reflectance absorbs: glsl/fibre.glsl's absorption_of.
+// Return the absorption of a strand with the given reflectance, as absorption_of() in
+// glsl/fibre.glsl.
 static double absorption_of(double reflectance, double roughness)
 {
     double b = roughness, d = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + 0.245 * b))));
@@ -156,7 +158,7 @@ static bool trace(struct scatter* scatter)
 
 // Pictures --------------------------------------------------------------------------------------------------------
 
-// Radiance of all hair that is seen, and what of the picture it covers.
+// Compute the summed radiance of all visible hair, and the area of hair in pixels.
 static bool take(struct scatter* scatter, double sum[3], double* covers)
 {
     struct bench_picture picture;
@@ -173,7 +175,8 @@ static bool take(struct scatter* scatter, double sum[3], double* covers)
     return ok;
 }
 
-// Less the background, which is there in pictures without light too.
+// Compute the mean radiance of hair. The picture without light is subtracted, because it contains
+// the background.
 static bool measure_light(struct scatter* scatter, float scattering, double mean[3])
 {
     hair_light* light = &scatter->studio.scene.settings.light;

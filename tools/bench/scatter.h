@@ -1,4 +1,4 @@
-// scatter.h - rows of light that hair passes on, against paths.
+// scatter.h - Rows of multiple scattering against path tracing.
 #ifndef HAIR_TOOLS_BENCH_SCATTER_H
 #define HAIR_TOOLS_BENCH_SCATTER_H
 

@@ -1,4 +1,4 @@
-// scene.c - strands, materials, heads; and the same as rods of lib/reference.
+// scene.c - Strands, materials and heads, and their conversion to rods of lib/reference.
 #include "tools/bench/scene.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ void bench_scene_straight(struct bench_scene* scene, uint32_t vertices, double l
 void bench_scene_arc(struct bench_scene* scene, uint32_t vertices, double length, double turn,
                      const double along[3], const double across[3])
 {
-    // Each chord points as the arc does in its middle.
+    // Each chord is parallel to the arc in its middle.
     double piece = length / (vertices - 1), at[3] = {0, 0, 0};
     scene->vertices = vertices;
     for (uint32_t i = 0; i < vertices; ++i) {
@@ -60,8 +60,9 @@ double bench_scene_length(const struct bench_scene* scene)
     return length;
 }
 
-// An ellipse of half axes a >= b with a b = R^2 and b / a = flatness, the long one along x:
-// I = pi a b^3 / 4 about x and pi a^3 b / 4 about z, J = pi a^3 b^3 / (a^2 + b^2).
+// The section is an ellipse of half axes a >= b with a b = R^2 and b / a = flatness, with the long
+// axis along x. The second moments are I = pi a b^3 / 4 about x and pi a^3 b / 4 about z, and J =
+// pi a^3 b^3 / (a^2 + b^2).
 struct bench_section bench_section_of(const hair_physics* physics)
 {
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
@@ -94,7 +95,8 @@ void bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16])
     for (int i = 0; i < 16; ++i) matrix[i] = (float)m[i];
 }
 
-// The least rotation from y to the first segment, as the groom has it of strands that all leave alike.
+// Compute the smallest rotation from y to the first segment. The groom computes it for strands with
+// equal directions.
 static void find_root_frame(const double* positions, double frame[4])
 {
     double d[3], length = 0;
@@ -103,7 +105,7 @@ static void find_root_frame(const double* positions, double frame[4])
         length += d[k] * d[k];
     }
     for (int k = 0; k < 3; ++k) d[k] /= sqrt(length);
-    if (d[1] < -0.999999) { // Any axis across y: x.
+    if (d[1] < -0.999999) { // any axis perpendicular to y, here x
         frame[0] = 1;
         frame[1] = frame[2] = frame[3] = 0;
         return;
@@ -127,8 +129,8 @@ static int is_straight(const struct bench_scene* scene, const double* strain)
     return scene->physics.flatness == 1 && most < 1e-4;
 }
 
-// Return whether the mixed scheme solves the strand, which is straight. Only the scheme of straight rods has
-// the energy of the chord between tangents.
+// Return whether the mixed scheme solves the strand, which is straight. Only the scheme of straight
+// rods has the energy of the chord between tangents.
 static bool is_mixed(const struct bench_scene* scene, const double root_frame[4])
 {
     struct hair_rest rest[BENCH_MOST_VERTICES] = {0};

@@ -1,6 +1,8 @@
-// shadow.c - the suite `shadow`: how near ways to find the light that hair leaves to itself come to counting strands ray by
-// ray. Pictures differ in that light alone; ways that the library does not have are worked out by the processor. And how near
-// the area that hair shades of what it falls on comes to that of the rays that it stops.
+// shadow.c - Suite `shadow`, methods of self-shadowing against counting strands ray by ray.
+//
+// Pictures differ only in the light that reaches strands. Methods that the library lacks are
+// computed on the CPU. The suite also compares the area that hair shades on other surfaces with the
+// area of stopped rays.
 #include "tools/bench/picture.h"
 #include "tools/bench/scatter.h"
 #include "tools/bench/strand_light.h"
@@ -18,7 +20,7 @@
 #define SEGMENTS 24
 #define RAYS 1024
 #define RAYS_OF_QUICK 64
-#define UNIT 24 // of textures: the first that is the host's
+#define UNIT 24 // texture unit of the application's table
 
 static const char* const columns[] = {
     "case", "method",   "cell",       "layers",        "ms",        "rays", "strands",  "size",  "flip",
@@ -87,7 +89,7 @@ static bool take(struct scene* scene, hair_shader* shader, struct bench_picture*
     return ok;
 }
 
-// Each half of the rays makes a picture too.
+// Compute the true light by rays, and its picture. Each half of the rays makes a picture too.
 static bool find_truth(struct scene* scene)
 {
     struct bench_picture halves[2] = {{0}};
@@ -109,7 +111,7 @@ static bool find_truth(struct scene* scene)
     return ok;
 }
 
-// Hair alone, of one radius and colour.
+// Set a shot of hair alone, with one radius and one colour.
 static void set_shot(struct scene* scene)
 {
     hair_look* look = &scene->shot.look;
@@ -129,7 +131,7 @@ static bool read_strands(struct scene* scene)
     uint32_t count = scene->studio.info.follower_count * (SEGMENTS + 1);
     float* positions = malloc(3 * sizeof *positions * count);
     hair_light_direction(&scene->studio.scene, to);
-    hair_set_solids(scene->studio.hair, NULL, 0, 0); // Rays meet none.
+    hair_set_solids(scene->studio.hair, NULL, 0, 0); // Rays hit no colliders.
     bool ok = positions && bench_studio_set(&scene->studio, &scene->shot) &&
               !hair_read(scene->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &scene->vertices) &&
               bench_strands_make(positions, scene->studio.info.follower_count, SEGMENTS + 1,
@@ -176,10 +178,10 @@ static bool by_layers(struct scene* scene, const float* with)
 
 static const struct method {
     const char* name;
-    bool (*find)(struct scene* scene, const float* with); // NULL: the library's own
+    bool (*find)(struct scene* scene, const float* with); // NULL uses the library's method
     float with[3];
-    uint32_t count; // of layers
-    hair_shadow shadow; // of the library
+    uint32_t count; // number of layers
+    hair_shadow shadow; // setting of the library
     bool unmapped;
 } methods[] = {{"depth", NULL, {0}, 0, HAIR_SHADOW_DEPTH, false},
                {"strands", NULL, {0.004f}, 0, HAIR_SHADOW_STRANDS, false},
@@ -191,7 +193,8 @@ static const struct method {
                {"layers", by_layers, {0.001f, 8, 0.002f}, 8, HAIR_SHADOW_DEPTH, false},
                {"layers", by_layers, {0.002f, 8, 0.002f}, 8, HAIR_SHADOW_DEPTH, false}};
 
-// What finding the light and drawing takes; the best of a few, for others are at work as well.
+// Return the time of finding the light and drawing, the minimum of a few runs, because other load
+// lengthens times.
 static double time_of(struct scene* scene)
 {
     double best = 1e9, ms = 0;
@@ -230,9 +233,9 @@ static bool look(struct scene* scene, const struct method* method)
     return ok;
 }
 
-#define SHADE_RAYS 8192 // to each side
+#define SHADE_RAYS 8192 // per side
 
-// m^2 across the light.
+// Compute the area that hair shades, in m^2 perpendicular to the light, by rays.
 static bool shade_by_rays(const struct scene* scene, double* area)
 {
     const struct bench_strands* s = &scene->strands;
@@ -255,7 +258,7 @@ static bool shade_by_rays(const struct scene* scene, double* area)
     return true;
 }
 
-// By a map of what hair takes, of `size` texels to each side.
+// Compute the shaded area by an opacity map of `size` texels per side.
 static bool shade_by_map(struct scene* scene, GLsizei size, double* area)
 {
     struct bench_studio* studio = &scene->studio;

@@ -1,4 +1,5 @@
-// skip.c - scenes in pairs, with a thing and without it: what is not there is not paid for.
+// skip.c - Pairs of scenes with and without a feature. A scene must not pay for features that it
+// does not use.
 #include <epoxy/gl.h>
 #include <hair/hair_asset.h>
 #include <math.h>
@@ -11,18 +12,18 @@
 #define MOST_HEADS 100
 #define MOST_RUNS 31
 #define SIZE 256
-#define REST (15 * 60) // frames in which hair that stands still falls asleep
+#define REST (15 * 60) // frames in which hair at rest falls asleep
 
 static const char* const columns[] = {"case",       "method",         "scene", "ms_all", "ms",
                                       "passes_run", "passes_skipped", "bytes", "runs",   NULL};
 
-// A row of heads, of which the first `moving` are shaken; `seen` of them are in view.
+// A row of heads. The first `moving` heads shake, the first `seen` heads are in view.
 struct scene {
     uint32_t heads, moving, seen;
-    bool sleeps, solids, fluid, blind; // blind: nothing is drawn
+    bool sleeps, solids, fluid, blind; // `blind` disables drawing
     uint32_t lights;
-    enum { NO_DEPTH, NO_WALL, WALL } before; // in a buffer of depth, which
-    bool lends; // it lends the view
+    enum { NO_DEPTH, NO_WALL, WALL } before; // content of the depth buffer before hair is drawn
+    bool lends; // passes the depth buffer to the view
 };
 
 static const struct pair {
@@ -114,7 +115,8 @@ static hair_result live(struct heads* heads)
     return result;
 }
 
-// Heads stand 2 m apart; each of those in view has a view of its own, the others one that looks past them.
+// Simulate and draw one frame. Heads are 2 m apart. Each head has its own view. Views of heads out
+// of view look past them.
 static hair_result run_frame(struct heads* heads, bool draws)
 {
     hair_view view = hair_view_default();
@@ -126,7 +128,8 @@ static hair_result run_frame(struct heads* heads, bool draws)
     glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
     glViewport(0, 0, SIZE, SIZE);
     view.depth_texture = heads->scene.lends ? heads->depth : 0;
-    if (heads->scene.before) { // What is drawn before hair is: a wall of depth 0, or nothing.
+    // Before the hair, the depth buffer contains a wall of depth 0 or nothing.
+    if (heads->scene.before) {
         float depth = heads->scene.before == WALL ? 0 : 1;
         glClearNamedFramebufferfv(heads->frame, GL_DEPTH, 0, &depth);
         glEnable(GL_DEPTH_TEST);
@@ -150,7 +153,7 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-// ms of a frame, by the clock. `row` NULL: only that.
+// Measure the wall time of a frame in ms. `row` NULL measures nothing else.
 static bool measure(struct bench* bench, const struct scene* scene, double* ms, uint32_t* runs, json_t* row)
 {
     struct heads heads = {.bench = bench, .scene = *scene};
@@ -159,7 +162,9 @@ static bool measure(struct bench* bench, const struct scene* scene, double* ms, 
     uint32_t rest = scene->sleeps && scene->moving < scene->heads ? REST : 10;
     for (uint32_t i = 0; i < rest && !result; ++i) {
         result = run_frame(&heads, i == 0);
-        glFinish(); // hair falls asleep by what has come back, and a GPU far behind would still be at it when measured
+        // Hair falls asleep by results that the GPU returns. A GPU that lags behind would not be
+        // done when measuring starts.
+        glFinish();
     }
     uint32_t most = bench->options.quick ? 3 : MOST_RUNS;
     start = hair_now();

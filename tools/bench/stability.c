@@ -1,4 +1,5 @@
-// stability.c - the suite `stability`: what no scene should ask of hair, and whether it bears it and recovers.
+// stability.c - Suite `stability`, extreme demands on hair, and whether it survives them and
+// recovers.
 #include "tools/bench/stability.h"
 
 #include <math.h>
@@ -57,8 +58,10 @@ static double distance(const double* a, const double* b)
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Beyond what floats resolve: along each axis half the last place of both ends, as they are read, and as they are
-// simulated, from the head's origin, which a strand with a free root may have left far behind.
+// Return the maximum stretch beyond the resolution of floats. The resolution is half of the last
+// place of both ends along each axis. It is added for positions in the world and for positions
+// relative to the head's origin, which the solver uses. A strand with a free root can be far from
+// that origin.
 static double stretch_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_living* living = watch->living;
@@ -75,7 +78,7 @@ static double stretch_of(const struct bench_watch* watch, const double* position
     return most;
 }
 
-// How deep vertices lie in spheres. What the scalp holds cannot help it.
+// Return the maximum depth of vertices in spheres. Vertices that the scalp fixes are ignored.
 static double depth_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_scene* scene = watch->living->scene;
@@ -113,7 +116,7 @@ bool bench_watch_step(struct bench_watch* watch, double dt)
 {
     struct bench_living* living = watch->living;
     double now[3 * BENCH_MOST_VERTICES];
-    // The hair moves only in whole substeps: a speed is by the time that they took.
+    // Hair moves in whole substeps, therefore a speed uses the time of the completed substeps.
     double done = floor(watch->time / living->substep + 1e-4);
     if (hair_set_solids(living->hair, watch->solids, watch->solid_count, sizeof *watch->solids)) return false;
     if (!bench_step(living, &watch->head, dt) || !bench_read(living, now)) return false;
@@ -142,11 +145,11 @@ json_t* bench_stability_row(struct bench_living* living, const char* name, const
 
 // Recovering ------------------------------------------------------------------------------------------------
 
-// Where the rod rests, in the world, after the stress. False: not known.
+// Compute the rod's rest positions in the world after the stress. Return false if they are unknown.
 static bool find_rest(const struct bench_watch* watch, double* positions)
 {
     struct bench_scene scene = *watch->living->scene;
-    if (scene.solver == HAIR_SOLVER_REDBLACK) return false; // It has no material.
+    if (scene.solver == HAIR_SOLVER_REDBLACK) return false; // redblack has no material
     memcpy(scene.positions, watch->living->positions, sizeof scene.positions);
     scene.physics = watch->calm;
     scene.head = watch->head;
@@ -158,8 +161,8 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
     return found;
 }
 
-// Six seconds without stress: from when on no vertex is farther than a hundredth of the length from its rest.
-// Infinite: not in that time.
+// Simulate six seconds without stress. `seconds` is the time after which all vertices stay within a
+// hundredth of the length of their rest positions. It is infinite if they do not within that time.
 static bool recover(struct bench_watch* watch, const double* rest, double* seconds)
 {
     struct bench_living* living = watch->living;

@@ -1,57 +1,62 @@
-// stability.h - what the files of the suite `stability` share: hair under watch.
+// stability.h - Observation of hair under stress, which the files of the suite `stability` share.
 #ifndef HAIR_TOOLS_BENCH_STABILITY_H
 #define HAIR_TOOLS_BENCH_STABILITY_H
 
 #include "tools/bench/living.h"
 #include "tools/bench/rest.h"
 
-#define BENCH_MOST_STRETCH 0.02 // Under any stress, of the solvers of rods.
+#define BENCH_MOST_STRETCH 0.02 // limit under any stress, for rod solvers
 #define BENCH_MOST_SOLIDS 128
 
 struct bench_watch {
     struct bench_living* living;
-    hair_physics calm; // of the time after the stress; the scene's own to begin with
+    hair_physics calm; // physics after the stress, initially the scene's own
     struct hair_reference_rod_pose head;
     hair_solid solids[BENCH_MOST_SOLIDS];
     uint32_t solid_count;
     bool had_solids;
-    double spared; // s from now: depth in solids does not count yet
+    double spared; // time in s during which depth in colliders is ignored
 
     bool finite;
-    double stretch, speed, penetration; // greatest so far
-    double time; // s stepped
+    double stretch, speed, penetration; // maxima so far
+    double time; // simulated time, s
     double before[3 * BENCH_MOST_VERTICES];
 };
 
-// Watches from now on. False: the library refused.
+// Start observing. Return false if the library refused.
 bool bench_watch(struct bench_living* living, struct bench_watch* out);
 
-// A step of `dt` with the head at watch->head and the solids of watch at its end. False: the library refused.
+// Simulate `dt` with the head at watch->head and the colliders of `watch` at its end. Return false
+// if the library refused.
 bool bench_watch_step(struct bench_watch* watch, double dt);
 
-void bench_fuzz(struct bench* bench); // stability_fuzz.c
+// Run the random scenes. Defined in stability_fuzz.c.
+void bench_fuzz(struct bench* bench);
 
-// Hair that should come to rest: stability_rest.c, stability_curl.c, stability_contact.c.
+// Run the haircuts that should come to rest. Defined in stability_rest.c.
 void bench_rest_haircuts(struct bench* bench);
+// Run the coils that should come to rest. Defined in stability_curl.c.
 void bench_rest_curls(struct bench* bench);
+// Run the strands that should come to rest on a collider. Defined in stability_contact.c.
 void bench_rest_contacts(struct bench* bench);
 
-// Set how fast the hair moved and whether it fell asleep, and judge both.
+// Set the speed of the hair and whether it fell asleep, and whether both pass.
 void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest);
-// Set what hair_get_health tells.
+// Set the counters of hair_get_health().
 void bench_set_health(json_t* row, const hair_health* health);
-// Return the fastest vertex that counts as rest, m/s.
+// Return the maximum vertex speed that counts as rest, m/s.
 double bench_rest_limit(hair_solver solver);
 // Return whether hair of this solver must fall asleep.
 bool bench_rest_must_sleep(hair_solver solver);
 
 struct bench_stress {
     const char* name;
-    void (*prepare)(struct bench_scene* scene); // NULL: as it is
-    bool (*run)(struct bench_watch* watch); // the stress
-    bool rods; // redblack has nothing that it could be put on
+    void (*prepare)(struct bench_scene* scene); // NULL leaves the scene unchanged
+    bool (*run)(struct bench_watch* watch); // applies the stress
+    bool rods; // for rod solvers only, redblack lacks the setting
 };
-extern const struct bench_stress bench_stresses[]; // stability_stresses.c; ends with a name of NULL
+// Stresses of stability_stresses.c, terminated by a name of NULL.
+extern const struct bench_stress bench_stresses[];
 
 json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch);
 

@@ -1,5 +1,5 @@
-// stability_contact.c - the cases `contact COLLIDER VERTICES`: eight strands let go level, whose roots
-// are held above a collider. They fall on it, and should come to rest.
+// stability_contact.c - Cases `contact COLLIDER VERTICES`. Eight strands with fixed roots above a
+// collider are released horizontally. They fall on the collider and should come to rest.
 #include "tools/bench/stability.h"
 
 #include <math.h>
@@ -11,16 +11,16 @@
 struct contact {
     const char* name;
     uint32_t vertices;
-    double x, y; // m, of the roots
-    double dip; // rad, of the strands below the horizontal
-    bool is_free; // Roots are let go too.
+    double x, y; // position of the roots, m
+    double dip; // angle of the strands below the horizontal, rad
+    bool is_free; // roots are released too
     hair_shape shape;
     float position[3], rotation[4], size[3];
 };
 
 // clang-format off
 #define UPRIGHT {0, 0, 0, 1}
-#define ALONG_Z {0.70710678f, 0, 0, 0.70710678f} // local y along z
+#define ALONG_Z {0.70710678f, 0, 0, 0.70710678f} // maps local y to z
 
 #define BOX      HAIR_SHAPE_BOX,      {0, -0.1f, 0},  UPRIGHT, {0.15f, 0.1f, 0.3f}
 #define SPHERE   HAIR_SHAPE_SPHERE,   {0, -0.1f, 0},  UPRIGHT, {0.1f}
@@ -29,7 +29,7 @@ struct contact {
 #define CYLINDER HAIR_SHAPE_CYLINDER, {0, -0.1f, 0},  UPRIGHT, {0.12f, 0.1f}
 #define CONE     HAIR_SHAPE_CONE,     {0, -0.1f, 0},  UPRIGHT, {0.2f, 0.1f}
 
-// Every collider's top is at height 0. Strands of positive dip strike the plane with their tips.
+// The top of each collider is at height 0. With positive dip, the tips of strands hit the plane.
 static const struct contact contacts[] = {
     {"box 32",          32,  0.02, 0.02,  0,   false, BOX},
     {"box 64",          64,  0.02, 0.02,  0,   false, BOX},
@@ -49,7 +49,8 @@ static const struct contact contacts[] = {
 // clang-format on
 #define CONTACTS (sizeof contacts / sizeof *contacts)
 
-// A fan: roots 1 cm apart along z, each strand turned a little more than the one before.
+// Make a fan of strands. Roots are 1 cm apart along z, and each strand is turned a little more than
+// the previous one.
 static hair_result make_groom(struct bench* bench, const struct contact* contact, hair_groom** out)
 {
     float positions[3 * STRANDS * BENCH_MOST_VERTICES];
@@ -135,7 +136,7 @@ static void measure(struct bench* bench, const struct contact* contact, hair_sol
     hair_groom_destroy(groom);
 }
 
-// redblack knows only two shapes.
+// Return whether the solver supports the shape. redblack supports spheres and capsules only.
 static bool is_known(hair_solver solver, hair_shape shape)
 {
     return solver != HAIR_SOLVER_REDBLACK || shape == HAIR_SHAPE_SPHERE || shape == HAIR_SHAPE_CAPSULE;

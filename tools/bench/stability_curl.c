@@ -1,5 +1,5 @@
-// stability_curl.c - the cases `rest curl RADIUS`: coils in their own rest shape, without gravity,
-// nudged.
+// stability_curl.c - Cases `rest curl RADIUS`, coils in their rest shape without gravity that are
+// disturbed briefly.
 #include "tools/bench/coil.h"
 #include "tools/bench/stability.h"
 
@@ -9,22 +9,22 @@
 #define TURNS 5
 #define SECONDS 10.0
 #define NUDGE 0.05 // s
-#define NUDGE_GRAVITY 0.2f // m/s^2: 10 mm/s at its end. Soft coils creep back for long after more.
+#define NUDGE_GRAVITY 0.2f // m/s^2, gives 10 mm/s at the end, soft coils recover slowly from more
 #define MAX_ENERGY 1.01
 
 struct curl {
     struct bench_living living;
-    struct hair_reference_rod* rod; // NULL: follow and redblack have no energy.
+    struct hair_reference_rod* rod; // NULL for follow and redblack, which have no energy
     hair_physics calm;
     double time;
-    double start; // J, after the nudge
+    double start; // energy after the nudge, J
     double max_energy; // J
-    double max_speed; // m/s, in the last half second
+    double max_speed; // in the last half second, m/s
     double at[3][3 * BENCH_MOST_VERTICES];
     bool finite;
 };
 
-// Energy without that of the centre of mass, whose motion costs a free coil nothing.
+// Return the energy without that of the centre of mass, whose motion is free for a free coil.
 static double find_energy(struct curl* curl, double h)
 {
     uint32_t vertices = curl->living.scene->vertices;
@@ -52,7 +52,7 @@ static double find_speed(const struct curl* curl, double h)
     return most;
 }
 
-// A frame, of which the ends of the last three substeps are looked at.
+// Simulate a frame. Read the positions after its last three substeps.
 static bool step_frame(struct curl* curl)
 {
     struct bench_living* living = &curl->living;
@@ -70,7 +70,7 @@ static bool nudge(struct curl* curl)
 {
     struct bench_living* living = &curl->living;
     hair_physics push = curl->calm;
-    push.root = HAIR_ROOT_CLAMPED; // A free coil would only fall.
+    push.root = HAIR_ROOT_CLAMPED; // a free coil would only fall
     push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
     double h = living->substep, count = ceil(NUDGE / h);
     return !hair_set_physics(living->hair, &push) && bench_step(living, &living->scene->head, count * h) &&
@@ -165,7 +165,8 @@ void bench_rest_curls(struct bench* bench)
     for (size_t r = quick ? 3 : 0; r < (quick ? 4 : sizeof radii / sizeof *radii); ++r)
         for (int s = 0; s < 4; ++s)
             for (int k = quick ? 1 : 0; k < (quick ? 2 : 3); ++k)
-                for (int variant = 0; variant < (quick ? 1 : 4); ++variant) // redblack is held at its root.
+                // Redblack fixes its root.
+                for (int variant = 0; variant < (quick ? 1 : 4); ++variant)
                     if (solvers[s] != HAIR_SOLVER_REDBLACK || variant % 2 == 0)
                         measure(bench, radii[r], each[k], solvers[s], variant);
 }

@@ -1,5 +1,5 @@
-// stability_fuzz.c - random scenes, the same ones every time: any shape, any setting that the library takes, any
-// motion. Nothing may be stretched or other than finite.
+// stability_fuzz.c - Reproducible random scenes, with any shape, setting and motion that the
+// library accepts. Strands must stay finite and unstretched.
 #include "tools/bench/stability.h"
 #include "tools/common/file.h"
 
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define SEED 20100601u
-#define FEWEST 17 // solids of a crowd: from so many on they are looked up in a grid
+#define FEWEST 17 // minimum number of colliders in a group, large enough for a grid lookup
 
 // SplitMix64 (Steele, Lea, Flood 2014).
 static uint64_t draw(uint64_t* state)
@@ -28,7 +28,8 @@ static uint32_t one_of(uint64_t* state, uint32_t count)
     return (uint32_t)(draw(state) % count);
 }
 
-// Mostly what hair has, sometimes the extremes, sometimes anything between by its logarithm.
+// Return a random value, mostly near the usual one, sometimes an extreme, sometimes log-uniform
+// over the range.
 static float any(uint64_t* state, double usual, double least, double most)
 {
     double low = fmax(least, 1e-6 * most);
@@ -85,7 +86,8 @@ static void any_physics(uint64_t* state, hair_physics* p, hair_wind* wind)
     }
 }
 
-// Straight, curled, or with a new direction at every vertex; evenly spaced or not.
+// Make a strand that is straight, curled, or changes direction at every vertex, with even or uneven
+// spacing.
 static void any_strand(uint64_t* state, struct bench_scene* scene)
 {
     static const uint32_t counts[] = {2, 3, 4, 8, 16, 31, 32, 33, 64, 128, 256};
@@ -137,7 +139,7 @@ static hair_solid any_solid(uint64_t* state)
     return solid;
 }
 
-// Of any shape but forms, small, a crowd of them where the hair is.
+// Return a small collider of any shape except collision meshes, for a group where the hair is.
 static hair_solid any_small_solid(uint64_t* state)
 {
     hair_solid solid = any_solid(state);
@@ -148,7 +150,7 @@ static hair_solid any_small_solid(uint64_t* state)
     return solid;
 }
 
-// After the first few, which scenes have without it. They creep, and jump now and then.
+// Update a group of colliders after the first `few`. They move slowly and sometimes jump.
 static void any_crowd(uint64_t* state, struct bench_watch* watch, uint32_t few, uint32_t count)
 {
     for (uint32_t s = few; s < few + count; ++s) {
@@ -159,7 +161,8 @@ static void any_crowd(uint64_t* state, struct bench_watch* watch, uint32_t few, 
     watch->solid_count = few + count;
 }
 
-// Mostly what frames take; a second seldom, which is many substeps.
+// Return a random time step, mostly of usual frames. One second is rare, because it takes many
+// substeps.
 static double any_dt(uint64_t* state)
 {
     static const double few[] = {0, 1e-9, 1.0 / 240, 1.0 / 30, 0.1};
@@ -167,7 +170,7 @@ static double any_dt(uint64_t* state)
     return one_of(state, 32) ? few[one_of(state, one_of(state, 3) ? 4 : 5)] : 1;
 }
 
-// The head goes a little, turns a little; now and then it is elsewhere.
+// Move and turn the head a little, sometimes to another place.
 static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
 {
     double axis[3], far = one_of(state, 12) ? 0.02 : 5, turn = one_of(state, 12) ? 0.1 : BENCH_PI;
@@ -186,7 +189,8 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
         head->position[k] = fmin(fmax(head->position[k] + even(state, -far, far), -10), 10);
 }
 
-// One scene of eight has a crowd of solids, by draws of its own: the others are what they are without any.
+// Simulate random steps. One scene of eight has a group of colliders, whose random numbers are
+// separate, so that the group does not change the rest of the scene.
 static bool any_steps(uint64_t* state, struct bench_watch* watch)
 {
     hair_instance* hair = watch->living->hair;
@@ -213,7 +217,7 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
     return true;
 }
 
-// What the library, or the groom, will not have is no scene.
+// Simulate one random scene. Return false for a scene that the library or the groom refuses.
 static bool live_through(struct bench* bench, hair_solver solver, uint32_t number, struct bench_watch* all,
                          hair_health* health, uint32_t* worst)
 {

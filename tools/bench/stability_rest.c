@@ -1,5 +1,5 @@
-// stability_rest.c - the cases `rest HAIRCUT VERTICES`: every built-in haircut on a still head, by all
-// defaults.
+// stability_rest.c - Cases `rest HAIRCUT VERTICES`, every built-in haircut with default settings on
+// a head at rest.
 #include "tools/bench/stability.h"
 #include "tools/common/rig.h"
 
@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#define GUIDES 166 // of a haircut by default
-#define GUIDES_SOFTWARE 16 // enough to see what thrashes, and what a processor can bear
+#define GUIDES 166 // guides of a haircut by default
+#define GUIDES_SOFTWARE 16 // few enough for a CPU, enough to detect jitter
 
 double bench_rest_limit(hair_solver solver)
 {
@@ -40,7 +40,7 @@ static hair_result make_groom(struct bench* bench, hair_style style, uint32_t gu
     return result;
 }
 
-// The built-in head, neck and shoulders, where they are without motion.
+// Add the built-in head, neck and shoulders in their rest pose.
 static hair_result add_head(hair_instance* hair)
 {
     struct hair_scene scene;

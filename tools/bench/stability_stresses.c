@@ -1,4 +1,4 @@
-// stability_stresses.c - the stresses, one after the other.
+// stability_stresses.c - Stresses of the suite `stability`.
 #include "tools/bench/stability.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 static const double up[3] = {0, 1, 0}, forward[3] = {0, 0, 1}, none[3] = {0, 0, 0};
 
-// The head yaws by 0.6 sin^2(pi t) from its place, and stands at the end of every second.
+// Yaw the head by 0.6 sin^2(pi t) rad from its rest pose. It is at rest at the end of every second.
 static void yaw(struct bench_watch* watch, double time)
 {
     double sine = sin(BENCH_PI * time);
@@ -49,7 +49,7 @@ static void allow_seconds(struct bench_scene* scene)
 }
 static bool take_seconds(struct bench_watch* watch)
 {
-    for (int k = 1; k <= 4; ++k) { // At its widest and back.
+    for (int k = 1; k <= 4; ++k) { // at the maximum yaw and back
         yaw(watch, 0.5 * k);
         if (!bench_watch_step(watch, 1)) return false;
     }
@@ -75,7 +75,7 @@ static bool take_nothing(struct bench_watch* watch)
 static bool alternate(struct bench_watch* watch)
 {
     double t = 0;
-    for (int k = 0; k < 96; ++k) { // Two seconds.
+    for (int k = 0; k < 96; ++k) { // two seconds
         double dt = k % 2 ? 1.0 / 240 : 1.0 / 30;
         t += dt;
         yaw(watch, t);
@@ -85,7 +85,7 @@ static bool alternate(struct bench_watch* watch)
     return bench_watch_step(watch, 1.0 / 30);
 }
 
-// A million substeps.
+// Simulate a million substeps.
 static bool rest_long(struct bench_watch* watch)
 {
     double substeps = watch->living->bench->options.quick ? 1e4 : 1e6;
@@ -103,7 +103,8 @@ static bool jump(struct bench_watch* watch)
 
 static bool spin(struct bench_watch* watch)
 {
-    const double fastest = 2 * BENCH_PI * 10; // rad/s, after two seconds, for one, and ever less for two
+    // Rad/s, after two seconds of acceleration, for one second, before two seconds of deceleration.
+    const double fastest = 2 * BENCH_PI * 10;
     double angle = 0;
     for (int k = 0; k < 300; ++k) {
         double t = (k + 0.5) * FRAME, share = fmin(fmin(t / 2, 1), (5 - t) / 2);
@@ -114,7 +115,8 @@ static bool spin(struct bench_watch* watch)
     return true;
 }
 
-// Half a turn in one frame, about an axis across the strand: its root points the other way.
+// Turn the head by half a turn in one frame, about an axis perpendicular to the strand. The root
+// then points the other way.
 static bool flip(struct bench_watch* watch)
 {
     if (!stay(watch, 0.5, FRAME)) return false;
@@ -129,7 +131,8 @@ static void go_far(struct bench_scene* scene)
     scene->head.position[0] = 1e5;
     scene->head.position[1] = -1e5;
 }
-// Floats of the world resolve 8 mm here: to be measured, hair is taken to the origin, without moving against the head.
+// Floats in world space resolve 8 mm here. For measurements, the hair is teleported to the origin,
+// which does not move it relative to the head.
 static bool shake_far(struct bench_watch* watch)
 {
     float here[16], there[16];
@@ -163,7 +166,7 @@ static void hang_thousand(struct bench_scene* scene)
 }
 static void make_stiff(struct bench_scene* scene)
 {
-    scene->physics.young = 1e12f; // As far as it goes, with a section that makes up for the rest.
+    scene->physics.young = 1e12f; // Use the maximum, and a section that makes up for the rest.
     scene->physics.fiber_radius *= sqrtf(3);
 }
 static void make_limp(struct bench_scene* scene)
@@ -188,7 +191,7 @@ static bool blow(struct bench_watch* watch)
     wind.velocity[2] = 800;
     return !hair_set_wind(watch->living->hair, &wind) && shake(watch, 2, FRAME);
 }
-// As dense as hair can be: strands in one place, which a crowd would have apart.
+// Use coincident strands, the highest possible density, which the hair-hair grid pushes apart.
 static void crowd(struct bench_scene* scene)
 {
     scene->strands = 64;
@@ -231,7 +234,7 @@ static void have_256(struct bench_scene* scene)
     resize(scene, 256);
 }
 
-// Along the strand, vertex i at `at` of its length.
+// Put vertex i on the straight strand, at the fraction `at` of its length.
 static void put(struct bench_scene* scene, uint32_t i, double at)
 {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -240,7 +243,8 @@ static void put(struct bench_scene* scene, uint32_t i, double at)
         scene->positions[3 * i + k] = (float)(root + at * (tip - root));
     }
 }
-// Hardly farther apart than what the groom takes for one vertex, 1e-5 of the length: of guides it spaces them out.
+// Vertices are hardly farther apart than 1e-5 of the length, below which the groom merges them. The
+// groom spaces the vertices of guides out.
 static void let_three_coincide(struct bench_scene* scene)
 {
     put(scene, 16, 15.0 / 31 + 2e-5);
@@ -251,7 +255,7 @@ static void gather_at_root(struct bench_scene* scene)
     for (uint32_t i = 1; i + 1 < scene->vertices; ++i) put(scene, i, 2e-5 * i);
 }
 
-// Solids ----------------------------------------------------------------------------------------------------
+// Colliders ---------------------------------------------------------------------------------------
 
 static hair_solid ball_at(double x, double y, double z)
 {
@@ -263,7 +267,7 @@ static hair_solid ball_at(double x, double y, double z)
                         .friction = 1};
 }
 
-// A ball comes at 5 m/s, and goes.
+// Move a ball past the hair at 5 m/s.
 static bool sweep(struct bench_watch* watch)
 {
     if (!stay(watch, 2, FRAME)) return false;
@@ -275,7 +279,7 @@ static bool sweep(struct bench_watch* watch)
     return true;
 }
 
-// The middle of the strand is in a ball, which leaves it a second to come out.
+// Start with the middle of the strand inside a ball. The strand has a second to come out.
 static bool start_inside(struct bench_watch* watch)
 {
     watch->solids[0] = ball_at(0.1 + 0.15 * cos(BENCH_PI / 6), -0.15 * sin(BENCH_PI / 6) - 0.01, 0.005);

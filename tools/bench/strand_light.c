@@ -1,4 +1,4 @@
-// strand_light.c - light past strands, by rays and by layers.
+// strand_light.c - Light that reaches strands, by rays and by layers.
 #include "tools/bench/strand_light.h"
 
 #include <math.h>
@@ -52,11 +52,11 @@ void bench_strands_free(struct bench_strands* strands)
 
 // Rays ------------------------------------------------------------------------------------------------------------
 
-// Segments by the cells across the light that they cross, cell after cell.
+// Segments sorted by the cells of a grid perpendicular to the light.
 struct cells {
     uint32_t size[2];
     float side;
-    uint32_t* first; // one more than there are
+    uint32_t* first; // one more than cells
     uint32_t* segment;
 };
 
@@ -71,7 +71,8 @@ static void range_of(const struct bench_strands* s, const struct cells* cells, s
     }
 }
 
-// Counts first, then fills: each segment by its box, which is not much larger where segments are short.
+// Count the segments of each cell, or fill the cells in a second pass. A segment's bounding box is
+// used, which fits short segments well.
 static void sort_segments(const struct bench_strands* s, struct cells* cells, bool fills)
 {
     for (size_t n = 0; n < s->count; ++n)
@@ -102,7 +103,7 @@ static bool make_cells(const struct bench_strands* s, struct cells* cells)
     cells->segment = malloc(((size_t)cells->first[count] + 1) * sizeof *cells->segment);
     if (!cells->segment) return false;
     cells->first[count + 1] = cells->first[count];
-    sort_segments(s, cells, true); // Moves each cell's end to its start, which is that of the one before.
+    sort_segments(s, cells, true); // The second pass moves each cell's end to its start.
     return true;
 }
 
@@ -162,9 +163,9 @@ struct layers {
     float texel;
     int size[2];
     uint32_t count;
-    float depth[MOST_LAYERS + 1]; // where each ends, from the first strand on
-    float* nearest; // of each texel
-    float* opacity; // of each texel and layer, with what is before it
+    float depth[MOST_LAYERS + 1]; // depths of the ends of layers, relative to the first strand
+    float* nearest; // per texel
+    float* opacity; // per texel and layer, cumulative
 };
 
 static long texel_of(const struct layers* layers, float x, float y)
@@ -215,7 +216,7 @@ bool bench_light_by_layers(const struct bench_strands* s, float texel, uint32_t 
     struct layers layers = {.texel = texel, .count = count};
     for (int k = 0; k < 2; ++k) layers.size[k] = 1 + (int)((s->upper[k] - s->lower[k]) / texel);
     for (uint32_t l = 0; l < count; ++l, first *= deeper) layers.depth[l + 1] = layers.depth[l] + first;
-    layers.depth[count] = 1e3f; // The last holds all that is left.
+    layers.depth[count] = 1e3f; // The last layer contains all the rest.
     size_t texels = (size_t)layers.size[0] * (size_t)layers.size[1];
     layers.nearest = malloc(texels * sizeof(float));
     layers.opacity = calloc(texels * count, sizeof(float));

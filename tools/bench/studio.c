@@ -1,4 +1,4 @@
-// studio.c - a haircut on its head before a plain background.
+// studio.c - A haircut on its head in front of a plain background.
 #include "tools/bench/studio.h"
 
 #include "tools/bench/extent.h"
@@ -14,7 +14,7 @@
 
 enum { MESH, DEPTH, AVERAGE };
 
-// GLSL keeps its own lines.
+// clang-format would merge the lines of GLSL.
 // clang-format off
 static const char flat_frag[] =
     "#version 450 core\n"
@@ -148,7 +148,7 @@ void bench_studio_free(struct bench_studio* studio)
     hair_groom_destroy(studio->groom);
     if (studio->shot.samples) hair_targets_delete(&studio->targets);
     hair_shadow_map_delete(&studio->map);
-    glUseProgram(0); // A program that is deleted while current is gone as soon as another is.
+    glUseProgram(0); // A deleted program that is current stays alive until another one is used.
     for (int i = 0; i < 3; ++i) glDeleteProgram(studio->programs[i]);
     glDeleteVertexArrays(2, studio->arrays);
     glDeleteBuffers(2, studio->buffers);
@@ -241,7 +241,8 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     return !result;
 }
 
-// Of what is drawn, not of lines in its place, unless strands fill texels: else the shadow of lines is another.
+// Draw the shadow map with the picture's primitives. Lines replace ribbons only if strands fill
+// texels, because the shadow of thinner lines would differ.
 static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices* camera,
                         const struct hair_matrices* light, uint32_t size)
 {
@@ -290,7 +291,7 @@ static void average_pixels(const struct bench_studio* studio)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Of samples, then of pixels where there are more than the picture's.
+// Average the samples, and then the pixels of a supersampled picture.
 static void average(struct bench_studio* studio, const struct bench_rectangle* part)
 {
     if (studio->timed) bench_timer_start(&studio->timer);
@@ -299,7 +300,8 @@ static void average(struct bench_studio* studio, const struct bench_rectangle* p
     if (studio->timed) bench_timer_stop(&studio->timer);
 }
 
-// What is to be drawn anew: of hair alone, before a background that is there, where it is and where it was.
+// Return the part of the picture to redraw. Without the head, only places with hair now or in the
+// last picture change.
 static struct bench_rectangle part_of(struct bench_studio* studio, const struct hair_matrices* camera)
 {
     uint32_t pixels = studio->size * studio->shot.supersample;
@@ -350,7 +352,7 @@ bool bench_studio_draw(struct bench_studio* studio, double* ms)
 
 bool bench_studio_warm_up(struct bench_studio* studio, double enough)
 {
-    bool ok = bench_studio_draw(studio, NULL); // It compiles what it needs.
+    bool ok = bench_studio_draw(studio, NULL); // compiles shaders
     if (studio->bench->software) return ok;
     for (double start = hair_now(); ok && hair_now() - start < enough; glFinish())
         ok = bench_studio_draw(studio, NULL);

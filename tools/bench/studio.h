@@ -1,5 +1,5 @@
-// studio.h - a haircut on its head before a plain background, drawn as often as is wanted: only hair makes one picture
-// differ from another. What is drawn beside it has no light, so that no noise of shadows gets in.
+// studio.h - A haircut on its head in front of a plain background, drawn repeatedly. Pictures
+// differ only in the hair. The head is drawn unlit, so that its shadows add no noise.
 #ifndef HAIR_TOOLS_BENCH_STUDIO_H
 #define HAIR_TOOLS_BENCH_STUDIO_H
 
@@ -12,24 +12,24 @@
 #define STUDIO_FPS 60
 
 struct bench_rectangle {
-    int lower[2], upper[2]; // pixels, without the upper ones
+    int lower[2], upper[2]; // pixels, upper bounds excluded
 };
 
-// How a picture is taken.
+// Parameters of a picture.
 struct bench_shot {
     hair_look look;
-    hair_view view; // its path and primitive; matrices, lights and level of detail are set elsewhere
-    bool unmapped; // its light has no shadow map
-    bool map_apart; // else it is drawn by the path of the view,
-    hair_path map_path; // not by this one
-    bool map_fits; // it is as coarse as strands are wide, and of lines, which are a texel wide
-    bool has_lod; // else all is drawn
+    hair_view view; // path and primitive, other members are set elsewhere
+    bool unmapped; // disables the light's shadow map
+    bool map_apart; // draws the shadow map by map_path instead of the view's path
+    hair_path map_path; // path of the shadow map if map_apart
+    bool map_fits; // makes the shadow map as coarse as strands are wide, with one-texel lines
+    bool has_lod; // enables `lod`
     hair_lod lod;
-    uint32_t samples; // of a pixel, as OpenGL has them
-    uint32_t supersample; // pixels for one of the picture, in each direction
-    float jitter[2]; // pixels by which the picture moves
-    float shadow_jitter[2]; // texels by which its shadow map does
-    float away; // from what the scene's camera looks at, in its distance
+    uint32_t samples; // OpenGL samples per pixel
+    uint32_t supersample; // pixels drawn for one of the picture, in each direction
+    float jitter[2]; // shift of the picture in pixels
+    float shadow_jitter[2]; // shift of the shadow map in texels
+    float away; // distance to the camera's target, as a multiple of the scene's
 };
 
 struct bench_studio {
@@ -37,18 +37,18 @@ struct bench_studio {
     struct hair_scene scene;
     hair_groom* groom;
     hair_groom_info info;
-    float fewer; // times: than the scene's followers
+    float fewer; // ratio of the scene's number of followers to this one
     hair_instance* hair;
-    uint32_t size; // of a picture, pixels to each side
+    uint32_t size; // pixels per side of a picture
     float transform[16], reach;
     uint32_t frame;
-    bool bare; // the head is not drawn: what no hair is or was before stays as it is,
-    bool goes_on; // while pictures are taken as the last one,
-    struct bench_rectangle drawn; // which may have hair here
-    bool timed; // what is under way is
-    bool counts; // and
-    uint64_t primitives; // that the last picture has of hair, two to a ribbon's segment
-    struct bench_shot shot; // the last that was set
+    bool bare; // disables the head, then pixels without hair keep their content
+    bool goes_on; // the shot has not changed since the last picture
+    struct bench_rectangle drawn; // bounds of the hair in the last picture
+    bool timed; // the current draw is timed
+    bool counts; // enables counting of primitives
+    uint64_t primitives; // triangles of hair in the last picture, two per ribbon segment
+    struct bench_shot shot; // last shot that was set
     struct bench_timer timer;
     struct hair_targets targets;
     struct hair_shadow_map map;
@@ -56,37 +56,43 @@ struct bench_studio {
     uint32_t indices;
 };
 
-// What differs from the scene; 0: nothing.
+// Changes to a scene. 0 keeps the scene's value.
 struct bench_studio_desc {
-    const char* scene; // one that is built in
+    const char* scene; // name of a built-in scene
     uint32_t size, guides, followers, segments;
     hair_solver solver;
     hair_mapping mapping;
     double substep;
 };
 
-// Hung for as long as the scene says. False: bench->sentence says why not.
+// Create the studio and simulate the scene's settling time. Return false after writing the reason
+// to bench->sentence.
 bool bench_studio_make(struct bench* bench, const struct bench_studio_desc* desc, struct bench_studio* out);
 void bench_studio_free(struct bench_studio* studio);
 
-struct bench_shot bench_studio_shot(const struct bench_studio* studio); // as the scene has it: one sample
+// Return the scene's shot with one sample.
+struct bench_shot bench_studio_shot(const struct bench_studio* studio);
 
-// To the next frame. `ms`, which may be NULL: of the simulation. False: the library refused.
+// Simulate the next frame. `ms` receives the time of the simulation and may be NULL. Return false
+// if the library refused.
 bool bench_studio_step(struct bench_studio* studio, double* ms);
 
-// What is drawn next. False: refused, or OpenGL has no memory for it.
+// Set the shot of the next draw. Return false if the library refused or OpenGL has no memory.
 bool bench_studio_set(struct bench_studio* studio, const struct bench_shot* shot);
 
-// All of a picture. `ms`, which may be NULL: of the hair, its shadow map, and what makes pixels of samples.
+// Draw a whole picture. `ms` receives the time of the hair, its shadow map and the resolve of
+// samples, and may be NULL.
 bool bench_studio_draw(struct bench_studio* studio, double* ms);
 
-// A GPU that has had nothing to do, as while pictures are compared or programs compiled, is slow at first: draw for that long, ms.
+// Draw for `enough` ms. A GPU that was idle, for example while programs were compiled, is slow at
+// first.
 bool bench_studio_warm_up(struct bench_studio* studio, double enough);
 
-// The median of some draws.
+// Measure several draws.
 bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out);
 
-// Add the picture, the lower row first: linear light and how much of the pixel is hair.
+// Add the picture to `rgba`, bottom row first, as linear light and the fraction of the pixel that
+// hair covers.
 bool bench_studio_add(struct bench_studio* studio, double* rgba);
 
 #endif

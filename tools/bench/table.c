@@ -1,12 +1,15 @@
-// table.c - the suite `table`: the eight cells of the performance table of Tariq 2010, beside its figures, which are those
-// of a GTX 480 in 2010. Frames are timed as a viewer would see them: from the first call to glFinish, many at a time.
+// table.c - Suite `table`, the eight cells of the performance table of Tariq 2010 next to the
+// paper's figures, which are from a GTX 480 in 2010. Times are measured as a viewer sees them, from
+// the first call to glFinish, over many frames.
 //
-// A cell that draws has all that a frame of hair needs: followers led round solids, shadow map, light, colour, and pixels of
-// samples; no head. What of the picture neither is nor was in reach of hair is not cleared again: on an H200, which clears
-// 55 GB/s, that took more than far hair does. Near by nothing has a level of detail. Far away all that has one uses it, as
-// in the paper: fewer, wider strands of fewer segments, in a shadow map that is as much smaller as the picture of the hair
-// is, and a simulation of as few substeps as there may be; the paper's left out whole frames. How far the paper's was it
-// does not say: here so far that hair is some 35 pixels high, whatever the size of the picture.
+// A cell that draws includes everything that a frame of hair needs, which is followers pushed out
+// of colliders, shadow map, light, colour and the resolve of samples. The head is not drawn. Pixels
+// that neither contain nor contained hair are not cleared again, because clearing the whole picture
+// could take longer than drawing distant hair. Near hair has no level of detail. Distant hair uses
+// every level of detail, as in the paper. It has fewer, wider strands with fewer segments, a shadow
+// map scaled down like the picture of the hair, and the minimum of substeps. The paper skipped
+// whole frames. The paper does not state its distance. Here the hair is about 35 pixels high for
+// any picture size.
 #include "tools/bench/picture.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
@@ -18,25 +21,25 @@
 
 #define SIZE 720
 #define SIZE_OF_SOFTWARE 256
-#define AWAY 8 // times the near distance, of a picture of SIZE_OF_SOFTWARE
-#define RATE_AWAY 0.0625f // hair_physics.rate
-#define SHOTS 4 // pictures that the far one is compared by
+#define AWAY 8 // factor of the near distance, for a picture of SIZE_OF_SOFTWARE
+#define RATE_AWAY 0.0625f // value of hair_physics.rate
+#define SHOTS 4 // pictures that the distant comparison averages
 #define WIND 2 // m/s
-#define RATE 60 // frames per second of the hair's own time
+#define RATE 60 // frames per second of simulated time
 
 static const char* const columns[] = {"case",      "method",  "solver",        "path",   "strands",
                                       "guides",    "size",    "samples",       "away",   "frames",
                                       "runs",      "ms",      "ms_min",        "ms_max", "fps",
                                       "paper_fps", "to_near", "paper_to_near", "flip",   NULL};
 
-// A column of the table, and more for how hair is simulated and drawn when nobody asks for anything else, and by the path
-// that is the fastest here. The second
-// had no tessellator, was simulated by stream output, and had no levels of detail.
+// A column of the table. Further columns use the default settings and the fastest path of this
+// driver. In the paper, the second column had no tessellator, was simulated by stream output, and
+// had no level of detail.
 static const struct way {
     const char* name;
     hair_solver solver;
     hair_path path;
-    double paper[4]; // fps, by cell; 0: it has none
+    double paper[4]; // fps by cell, 0 if there is none
     hair_mapping mapping;
 } ways[] = {
     {"tessellation, compute",
@@ -71,7 +74,7 @@ struct column {
     const struct way* way;
     struct bench_studio studio;
     bool alive, refused;
-    double near_fps; // 0: not measured
+    double near_fps; // 0 until measured
 };
 
 static bool need(struct bench* bench, struct column* column)
@@ -114,7 +117,7 @@ static bool run_frames(struct bench_studio* studio, const struct cell* cell, uin
     return true;
 }
 
-// The i-th of pictures whose samples lie elsewhere in pixels (Roberts 2018).
+// Set the i-th sample offset of a sequence of pictures (Roberts 2018).
 static void shift(struct bench_shot* shot, int i)
 {
     shot->jitter[0] = fmodf(0.7548777f * (float)i, 1) - 0.5f;
@@ -133,8 +136,8 @@ static bool take(struct bench_studio* studio, struct bench_shot* shot, struct be
     return ok;
 }
 
-// FLIP of the picture far away with levels of detail, from the one without: the means of some pictures each, since with the
-// samples of one what differs most is which strands they hit.
+// Compute FLIP between the distant pictures with and without level of detail. Each is the mean of
+// several pictures, because single pictures differ most in the strands that their samples hit.
 static bool compare_far(struct bench_studio* studio, const struct bench_shot* shot, double* flip)
 {
     struct bench_picture picture[2] = {{0}};
@@ -201,7 +204,8 @@ static bool run_cell(struct bench* bench, struct column* column, const struct ce
     shot.has_lod = cell->is_far;
     if (!set_rate(&column->studio, cell->is_far ? RATE_AWAY : 1)) return false;
     if (!bench_studio_set(&column->studio, &shot)) return false;
-    if (!run_frames(&column->studio, cell, 2, &ms[0])) return false; // They compile what they need.
+    // The first frames compile shaders.
+    if (!run_frames(&column->studio, cell, 2, &ms[0])) return false;
     for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
          passed = hair_now() - start)
         if (!run_frames(&column->studio, cell, frames, &ms[runs++])) return false;

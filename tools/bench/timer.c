@@ -1,4 +1,4 @@
-// timer.c - spans of OpenGL's time, and the median of many.
+// timer.c - Timed spans of OpenGL commands, and the median of many.
 #include "tools/bench/timer.h"
 
 #include "tools/common/stats.h"

@@ -1,11 +1,11 @@
-// truth.c - the mean of many pictures that are shifted by parts of a pixel.
+// truth.c - Mean of many pictures that are shifted by fractions of a pixel.
 #include "tools/bench/truth.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
-#define MOST_PIXELS 2048 // to each side of what is drawn at once
+#define MOST_PIXELS 2048 // maximum pixels per side drawn at once
 
 bool bench_truth_make(uint32_t size, struct bench_truth* out)
 {
@@ -28,8 +28,9 @@ uint32_t bench_most_samples(void)
     return (uint32_t)most;
 }
 
-// Even over the square, any number of them (Roberts 2018: multiples of powers of the plastic number), each followed by
-// its opposite: a picture that is shifted as a whole differs more than one that is a little noisy.
+// Compute the i-th shift. Any number of shifts is evenly distributed over the square (Roberts 2018,
+// multiples of powers of the plastic number). Each shift is followed by its opposite, because a
+// shift of the whole mean is worse than a little noise.
 static void jitter(uint32_t i, float size, float out[2])
 {
     const double step[2] = {0.7548776662466927, 0.5698402909980532};
@@ -39,7 +40,7 @@ static void jitter(uint32_t i, float size, float out[2])
     }
 }
 
-// Every second pair of the pictures.
+// Sum every second pair of the pictures.
 static bool take_half(struct bench_studio* studio, uint32_t half, struct bench_shot* shot, uint32_t pictures,
                       float shadow_texels, struct bench_picture* out)
 {

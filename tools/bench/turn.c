@@ -1,5 +1,6 @@
-// turn.c - rows of the suite `lod`: how calm hair is while its head turns slowly. What successive pictures differ by is
-// compared with what those of the truth do, whose samples are so many that only motion is left.
+// turn.c - Rows of the suite `lod`, temporal stability of hair on a slowly turning head. The
+// difference between successive pictures is compared with that of the truth, whose many samples
+// leave only motion.
 #include "tools/bench/truth.h"
 #include "tools/bench/turn.h"
 
@@ -9,15 +10,16 @@
 
 #define SIZE 256
 #define STRANDS_OF_720                                                                                       \
-    18000 // of the scene, in a picture so high; fewer in a smaller one, as wide on its pixels
-#define SPEED 30 // degrees a second: half of one a frame
-#define RUN_UP 60 // frames until hair follows
+    // Strands of the scene for a picture 720 pixels high, proportionally fewer for smaller ones.
+    18000
+#define SPEED 30 // degrees per second, half a degree per frame
+#define RUN_UP 60 // frames until the hair follows
 #define FRAMES 9
 #define FRAMES_OF_QUICK 3
 #define SAMPLES 1024
-#define TEXELS 1 // by which the truth's shadow maps are shifted
+#define TEXELS 1 // texels by which the truth's shadow maps are shifted
 
-// As pictures are drawn. Those of one shadow have one truth.
+// Drawing methods. Methods with the same shadow have one truth.
 static const struct way {
     const char* method;
     hair_shadow shadow;
@@ -39,10 +41,11 @@ static const struct way {
 
 #define WAYS (sizeof ways / sizeof *ways)
 
-// A frame and the one before, and sums over all pairs of them.
+// The current and the previous frame, and sums over all pairs of frames.
 struct record {
     struct bench_picture picture[2];
-    double flip, most, off, ms; // most: of the ratio to the truth's; off: from the truth itself
+    // `most` is the maximum ratio to the truth's difference, `off` the difference from the truth.
+    double flip, most, off, ms;
 };
 
 struct turn {
@@ -50,8 +53,8 @@ struct turn {
     struct bench_studio studio;
     bool wanted[WAYS];
     struct record record[WAYS];
-    struct bench_truth truth[2][2]; // of a shadow: a frame and the one before
-    double flip[2], halves[2]; // of a shadow, sums: the truth's, and the mean of its halves'
+    struct bench_truth truth[2][2]; // per shadow, the current and the previous frame
+    double flip[2], halves[2]; // per shadow, sums for the truth and for the mean of its halves
     uint32_t pairs;
 };
 
@@ -62,7 +65,8 @@ static bool is_wanted(struct turn* turn, hair_shadow shadow)
     return false;
 }
 
-// At an even speed from the second key to the third, facing the camera's way in the middle of that.
+// Make the studio. The head turns at constant speed from the second key to the third, towards the
+// camera.
 static bool make(struct turn* turn)
 {
     uint32_t whole = turn->bench->options.quick ? SIZE / 2 : SIZE;
@@ -120,7 +124,7 @@ static bool differ(const struct bench_picture* where, const struct bench_picture
     return true;
 }
 
-// Where hair is in either of two frames.
+// Make the mask of hair in either of two frames.
 static bool cover_both(struct bench_picture* now, const struct bench_picture* before)
 {
     size_t pixels = (size_t)now->size * now->size;

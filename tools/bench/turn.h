@@ -1,4 +1,4 @@
-// turn.h - rows of a head that turns slowly: how much its hair flickers.
+// turn.h - Rows of a slowly turning head, whose hair should not flicker.
 #ifndef HAIR_TOOLS_BENCH_TURN_H
 #define HAIR_TOOLS_BENCH_TURN_H
 

@@ -1,17 +1,18 @@
-// versus.c - lines a pixel wide against what is as wide as it should be, at equal run time.
+// versus.c - Lines one pixel wide against ribbons of the correct width, at equal run time.
 #include "tools/bench/versus.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// What a machine does beside moves times of rows, taken minutes apart, by a quarter; of two taken in turn it moves both.
-#define CLOSE 0.3 // of the time of lines
-#define MOST_ROUNDS 15 // odd: one of two has won more of them
-#define DECISIVE 5 // rounds by which one leads
-#define CLEAR 0.1 // A round in which they are farther apart
-#define CLEARLY 3 // counts as so many.
+// Other load changes the times of rows that are measured minutes apart by about a quarter. It
+// changes two alternating measurements equally.
+#define CLOSE 0.3 // relative difference to the time of lines that counts as close
+#define MOST_ROUNDS 15 // odd, so that one of the two wins
+#define DECISIVE 5 // lead in rounds that decides
+#define CLEAR 0.1 // relative difference that makes a round clear
+#define CLEARLY 3 // weight of a clear round
 #define WARM 50 // ms
-#define SURE 1.05 // times the time of what was the slower one in turn
+#define SURE 1.05 // factor of the time of slower ribbons, beyond which others are skipped
 
 bool bench_versus_add(struct bench_versus* versus, const struct bench_contender* contender)
 {
@@ -37,14 +38,14 @@ static bool is_of_lines(const struct bench_contender* contender)
     return contender->shot.view.primitive == HAIR_LINES;
 }
 
-// Once: it is what is taken beside it, and how often, that makes it sure.
+// Draw once. The alternation and the number of rounds make the comparison reliable.
 static bool take(struct bench_studio* studio, const struct bench_contender* contender, double* ms)
 {
     return bench_studio_set(studio, &contender->shot) && bench_studio_warm_up(studio, WARM) &&
            bench_studio_draw(studio, ms);
 }
 
-// Which is the slower of two that are taken in turn, more often than not.
+// Find out whether `one` is slower than `other` in most of the alternating rounds.
 static bool takes_longer(struct bench_studio* studio, const struct bench_contender* one,
                          const struct bench_contender* other, bool* longer)
 {
@@ -65,7 +66,8 @@ static int by_error(const void* a, const void* b)
     return (x->flip > y->flip) - (x->flip < y->flip);
 }
 
-// Those of least error come first, so the first that takes no longer is the best.
+// Compare lines with the ribbons that take no longer. Contenders are sorted by error, therefore the
+// first such ribbons are the best.
 static bool settle(struct bench_versus* versus, struct bench_studio* studio,
                    const struct bench_contender* lines)
 {

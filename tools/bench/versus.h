@@ -1,4 +1,4 @@
-// versus.h - lines a pixel wide against what is as wide as it should be, at equal run time.
+// versus.h - Lines one pixel wide against ribbons of the correct width, at equal run time.
 #ifndef HAIR_TOOLS_BENCH_VERSUS_H
 #define HAIR_TOOLS_BENCH_VERSUS_H
 
@@ -7,9 +7,9 @@
 
 struct bench_contender {
     struct bench_shot shot;
-    double ms; // the least: of all it depends least on what else the machine does
+    double ms; // minimum, which other load affects least
     double flip;
-    json_t* row; // held by the suite's rows
+    json_t* row; // owned by the suite's rows
 };
 
 struct bench_versus {
@@ -17,12 +17,13 @@ struct bench_versus {
     size_t count, room;
 };
 
-// False: no memory.
+// Add a contender. Return false if memory runs out.
 bool bench_versus_add(struct bench_versus* versus, const struct bench_contender* contender);
 void bench_versus_free(struct bench_versus* versus);
 
-// Set "to_ribbons" of lines: their error over the least of ribbons that take no longer. Of those whose times are close, which
-// takes longer is settled by taking both in turn. False: OpenGL or the library refused.
+// Set "to_ribbons" of lines, their error over the minimum error of ribbons that take no longer. If
+// two times are close, alternating measurements decide. Return false if OpenGL or the library
+// refused.
 bool bench_versus_settle(struct bench_versus* versus, struct bench_studio* studio);
 
 #endif
