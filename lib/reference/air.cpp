@@ -1,4 +1,4 @@
-// air.cpp - a ball in the wind: potential flow around it, and a wake behind it.
+// air.cpp - Closed-form wind around a ball, as potential flow with a wake behind the ball.
 #include "lib/reference/air.h"
 
 #include <algorithm>
@@ -6,8 +6,12 @@
 
 #include "lib/reference/convert.h"
 
-// Of a body with a drag coefficient C in a wake whose deficit is Gaussian, of standard deviation s radii, momentum is kept if
-// C = 8 (s / (2 r))^2 d (2 - d) for the share d that air has lost in the middle, by Bastankhah and Porte-Agel 2014.
+// Return the fraction d of its speed that air has lost in the middle of a wake with a Gaussian
+// deficit.
+//
+// Momentum is conserved if C = 8 (s / (2 r))^2 d (2 - d) (Bastankhah and Porte-Agel 2014). C is the
+// drag coefficient of the body, s the standard deviation of the deficit, r the body's radius.
+// `width` is s / r.
 static double lost(double drag, double width)
 {
     return 1 - std::sqrt(std::max(1 - drag / (2 * width * width), 0.0));
@@ -21,7 +25,9 @@ void hair_reference_around_ball(const double wind[3], const double place[3], dou
         store(u, out);
         return;
     }
-    // A source and a sink: u + (u - 3 (u.n) n) / (2 r^3), which has no part along n on the ball itself.
+    // The potential flow of a dipole is u + (u - 3 (u.n) n) / (2 r^3). u is the wind, n the
+    // direction from the ball's middle, r the distance in radii. The component along n is 0 on the
+    // ball.
     const Vector3d n = p / r, past = u + (u - 3 * u.dot(n) * n) / (2 * std::pow(std::max(r, 1.0), 3));
     const double x = p.dot(u) / speed, beside = std::sqrt(std::max(p.squaredNorm() - x * x, 0.0));
     const double width = 0.7 + 0.1 * std::max(x, 0.0), still = std::exp(-0.12 * x * x);

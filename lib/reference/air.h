@@ -1,4 +1,5 @@
-/// air.h - air by formulas, in double precision: what tests and benchmarks hold glsl/wind/air.glsl to.
+/// air.h - Closed-form wind in double precision, which tests and benchmarks compare
+/// glsl/wind/air.glsl with.
 #ifndef HAIR_REFERENCE_AIR_H
 #define HAIR_REFERENCE_AIR_H
 
@@ -6,7 +7,7 @@
 extern "C" {
 #endif
 
-/// The wind around a ball, m/s. `place`: from its middle, in its radii.
+/// Compute the wind around a ball, in m/s. `place` is relative to the ball's middle, in its radii.
 void hair_reference_around_ball(const double wind[3], const double place[3], double out[3]);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// continuum.cpp - rods and chains that mathematics has solved.
+// continuum.cpp - Rods and chains with known solutions.
 #include "lib/reference/continuum.h"
 
 #include <Eigen/Core>
@@ -13,7 +13,8 @@ namespace
 
 const double pi = 3.141592653589793;
 
-// The zero of f between a and b, at which its signs differ: halving, until no number lies between.
+// Return the zero of f between a and b, where f has opposite signs. Bisect until no number lies
+// between.
 template <class Function> double zero_between(const Function& f, double a, double b)
 {
     const bool rises = f(a) < 0;
@@ -24,14 +25,15 @@ template <class Function> double zero_between(const Function& f, double a, doubl
     }
 }
 
-// The n-th change of sign above `from`, none of which are nearer to each other than `step`.
+// Return the n-th sign change of f above `from`. Sign changes must be at least `step` apart.
 template <class Function> double zero_above(const Function& f, double from, double step, uint32_t n)
 {
     for (double a = from;; a += step)
         if ((f(a) < 0) != (f(a + step) < 0) && --n == 0) return zero_between(f, a, a + step);
 }
 
-// J of x over (x/2)^order: sum of (-x^2/4)^k / (k! Gamma(order + k + 1)).
+// Return J(x) of the given order over (x/2)^order, the sum of (-x^2/4)^k / (k! Gamma(order + k +
+// 1)) over k.
 double bessel(double order, double x)
 {
     double term = 1 / std::tgamma(order + 1), sum = 0;
@@ -42,7 +44,8 @@ double bessel(double order, double x)
     return sum;
 }
 
-// The angle from straight down, its slope, and what it adds up to, by the distance from the tip.
+// State of a hanging rod at a distance from the tip. The components are the angle from straight
+// down, its derivative, and the integrals of its sine and cosine.
 using curve = Eigen::Vector4d;
 
 curve hang(double gamma, double load, double tip)
@@ -85,15 +88,18 @@ double hair_reference_beam_root(uint32_t n)
     return zero_between(f, (n - 1) * pi, n * pi);
 }
 
-// y'' = ((s + tip L) y')' g  at the distance s from the lower end is Bessel's equation of order 0 in
-// z = 2 w sqrt((s + tip L) / g); the tip's mass moves by y' g = -w^2 y.
+// Let s be the distance from the lower end, y the displacement of a mode, w its angular frequency,
+// g gravity and L the length. The equation of motion is -w^2 y = g ((s + tip L) y')'. It is
+// Bessel's equation of order 0 in z = 2 w sqrt((s + tip L) / g). The mass at the tip requires g y'
+// = -w^2 y at s = 0.
 double hair_reference_chain_frequency(uint32_t n, double length, double gravity, double tip)
 {
     const double unit = std::sqrt(gravity / length);
     if (tip == 0) return unit * hair_reference_bessel_zero(0, n) / 2;
     const auto f = [&](double w) {
         const double low = 2 * w * std::sqrt(tip), high = 2 * w * std::sqrt(1 + tip);
-        // y = a J0 + b Y0, 0 at the upper end; dy/ds = (dy/dz) w / sqrt(tip) in units of length and gravity.
+        // y = a J0(z) + b Y0(z) with y = 0 at the upper end. dy/ds = (dy/dz) w / sqrt(tip) in units
+        // of length and gravity.
         const double a = y0(high), b = -j0(high);
         return -(a * j1(low) + b * y1(low)) / std::sqrt(tip) + w * (a * j0(low) + b * y0(low));
     };
@@ -103,10 +109,11 @@ double hair_reference_chain_frequency(uint32_t n, double length, double gravity,
 double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double* lengths,
                                         const double* masses, double gravity)
 {
-    std::vector<double> tension(links + 1, 0.0); // over length, of the link above each mass
+    std::vector<double> tension(links + 1, 0.0); // tension over length of the link above each mass
     double weight = 0;
     for (uint32_t i = links; i-- > 0;) tension[i] = (weight += masses[i] * gravity) / lengths[i];
-    // Eigenvalues of K y = w^2 M y below w^2 are as many as pivots of K - w^2 M below 0 (Sylvester).
+    // The number of eigenvalues of K y = lambda M y below w^2 is the number of negative pivots of K
+    // - w^2 M (Sylvester). K is the stiffness matrix, M the mass matrix.
     const auto short_of = [&](double w) {
         uint32_t below = 0;
         double pivot = 1;
@@ -122,21 +129,24 @@ double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double
     return zero_between(short_of, 0, high);
 }
 
-// From the tip the angle from straight down, a, grows as a'' = (gamma s + load) sin a, by as much as e^60 on
-// the way to the clamp: what is sought is the logarithm of tan(a / 2) at the tip.
+// The angle a from straight down at the distance s from the tip satisfies a'' = (gamma s + load)
+// sin a. It grows by up to e^60 from the tip to the clamp, therefore the unknown is the logarithm
+// of tan(a / 2) at the tip.
 struct hair_reference_elastica hair_reference_elastica(double gamma, double load, double angle)
 {
     const double clamp = pi / 2 - angle;
     const auto tip = [](double y) { return 2 * std::atan(std::exp(y)); };
     const auto f = [&](double y) { return hang(gamma, load, tip(y))[0] - clamp; };
-    // No load lets the angle grow by more than e^(length sqrt(load)) (2/3 of it by the weight).
+    // A load P lets the angle grow by at most a factor of e^(length sqrt(P)). The weight lets it
+    // grow by at most 2/3 of that exponent.
     const double from = std::log(clamp) - 5 - std::sqrt(gamma + load);
     const double y = zero_above(f, from, 0.5, 1);
     const curve c = hang(gamma, load, tip(y));
     return {c[2], c[3], pi / 2 - tip(y)};
 }
 
-// Half the chain is a sinh(s / a) = 1/2 with a its lowest tension over its weight.
+// Half the chain satisfies a sinh(s / a) = 1/2. a is the lowest tension over the weight per length,
+// s half the span.
 struct hair_reference_catenary hair_reference_catenary(double span)
 {
     const auto f = [&](double x) { return std::sinh(x) * span - x; }; // x = span / (2 a)
@@ -144,7 +154,8 @@ struct hair_reference_catenary hair_reference_catenary(double span)
     return {a * (std::cosh(x) - 1), std::atan(std::sinh(x)), a * std::cosh(x)};
 }
 
-// The links' slopes are the weight between their middle and the chain's over the horizontal tension.
+// The slope of a link is the weight between its middle and the chain's middle over the horizontal
+// tension.
 struct hair_reference_catenary hair_reference_catenary_of_links(double span, uint32_t links)
 {
     const double length = 1.0 / links;

@@ -1,5 +1,5 @@
-/// continuum.h - what is known of rods and chains without simulating them: closed forms, and equations of one
-/// variable solved to ten digits. None of it shares code with rod.h, which is tested against it.
+/// continuum.h - Known solutions for rods and chains, in closed form or from equations of one
+/// variable solved to ten digits. The code is independent of rod.h, which is tested against it.
 #ifndef HAIR_REFERENCE_CONTINUUM_H
 #define HAIR_REFERENCE_CONTINUUM_H
 
@@ -11,19 +11,24 @@ extern "C" {
 
 // continuum.cpp ---------------------------------------------------------------------------------------------
 
-/// The n-th positive zero, from 1, of the Bessel function J of an order above -1. Zeros to 20.
+/// Return the n-th positive zero, counted from 1, of the Bessel function J of an order above -1.
+/// Zeros up to 20 are supported.
 double hair_reference_bessel_zero(double order, uint32_t n);
-/// Arithmetic-geometric mean.
+/// Return the arithmetic-geometric mean.
 double hair_reference_agm(double a, double b);
-/// Period of a pendulum of this amplitude, rad, [0, pi), as a multiple of that of small swings.
+/// Return the period of a pendulum of this amplitude, in rad, [0, pi), as a multiple of the period
+/// of small swings.
 double hair_reference_pendulum_period(double amplitude);
-/// n-th root b L, from 1, of a beam clamped at one end: cosh cos = -1. It swings at b^2 sqrt(B / rho A).
+/// Return the n-th root b L, counted from 1, of cosh(b L) cos(b L) = -1 for a beam clamped at one
+/// end. The beam's angular frequency is b^2 sqrt(B / (rho A)). L is the length, B the bending
+/// stiffness, rho A the mass per length.
 double hair_reference_beam_root(uint32_t n);
 
-/// Angular frequency of the n-th small swing, from 1, of a hanging chain without stiffness, at whose tip hangs
-/// `tip` times its own mass.
+/// Return the angular frequency of the n-th small swing, counted from 1, of a hanging chain without
+/// stiffness. The tip carries `tip` times the chain's mass.
 double hair_reference_chain_frequency(uint32_t n, double length, double gravity, double tip);
-/// The same of `links` rods without mass, with point masses at their lower ends.
+/// Return the angular frequency of the n-th small swing of `links` massless rods with point masses
+/// at their lower ends.
 double hair_reference_linkage_frequency(uint32_t n, uint32_t links, const double* lengths,
                                         const double* masses, double gravity);
 
@@ -32,27 +37,32 @@ struct hair_reference_elastica {
     double across, down; ///< From clamp to tip.
     double tip; ///< Angle below the horizontal, rad.
 };
-/// Under its own weight `gamma` and a weight `load` at the tip, clamped `angle` below the horizontal, rad,
-/// (-pi/2, pi/2). Where there are several, the one that hangs lowest.
+/// Return the rest shape under the rod's weight `gamma` and a weight `load` at the tip. The clamp
+/// is `angle` below the horizontal, in rad, (-pi/2, pi/2). If there are several shapes, the lowest
+/// one is returned.
 struct hair_reference_elastica hair_reference_elastica(double gamma, double load, double angle);
 
-/// A chain of unit length and weight between two pins of one height, `span` apart, (0, 1).
+/// Shape of a chain of unit length and weight between two pins of equal height, `span` apart, (0,
+/// 1).
 struct hair_reference_catenary {
     double sag;
     double slope; ///< At the pins, below the horizontal, rad.
-    double tension; ///< There.
+    double tension; ///< At the pins.
 };
+// Return the shape of a continuous chain.
 struct hair_reference_catenary hair_reference_catenary(double span);
-/// Of `links` equal links, even in number, with their weight at their ends.
+/// Return the shape of an even number of `links` equal links with their weight at their ends.
 struct hair_reference_catenary hair_reference_catenary_of_links(double span, uint32_t links);
 
 // linkage.cpp -----------------------------------------------------------------------------------------------
 
-/// Rods without mass hung from each other in a plane, with point masses at their lower ends; angles from
-/// straight down, rad, and their rates. On by `dt` in `steps` of order 16: 100 a second are enough for 4 links
-/// of 0.3 m in all, and 400 for 8. The energy tells.
+/// Advance massless rods that hang from each other in a plane, with point masses at their lower
+/// ends, by `dt`. Angles are from straight down, in rad. `steps` is the number of integration steps
+/// of order 16. 100 steps per second suffice for 4 links of 0.3 m in total, and 400 for 8 links.
+/// The energy indicates the error.
 void hair_reference_linkage_advance(uint32_t links, const double* lengths, const double* masses,
                                     double gravity, double dt, uint32_t steps, double* angles, double* rates);
+// Return the total energy of such a linkage.
 double hair_reference_linkage_energy(uint32_t links, const double* lengths, const double* masses,
                                      double gravity, const double* angles, const double* rates);
 

@@ -1,4 +1,4 @@
-// convert.h - between the structs of shared.h, arrays of doubles, and Eigen.
+// convert.h - Conversion between the structs of shared.h, arrays of doubles, and Eigen.
 #ifndef HAIR_REFERENCE_CONVERT_H
 #define HAIR_REFERENCE_CONVERT_H
 
@@ -34,7 +34,7 @@ static inline void store(const Quaterniond& q, double* out)
     out[0] = q.x(), out[1] = q.y(), out[2] = q.z(), out[3] = q.w();
 }
 
-// Of no length: up.
+// Return the normalized vector, or +y for a vector of length 0.
 static inline Vector3d direction_of(const Vector3d& v)
 {
     return v.norm() > 0 ? Vector3d(v.normalized()) : Vector3d(0, 1, 0);

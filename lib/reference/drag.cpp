@@ -1,4 +1,4 @@
-// drag.cpp - correlations of cylinders in a flow.
+// drag.cpp - Correlations for the drag of cylinders.
 #include "lib/reference/drag.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// fibre.cpp - what one fibre of hair scatters (Marschner et al. 2003; d'Eon et al. 2011), and directions chosen by it.
+// fibre.cpp - Scattering of one hair fibre (Marschner et al. 2003, d'Eon et al. 2011), and
+// importance sampling of directions.
 #include "lib/reference/fibre.h"
 
 #include <algorithm>
@@ -12,13 +13,14 @@ namespace
 const double pi = 3.14159265358979323846;
 const int lobes = 3;
 
-// Longitudinal variance of a lobe as a share of R's, and by how much its scales tilt it, in theirs (Marschner et al. 2003).
+// Longitudinal variance of each lobe as a multiple of R's, and tilt of each lobe as a multiple of
+// the scales' tilt (Marschner et al. 2003).
 const double width_of[lobes] = {1, 0.25, 4}, tilt_of[lobes] = {-1, 0.5, 1.5};
 
 struct table {
     const hair_vec4* values;
 
-    // x along columns and y along rows, both from 0 to 1.
+    // Interpolate a layer at x along columns and y along rows, both from 0 to 1.
     void look_up(double x, double y, int layer, double out[4]) const
     {
         const double column = std::clamp(x, 0.0, 1.0) * (HAIR_FIBRE_COLUMNS - 1),
@@ -41,8 +43,8 @@ struct table {
     }
 };
 
-// Log of the modified Bessel function I0: by its series, and far out by its asymptotic one (Abramowitz and Stegun 1964,
-// 9.6.12 and 9.7.1).
+// Return the logarithm of the modified Bessel function I0. Small x use its power series, large x
+// its asymptotic series (Abramowitz and Stegun 1964, 9.6.12 and 9.7.1).
 double log_bessel(double x)
 {
     double sum = 1, term = 1;
@@ -54,14 +56,15 @@ double log_bessel(double x)
     return x - 0.5 * std::log(2 * pi * x) + std::log(sum);
 }
 
-// Density of the sine of light's angle above the plane across the fibre, for an eye at one (d'Eon et al. 2011).
+// Return the density of the sine of the light's inclination, for a given inclination of the eye
+// (d'Eon et al. 2011). Inclinations are angles from the plane perpendicular to the fibre.
 double longitudinal(double sin_l, double cos_l, double sin_e, double cos_e, double v)
 {
     const double exponent = log_bessel(cos_l * cos_e / v) - (sin_l * sin_e + 1) / v;
     return std::exp(exponent) / (v * (1 - std::exp(-2 / v)));
 }
 
-// What makes that symmetric: fibre.glsl has the fit.
+// Return the factor that makes longitudinal() symmetric. fibre.glsl has the fit.
 double symmetric(double cos_l, double cos_e, double v)
 {
     const double s = v / (v + 0.3);
@@ -86,7 +89,7 @@ angles measure(const Vector3d& tangent, const Vector3d& light, const Vector3d& e
     return a;
 }
 
-// A lobe's own angles: scales turn those of light and eye alike.
+// Inclinations as seen by a lobe. Scales tilt those of light and eye equally.
 struct tilted {
     double sin_l, cos_l, sin_e, cos_e, v;
 
@@ -99,18 +102,20 @@ struct tilted {
     }
 };
 
-// Of a lobe, by column from no turn to half of one: its density, 1/radian, of which the integral over all turns is 1.
+// Return the azimuthal density of a lobe, 1/rad, from interpolated values.
 double share_at(const double share[4], int lobe)
 {
     return lobe < 2 ? share[lobe] : share[2] + share[3];
 }
+// Return the azimuthal density of a lobe, 1/rad, at a table entry. Columns range from azimuth 0 to
+// half a turn.
 double share_of(const hair_vec4& share, int lobe)
 {
     return lobe == 0 ? share.x : lobe == 1 ? share.y : double(share.z) + share.w;
 }
 
 struct row_sums {
-    double upto[HAIR_FIBRE_COLUMNS]; // the integral from no turn to a column
+    double upto[HAIR_FIBRE_COLUMNS]; // integral from azimuth 0 to each column
     double at[HAIR_FIBRE_COLUMNS];
 
     row_sums(const table& t, double half, int lobe)
@@ -125,7 +130,8 @@ struct row_sums {
     }
     double whole() const { return 2 * upto[HAIR_FIBRE_COLUMNS - 1]; }
 
-    // Between columns it is linear.
+    // Return the azimuth at which the integral reaches the fraction `random`. The density is linear
+    // between columns.
     double choose(double random) const
     {
         const double step = pi / (HAIR_FIBRE_COLUMNS - 1), wanted = random * upto[HAIR_FIBRE_COLUMNS - 1];
@@ -165,7 +171,7 @@ double hair_reference_choose(const struct hair_reference_fibre* fibre, const dou
     const table t{fibre->table};
     const Vector3d along = vector_of(tangent), eye = vector_of(to_eye);
     const double sin_e = std::clamp(along.dot(eye), -1.0, 1.0), cos_e = std::sqrt(1 - sin_e * sin_e);
-    // Lobes about as often as they are strong where the eye's cone is mirrored to.
+    // Choose lobes about in proportion to their strength at the mirrored cone of the eye.
     double chosen[lobes], all = 0, x = random[0];
     int lobe = 0;
     for (int p = 0; p < lobes; ++p) all += chosen[p] = row_sums(t, cos_e, p).whole();
@@ -173,7 +179,7 @@ double hair_reference_choose(const struct hair_reference_fibre* fibre, const dou
     while (lobe < lobes - 1 && x >= chosen[lobe]) x -= chosen[lobe++];
     x /= chosen[lobe];
 
-    // d'Eon et al. 2013: along the fibre, about the cone that the eye's would be mirrored to.
+    // Choose the inclination around the mirrored cone of the eye (d'Eon et al. 2013).
     const double v = width_of[lobe] * fibre->variance, by = tilt_of[lobe] * fibre->tilt;
     const double cone = by - std::asin(sin_e);
     const double u = 1 + v * std::log(std::max(x, 1e-12) + (1 - x) * std::exp(-2 / v));
@@ -193,7 +199,8 @@ double hair_reference_choose(const struct hair_reference_fibre* fibre, const dou
         sin_l * along + cos_l * (std::cos(turn) * out + (left ? 1 : -1) * std::sin(turn) * side);
     store(light, to_light);
 
-    // Scales turn what lies at the fibre's ends over to the other side.
+    // Scales tilt directions near the fibre's ends over to the other side, therefore add the
+    // density of all preimages.
     const angles a = measure(along, light, eye);
     const double at = std::asin(a.sin_l), ways[3] = {at, pi - at, -pi - at};
     double share[4], density = 0;

@@ -1,4 +1,4 @@
-// fluid.cpp - air on a staggered grid, in double precision.
+// fluid.cpp - Air on a staggered grid, in double precision.
 #include "lib/reference/fluid.h"
 #include "lib/reference/drag.h"
 
@@ -32,7 +32,7 @@ struct grid {
     {
         return std::all_of(at.begin(), at.end(), [this](double k) { return k >= 0 && k <= n; });
     }
-    // A face there is: along its own axis one more.
+    // Return whether a face exists. Along its own axis there is one more face than cells.
     bool is_face(int axis, const cell& at) const
     {
         cell below = at;
@@ -54,7 +54,8 @@ place middle(int axis, const cell& at)
     return p;
 }
 
-// Linear between the eight around, of points that lie `offset` from the cells' corners, count[k] of them along an axis.
+// Corners and weights of trilinear interpolation. Points lie `offset` from the cells' corners,
+// count[k] of them along axis k.
 struct corners {
     std::array<cell, 8> at;
     std::array<double, 8> weight;
@@ -106,7 +107,7 @@ place way(const hair_reference_flow& flow, const place& p)
     return sum;
 }
 
-// By the midpoint rule.
+// Trace a path by the midpoint rule.
 place trace(const hair_reference_flow& flow, const place& p, double direction)
 {
     const place first = way(flow, p);
@@ -123,7 +124,7 @@ place shifted(const hair_reference_flow& flow, place p, double by)
     return p;
 }
 
-// It, and what is so far from it along some axes, either way.
+// Return p and all points at the distance `far` along any combination of axes and signs.
 std::array<place, 27> around(const place& p, double far)
 {
     std::array<place, 27> all;
@@ -139,7 +140,7 @@ struct range {
     void add(double v) { least = std::min(least, v), most = std::max(most, v); }
 };
 
-// Of each face that there is.
+// Call the function for each existing face.
 template <typename Function> void for_faces(const grid& g, Function function)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -150,7 +151,8 @@ template <typename Function> void for_faces(const grid& g, Function function)
         }
 }
 
-// The sums of the equation of a cell over its six sides: pressure is 0 on the box itself.
+// Sums of a cell's pressure equation over its six sides. The pressure is 0 on the boundary of the
+// box.
 struct row {
     double whole = 0, neighbours = 0;
 
@@ -218,7 +220,7 @@ void hair_reference_correct(const hair_reference_flow* flow, const double* carri
         const place from = trace(*flow, own, -1), to = shifted(*flow, trace(*flow, own, 1), -1);
         const double was = g.holds(own) ? sample(g, flow->before, axis, own) : NAN;
         range better, r;
-        bool ends = !g.holds(own); // nothing is known of how it would come back
+        bool ends = !g.holds(own); // The way back is unknown.
         for (const place& p : around(to, flow->blur)) {
             if (g.holds(own) && g.holds(p))
                 better.add(carried[face] + (was - sample(g, carried, axis, p)) / 2);

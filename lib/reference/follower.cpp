@@ -1,4 +1,4 @@
-// follower.cpp - where a follower is, by the formula that glsl/shared.h gives with its struct.
+// follower.cpp - Position of a follower, by the formula at its struct in glsl/shared.h.
 #include "lib/reference/strand.h"
 
 #include <algorithm>
@@ -8,12 +8,13 @@ namespace
 {
 
 struct place {
-    Vector3d position, tangent, bend; // bend: slope of the tangent by u
+    Vector3d position, tangent, bend; // `bend` is the derivative of the tangent by u
     Quaterniond frame;
-    double length; // of the guide
+    double length; // length of the guide
 };
 
-// Between samples everything is linear; beyond the tip (u > 1) the guide goes on straight.
+// Evaluate a guide at u. Values are linear between samples. Beyond the tip (u > 1) the guide
+// continues straight.
 place find(const hair_reference_sample* samples, uint32_t count, double u)
 {
     const double at = std::min(u, 1.0) * (count - 1);
@@ -36,7 +37,7 @@ struct bezier {
     Vector3d point, slope;
 };
 
-// De Casteljau.
+// Evaluate a curve by de Casteljau's algorithm.
 bezier evaluate(const hair_vec4 control[4], double t)
 {
     Vector3d p[4];
@@ -46,7 +47,8 @@ bezier evaluate(const hair_vec4 control[4], double t)
     return {p[0] + t * (p[1] - p[0]), 3 * (p[1] - p[0])};
 }
 
-// The part of a curve from its start to `share` of it: its control points are what de Casteljau finds on the way.
+// Shorten a curve to the fraction `share`. The new control points are intermediate points of de
+// Casteljau's algorithm.
 void cut(hair_follower& f, double share)
 {
     Vector3d p[4];
@@ -61,7 +63,7 @@ void cut(hair_follower& f, double share)
 
 } // namespace
 
-// A cubic from 0 to 1 over the zone that ends at the hit, flat at both ends.
+// Blend by a cubic from 0 to 1 over the zone that ends at the hit, with slope 0 at both ends.
 void hair_reference_switch(double t, double hit, hair_reference_repair* out)
 {
     const double before = std::max(hit - t, 0.0) / HAIR_SWITCH_ZONE;
@@ -70,7 +72,8 @@ void hair_reference_switch(double t, double hit, hair_reference_repair* out)
     out->freed_slope = before < 1 ? 6 * before * (1 - before) / HAIR_SWITCH_ZONE : 0;
 }
 
-// De Boor's recurrence on the four control points that reach t; the slope is that of a quadratic of their differences.
+// Evaluate the spline by de Boor's recurrence on the four control points around t. The slope is a
+// quadratic spline of their differences.
 void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], double t,
                            hair_reference_repair* out)
 {
@@ -83,7 +86,7 @@ void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], doubl
             const int j = k - 1 + i;
             if (j > 0)
                 d[i] = controls[j][axis];
-            else // At the root nothing is moved; the spline is an odd function there.
+            else // The spline is an odd function at the root, where nothing moves.
                 d[i] = axis == 3 ? controls[0][3] : j < 0 ? -controls[1][axis] : 0;
         }
         double e[3];
@@ -114,7 +117,8 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
     const along width = hair_reference_curve(look->clump_width, v);
     const along single = hair_reference_singleness(*look, v);
 
-    // One guide: its offset. Three: their mean, and a fixed offset of it from where the strand grows.
+    // One guide contributes its offset. Three guides contribute their mean, with a fixed offset
+    // from it at the strand's root.
     const Vector3d aside_one = width.value * offset.point;
     const Vector3d slope_one = width.value * offset.slope + width.slope * offset.point;
     const Vector3d aside_many = Vector3d(own.offset[1].w, own.offset[2].w, own.offset[3].w);

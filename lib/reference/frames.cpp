@@ -1,8 +1,8 @@
-// frames.cpp - frames carried along a guide, one segment after the other.
+// frames.cpp - Parallel transport of frames along a guide, segment by segment.
 #include "lib/reference/convert.h"
 
-// The rotation in the plane of a and b, by the vector half way between them. Opposite vectors have no such
-// plane, and any will do.
+// Return the smallest rotation from a to b, computed from the vector half-way between them.
+// Opposite vectors have no unique plane of rotation, therefore any is used.
 static Quaterniond least_rotation(const Vector3d& a, const Vector3d& b)
 {
     Quaterniond turn;

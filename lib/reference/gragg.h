@@ -1,9 +1,10 @@
-// gragg.h - ordinary differential equations by extrapolation.
+// gragg.h - Solution of ordinary differential equations by extrapolation.
 #ifndef HAIR_REFERENCE_GRAGG_H
 #define HAIR_REFERENCE_GRAGG_H
 
-// y' = f(t, y) over one step. The modified midpoint rule with 2, 4, … 16 parts (Gragg 1965), whose error is a
-// series in the square of the part, extrapolated to no parts: order 16 (Hairer, Nørsett, Wanner 1993, II.9).
+// Integrate y' = f(t, y) over one step. The modified midpoint rule is applied with 2, 4, … 16 parts
+// (Gragg 1965). Its error is a series in the square of the part size, and the result is
+// extrapolated to size 0. The order is 16 (Hairer, Nørsett, Wanner 1993, II.9).
 template <class Vector, class Function>
 Vector gragg_step(const Function& f, double t, const Vector& y, double step)
 {

@@ -1,4 +1,5 @@
-// linkage.cpp - pendulums hung from each other in a plane: Lagrange's equations in their angles.
+// linkage.cpp - Pendulums that hang from each other in a plane, by Lagrange's equations in their
+// angles.
 #include "lib/reference/continuum.h"
 
 #include <Eigen/Dense>
@@ -11,7 +12,7 @@ namespace
 {
 
 struct linkage {
-    VectorXd length, hanging; // hanging: mass below the upper end of a link
+    VectorXd length, hanging; // `hanging` is the mass below the upper end of each link
     double gravity;
 };
 
@@ -26,9 +27,12 @@ linkage linkage_of(uint32_t links, const double* lengths, const double* masses, 
     return l;
 }
 
-// With angles a and rates r
-//   sum_j H_ij l_i l_j (cos(a_i - a_j) r_j' + sin(a_i - a_j) r_j^2) + H_i g l_i sin a_i = 0,
-// where H_ij is the mass that both links move, that below the lower of them.
+// Return the derivative of the state, the angles a and the rates r. Lagrange's equations are
+//
+// sum_j H_ij l_i l_j (cos(a_i - a_j) r_j' + sin(a_i - a_j) r_j^2) + H_i g l_i sin a_i = 0.
+//
+// H_i is the mass below the upper end of link i. H_ij is the mass that both links move, H of the
+// lower one. l_i is the length of link i, g gravity.
 VectorXd slope(const linkage& l, const VectorXd& state)
 {
     const int n = int(l.length.size());

@@ -1,5 +1,5 @@
-// paths.cpp - light among fibres by paths from the eye, with every light looked at from every strand that is met
-// (Kajiya 1986).
+// paths.cpp - Path tracing of light among fibres from the eye, with the direct light of every light
+// at every hit (Kajiya 1986).
 #include "lib/reference/paths.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@ namespace
 {
 
 const double infinity = std::numeric_limits<double>::infinity();
-const int always_on = 4; // Strands that every path may meet.
+const int always_on = 4; // number of hits before Russian roulette can end a path
 
 struct hit {
-    double way; // m
+    double way; // distance, m
     uint32_t segment;
 };
 
-// Segments by the cells of a grid that their boxes touch.
+// Segments sorted by the cells of a grid that their boxes touch.
 class grid
 {
   public:
@@ -54,7 +54,8 @@ class grid
     }
     uint32_t strand(uint32_t segment) const { return segment / (hair_.each - 1); }
 
-    // The first segment that a ray meets of another strand than `own`; or any at all.
+    // Find the first segment of a strand other than `own` that a ray hits, or any such segment if
+    // `any`. Return false if there is none.
     bool meet(const Vector3d& from, const Vector3d& way, uint32_t own, bool any, hit& out) const
     {
         double in = 0, leave = infinity;
@@ -95,7 +96,8 @@ class grid
         return size_t(segment) / (hair_.each - 1) * hair_.each + segment % (hair_.each - 1);
     }
 
-    // Where a ray is nearest to a segment's axis, if it passes within a radius.
+    // Return the distance at which a ray is closest to a segment's axis, or infinity if the ray
+    // misses the segment by more than a radius.
     double crossing(const Vector3d& from, const Vector3d& way, uint32_t segment) const
     {
         const size_t v = first_vertex(segment);
@@ -136,7 +138,8 @@ class tracer
   public:
     tracer(const hair_reference_hair& hair, uint64_t seed) : hair_(hair), grid_(hair), random_(seed) {}
 
-    // What a ray sees: of all light, and of that which has been scattered once. False: no hair.
+    // Trace a ray and add its radiance, in total and scattered once. Return false if the ray hits
+    // no hair.
     bool look(Vector3d from, Vector3d way, hair_reference_glow& sum)
     {
         double left[HAIR_REFERENCE_MOST_COLORS],
@@ -183,7 +186,7 @@ class tracer
         }
     }
 
-    // Chooses where light comes from next, and takes what is lost on the way. False: the path ends.
+    // Choose the next direction and attenuate the path. Return false if the path ends.
     bool go_on(const Vector3d& tangent, const Vector3d& to_eye, int met, double* left, Vector3d& way)
     {
         const double random[3] = {next(), next(), next()};

@@ -1,4 +1,4 @@
-/// paths.h - light among fibres of hair by the paths that it takes from strand to strand, in double precision.
+/// paths.h - Path tracing of light among hair fibres, in double precision.
 #ifndef HAIR_REFERENCE_PATHS_H
 #define HAIR_REFERENCE_PATHS_H
 
@@ -8,35 +8,37 @@
 extern "C" {
 #endif
 
-#define HAIR_REFERENCE_MOST_COLORS 16 ///< Channels, three to a colour as one sees it.
+#define HAIR_REFERENCE_MOST_COLORS 16 ///< Channels, three per RGB colour.
 #define HAIR_REFERENCE_MOST_LIGHTS 8
 
-/// Strands of one radius that are straight between vertices. One scatters light as one fibre does, from where a ray passes
-/// nearest to its axis, and does not hide itself.
+/// Strands of one radius that are straight between vertices. A strand scatters light as one fibre
+/// does, at the point of its axis closest to the ray. It does not occlude itself.
 struct hair_reference_hair {
-    const float* positions; ///< count * each * 3, from root to tip. m.
+    const float* positions; ///< count * each * 3 numbers from root to tip, m.
     uint32_t count;
-    uint32_t each; ///< Vertices.
+    uint32_t each; ///< Vertices per strand.
     double radius; ///< m.
     struct hair_reference_fibre fibre;
-    const double* mu; ///< Per colour: absorption per radius.
+    const double* mu; ///< Absorption per radius of each colour.
     uint32_t colors;
-    const double* to_light; ///< Per light 3: unit, towards it. Far off, of irradiance 1.
+    /// Unit vectors towards distant lights of irradiance 1, 3 numbers per light.
+    const double* to_light;
     uint32_t lights;
-    double sky; ///< Radiance on all sides.
+    double sky; ///< Radiance of a uniform sky.
 };
 
-/// Of all rays that meet hair.
+/// Results over all rays that hit hair.
 struct hair_reference_glow {
-    uint64_t met; ///< Rays.
-    /// Mean radiance of each light and colour; that of the sky is in the first light's.
+    uint64_t met; ///< Number of rays that hit hair.
+    /// Mean radiance per light and colour. The first light includes the sky.
     double often[HAIR_REFERENCE_MOST_LIGHTS][HAIR_REFERENCE_MOST_COLORS];
     double once[HAIR_REFERENCE_MOST_LIGHTS]
-               [HAIR_REFERENCE_MOST_COLORS]; ///< Of light that one strand has scattered.
+               [HAIR_REFERENCE_MOST_COLORS]; ///< Part scattered by one strand only.
     double error[HAIR_REFERENCE_MOST_LIGHTS][HAIR_REFERENCE_MOST_COLORS]; ///< Standard error of `often`.
 };
 
-/// Of rays from `from` on along `way`, 3 each, ways unit. seed: any.
+/// Trace rays from `from` along the unit vectors `way`, 3 numbers each. `seed` is the seed of the
+/// random numbers.
 void hair_reference_paths(const struct hair_reference_hair* hair, const double* from, const double* way,
                           uint64_t rays, uint64_t seed, struct hair_reference_glow* out);
 

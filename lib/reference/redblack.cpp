@@ -1,8 +1,11 @@
-// redblack.cpp - one guide through the substeps of Tariq 2010, "Hair", stage by stage.
+// redblack.cpp - Substeps of one guide as in Tariq 2010, "Hair", stage by stage.
 //
-//   x' = x + keep d + g dt^2 - D      Verlet: d the displacement of the last substep, D that of the head,
-//                                     since positions are from the head's origin
-//   p' = p + (k / (1 + k)) (a - p)    a spring of angular frequency w to a, taken implicitly; k = (w dt)^2
+// The Verlet step is x' = x + keep d + g dt^2 - D. x is the position relative to the head's origin,
+// d the displacement of the last substep, D the displacement of the head, g gravity, dt the
+// substep.
+//
+// The implicit pull is p' = p + (k / (1 + k)) (a - p) with k = (w dt)^2. w is the angular frequency
+// of a spring to the target a.
 #include "lib/reference/convert.h"
 
 #include <cmath>
@@ -11,7 +14,7 @@
 namespace
 {
 
-// Pinned by the scalp: the first segment keeps its direction too.
+// Number of vertices pinned to the scalp. The first segment keeps its direction too.
 const uint32_t pinned = 2;
 
 struct strand {
@@ -42,7 +45,8 @@ Vector3d pull(const Vector3d& p, const Vector3d& aim, double squared_frequency, 
     return (p + k * aim) / (1 + k);
 }
 
-// Tariq 2010, figure 10: both ends by half of what the link is too long or too short by; a pinned end stays.
+// Move both ends of a link by half of its length error (Tariq 2010, figure 10). A pinned end does
+// not move.
 void relax(strand& s, uint32_t a, uint32_t b, double rest_length, double stiffness)
 {
     if (b < pinned) return;
@@ -78,10 +82,10 @@ Vector3d push_out(const Vector3d& p, const hair_capsule& solid, double share, do
 
 bool is_sound(const Vector3d& v)
 {
-    return v.squaredNorm() < 1e8; // False for NaN.
+    return v.squaredNorm() < 1e8; // false for NaN
 }
 
-// The least rotation from unit r to unit e.
+// Return the smallest rotation from the unit vector r to the unit vector e.
 Quaterniond least_rotation(const Vector3d& r, const Vector3d& e)
 {
     const Vector3d axis = r.cross(e);
@@ -89,11 +93,12 @@ Quaterniond least_rotation(const Vector3d& r, const Vector3d& e)
 }
 
 struct angular_moves {
-    Vector3d end, couple; // of vertex i, of vertex i-2; vertex i-1 moves by the opposite of both
+    Vector3d end, couple; // moves of vertices i and i-2, vertex i-1 moves by minus their sum
 };
 
-// Return the gradient of (1 + e.r) / 2 * k/2 |d|^2, where d = x_(i-1) + q a - x_i and q is the least rotation
-// from r to e. glsl/sim/angular.glsl derives it and says why the stiffness is bounded.
+// Return the gradient of (1 + e.r) / 2 * k/2 |d|^2 with d = x_(i-1) + q a - x_i. q is the smallest
+// rotation from r to e, a the arm at rest. glsl/sim/angular.glsl derives the gradient and explains
+// the bound of the stiffness.
 angular_moves angular_force(const strand& s, const hair_rest* rest, const Quaterniond& head, uint32_t i,
                             double k)
 {
@@ -175,8 +180,9 @@ void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* po
             s.put(i, push_out(s[i], g.params->solid[k], share, g.params->margin));
 }
 
-// One substep, and the displacements it made. A strand that is not finite or has left goes back to its rest
-// pose, and along with the head unless that was what went too far.
+// Simulate one substep and compute its displacements. A strand that is not finite or too far away
+// is reset to its rest pose and moves with the head. If the head moved too far, the displacement is
+// 0.
 static void advance(const hair_reference_guide& g, uint32_t substep, hair_reference_vertex* state)
 {
     std::vector<double> moved(3 * g.guide->count);

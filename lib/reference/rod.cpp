@@ -1,4 +1,4 @@
-// rod.cpp - rods come and go, are read and written.
+// rod.cpp - Creation of rods, and access to their state.
 #include "lib/reference/rod_state.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ void set_geometry(hair_reference_rod& rod, const hair_reference_rod_desc& desc)
     rod.target = desc.pull_target ? vectors_of(desc.pull_target, rod.vertices) : rod.x;
 }
 
-// 2 w of joints whose strain, 2 v, is given.
+// Return 2 w of joints with a given strain 2 v.
 std::vector<double> real_of(const std::vector<Vector3d>& strain)
 {
     std::vector<double> real;

@@ -1,8 +1,10 @@
-// rod_dynamics.cpp - a rod in motion. A substep is, in this order and so that it reads alike backwards:
-// half of the damping, half of the forces, motion under the constraints, half of the forces, half of the
-// damping. Constraint forces act along the segments as they were at the substep's start (SHAKE: Ryckaert,
-// Ciccotti, Berendsen 1977), which keeps the second order and the energy; at the end the velocities are
-// made to agree with the lengths (RATTLE: Andersen 1983).
+// rod_dynamics.cpp - Motion of a rod.
+//
+// A substep is symmetric in time. It consists of half of the damping, half of the forces, motion
+// under the constraints, half of the forces and half of the damping, in this order. Constraint
+// forces act along the segments as they were at the start of the substep (SHAKE, Ryckaert,
+// Ciccotti, Berendsen 1977). This preserves the second order and the energy. At the end, velocities
+// are made consistent with the lengths (RATTLE, Andersen 1983).
 #include "lib/reference/rod_state.h"
 
 #include <algorithm>
@@ -11,10 +13,10 @@
 namespace
 {
 
-// The head's way over a frame.
+// Motion of the head over a frame.
 struct journey {
     hair_reference_rod_place from;
-    Vector3d velocity, spin; // spin: rad/s
+    Vector3d velocity, spin; // `spin` is in rad/s
 
     hair_reference_rod_place at(double t) const
     {
@@ -36,7 +38,7 @@ struct tridiagonal {
     std::vector<double> below, diagonal, above, right;
 
     explicit tridiagonal(size_t n) : below(n), diagonal(n), above(n), right(n) {}
-    void solve() // into `right`
+    void solve() // the result replaces `right`
     {
         const size_t n = right.size();
         for (size_t j = 1; j < n; ++j) {
@@ -58,8 +60,8 @@ std::vector<Vector3d> directions(const std::vector<Vector3d>& x)
     return d;
 }
 
-// How the lengths change when the ends of the segments are pushed apart along `along`: the segments
-// themselves point along `now`.
+// Fill the matrix of length changes when the ends of segments are pushed apart along `along`. The
+// segments point along `now`.
 void fill(const hair_reference_rod& rod, const std::vector<Vector3d>& now, const std::vector<Vector3d>& along,
           tridiagonal& t)
 {
@@ -79,7 +81,8 @@ void push(const hair_reference_rod& rod, const std::vector<Vector3d>& along, con
     }
 }
 
-// Move by `step`, corrected so that the lengths are kept. Newton's method.
+// Move by `step`, corrected by Newton's method such that lengths are preserved. Return false if it
+// does not converge.
 bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
 {
     const std::vector<Vector3d> start = rod.x, along = directions(rod.x);
@@ -89,7 +92,8 @@ bool move(hair_reference_rod& rod, std::vector<Vector3d>& step, tridiagonal& t)
         for (uint32_t i = 0; i < rod.vertices; ++i) {
             rod.x[i] = start[i] + step[i];
             farthest = std::fmax(farthest, rod.x[i].cwiseAbs().maxCoeff());
-            sum += rod.x[i].sum(); // Which is not finite if one of them is not; a maximum may be.
+            // A sum with a non-finite term is not finite, but a maximum can be.
+            sum += rod.x[i].sum();
         }
         std::vector<Vector3d> now = directions(rod.x);
         double rounding = 0;
@@ -125,7 +129,8 @@ void accelerate(hair_reference_rod& rod, double dt)
             dt * (rod.gravity + rod.force[i] / rod.masses[i] + rod.pull[i] * (rod.target_of(i) - rod.x[i]));
 }
 
-// Of every segment half at each end, by the air that goes by there.
+// Compute the acceleration by drag. Each end of a segment has half of its drag, by the relative
+// velocity there.
 std::vector<Vector3d> drag_on(const hair_reference_rod& rod, const std::vector<Vector3d>& v)
 {
     std::vector<Vector3d> sum(rod.vertices, Vector3d(0, 0, 0));
@@ -141,7 +146,7 @@ std::vector<Vector3d> drag_on(const hair_reference_rod& rod, const std::vector<V
     return sum;
 }
 
-// By the midpoint rule.
+// Apply drag by the midpoint rule.
 void drag(hair_reference_rod& rod, double dt)
 {
     std::vector<Vector3d> middle = rod.v, by = drag_on(rod, rod.v);
@@ -188,17 +193,19 @@ int hair_reference_rod_advance(hair_reference_rod* rod, const hair_reference_rod
     hair_reference_rod_place to = rod->head;
     if (head) to = {vector_of(head->position), quaternion_of(head->rotation).normalized()};
     if (!advance(*rod, journey_to(rod->head, to, dt), dt, substeps)) return 0;
-    rod->head = to; // Without the rounding of the way there.
+    rod->head = to; // Remove the rounding of the motion.
     return 1;
 }
 
-// The squared frequencies of a chain are at most the largest sum of a row of its stiffness over its mass
-// (Gershgorin). A joint's stiffness k / l^2 acts on the vertices around it as (1, -2, 1) (1, -2, 1)^T.
+// The squared frequencies of a chain are at most the maximum row sum of its stiffness over its mass
+// (Gershgorin). A joint's stiffness k / l^2 acts on the vertices around it as (1, -2, 1) (1, -2,
+// 1)^T.
 double hair_reference_rod_longest_substep(const hair_reference_rod* rod)
 {
     std::vector<double> sums(rod->vertices);
     for (uint32_t i = hair_reference_rod_first_joint(*rod); i < rod->segments(); ++i) {
-        const double k = rod->stiffness[i].maxCoeff(); // Twist bends a curved rod.
+        // Twist bends a curved rod, therefore use the maximum.
+        const double k = rod->stiffness[i].maxCoeff();
         const double row[3] = {i ? 1 / rod->lengths[i - 1] : 0,
                                (i ? 1 / rod->lengths[i - 1] : 0) + 1 / rod->lengths[i], 1 / rod->lengths[i]};
         for (uint32_t a = i ? 0 : 1; a < 3; ++a) sums[i + a - 1] += k * row[a] * (row[0] + row[1] + row[2]);

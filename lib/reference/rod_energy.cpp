@@ -1,4 +1,5 @@
-// rod_energy.cpp - bending and twist of a rod: energy, forces, and the twist at which the energy is least.
+// rod_energy.cpp - Bending and twist of a rod, with energy, forces, and the twist of minimum
+// energy.
 #include "lib/reference/rod_state.h"
 
 #include <cmath>
@@ -15,9 +16,11 @@ Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to)
     return (turn.normalized() * q).normalized();
 }
 
-// Far from the clamp a chain under the tension T that leaves it at an angle straightens by the factor
-// 1/r a segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). Equating its moment at the clamp to the
-// continuous rod's, sqrt(B T) times the angle, gives 1 / (1/p - 1/(1/r - 1)), which is this.
+// A chain under the tension T that leaves the clamp at an angle straightens by the factor 1/r per
+// segment far from the clamp, with r + 1/r = 2 + p^2 and p = l sqrt(T / B). l is the segment
+// length, B the bending stiffness. The continuous rod's moment at the clamp is sqrt(B T) times the
+// angle. Equating the chain's moment to it gives the factor 1 / (1/p - 1/(1/r - 1)), which is this
+// expression.
 double hair_reference_rod_clamp_factor(double length, double weight, double bend)
 {
     if (!(bend > 0)) return 0;
@@ -64,15 +67,16 @@ hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& r
 namespace
 {
 
-// The energy as a function of the angles by which the frames are turned about their segments, to second
-// order: its second derivatives are a tridiagonal matrix.
+// Second-order expansion of the energy by rotations of the frames about their segments. The second
+// derivatives form a tridiagonal matrix.
 struct expansion {
     double energy = 0;
-    std::vector<double> slope, diagonal, beside; // beside[j]: of segments j and j + 1
+    // Off-diagonal second derivatives, beside[j] by segments j and j + 1.
+    std::vector<double> slope, diagonal, beside;
 };
 
-// Turning segments i-1 and i by a and b about their y makes of r = (w, v) exp(-y a/2) r exp(y b/2). This
-// changes 2 w by v.y (a - b) - w (a - b)^2 / 4.
+// Expand the energy. If segments i-1 and i rotate by a and b about their y, r = (w, v) becomes
+// exp(-y a/2) r exp(y b/2). This changes 2 w by v.y (a - b) - w (a - b)^2 / 4.
 expansion expand(const hair_reference_rod& rod)
 {
     const uint32_t n = rod.segments();
@@ -89,7 +93,7 @@ expansion expand(const hair_reference_rod& rod)
         e.energy += j.energy;
         e.slope[i] += j.g.dot(by_b) - j.e * j.v.y();
         e.diagonal[i] += by_b.dot(k.cwiseProduct(by_b)) + c;
-        if (i == 0) continue; // The scalp does not turn.
+        if (i == 0) continue; // The scalp does not rotate.
         e.slope[i - 1] += j.g.dot(by_a) + j.e * j.v.y();
         e.diagonal[i - 1] += by_a.dot(k.cwiseProduct(by_a)) + c;
         e.beside[i - 1] += by_a.dot(k.cwiseProduct(by_b)) - of_real -
@@ -98,7 +102,8 @@ expansion expand(const hair_reference_rod& rod)
     return e;
 }
 
-// angles = -(H + shift)^-1 slope. False when H + shift is not positive definite.
+// Compute angles = -(H + shift)^-1 slope. H is the matrix of second derivatives. Return false if H
+// + shift is not positive definite.
 bool solve(const expansion& e, double shift, std::vector<double>& angles)
 {
     const size_t n = e.slope.size();
@@ -135,7 +140,8 @@ void turn_about_segments(std::vector<Quaterniond>& frames, const std::vector<dou
     }
 }
 
-// Newton, and where the energy is not convex, or the step too long, down its slope.
+// Minimize the energy by Newton's method. If the energy is not convex or the step is too long,
+// descend along the slope.
 void settle_twist(hair_reference_rod& rod)
 {
     expansion e = expand(rod);
@@ -143,7 +149,7 @@ void settle_twist(hair_reference_rod& rod)
     std::vector<double> angles(rod.segments());
     if (scale == 0) return;
     for (int iteration = 0; iteration < 100; ++iteration) {
-        // A rod that no clamp keeps from turning about itself has a direction without stiffness.
+        // A rod without a clamp can rotate about itself without resistance.
         double shift = rod.root == HAIR_REFERENCE_ROD_CLAMPED ? 0 : 1e-9 * scale;
         while (!solve(e, shift, angles)) {
             shift = std::fmax(4 * shift, 1e-3 * scale);
@@ -153,7 +159,7 @@ void settle_twist(hair_reference_rod& rod)
         double share = std::fmin(1, 0.5 / step);
         for (const auto from = rod.frames;;) {
             turn_about_segments(rod.frames, angles, share);
-            if (step < 1e-9) return; // Squared, it is nothing.
+            if (step < 1e-9) return; // The squared step is negligible.
             expansion after = expand(rod);
             if (after.energy <= e.energy * (1 + 1e-13) || step * share < 1e-6) {
                 e = std::move(after);
@@ -165,7 +171,7 @@ void settle_twist(hair_reference_rod& rod)
     }
 }
 
-// Force on a segment's end, and its opposite on its start, from the torque on the segment.
+// Add the force of a torque on a segment to its end, and the opposite force to its start.
 void couple(hair_reference_rod& rod, uint32_t segment, const Vector3d& torque)
 {
     const Vector3d link = rod.x[segment + 1] - rod.x[segment];
@@ -174,13 +180,14 @@ void couple(hair_reference_rod& rod, uint32_t segment, const Vector3d& torque)
     rod.force[segment] -= f;
 }
 
-// u = t_i - t_{i-1}.
+// Compute the energy and forces of a straight rod with u = t_i - t_{i-1}. t_i is the unit tangent
+// of segment i.
 void update_straight(hair_reference_rod& rod)
 {
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
         const Vector3d before = along(hair_reference_rod_before(rod, i)), after = along(rod.frames[i]);
         const double k = rod.stiffness[i].x();
-        const Vector3d torque = k * after.cross(before); // -dE / (turn of segment i)
+        const Vector3d torque = k * after.cross(before); // -dE / (rotation of segment i)
         rod.energy += k * (after - before).squaredNorm() / 2;
         couple(rod, i, torque);
         if (i > 0) couple(rod, i - 1, -torque);
@@ -197,8 +204,9 @@ void hair_reference_rod_update(hair_reference_rod& rod)
     rod.energy = 0;
     if (rod.straight) return update_straight(rod);
     settle_twist(rod);
-    // Turning segment i by d changes u by w d' + d' x v and 2 w by -v.d', d' as segment i-1 sees d. With no
-    // torque about the segments, how the frames turn about them as the segments move does not matter.
+    // Rotating segment i by d changes u by w d' + d' x v and 2 w by -v.d'. d' is d in the frame of
+    // segment i-1. There is no torque about the segments, therefore the rotation of frames about
+    // moving segments does not matter.
     for (uint32_t i = hair_reference_rod_first_joint(rod); i < rod.segments(); ++i) {
         const Quaterniond before = hair_reference_rod_before(rod, i);
         const hair_reference_rod_joint j = hair_reference_rod_joint_at(rod, i, before, rod.frames[i]);

@@ -1,4 +1,5 @@
-// rod_shape.cpp - the rest strain that a shape has, and the one that keeps it in its shape under a load.
+// rod_shape.cpp - Rest strain of a shape without load, and rest strain that preserves a shape under
+// load.
 #include "lib/reference/rod_state.h"
 
 namespace
@@ -15,8 +16,8 @@ double real_of(const Quaterniond& before, const Quaterniond& after)
     return std::fabs(2 * (before.conjugate() * after).w());
 }
 
-// The torque of a joint on the segment after it is -(w g + v x g), as the segment before sees it, where 2 w
-// is as at rest. Return the g that gives the torque `wanted`.
+// Return the stress g that gives the torque `wanted`. The torque of a joint on the segment after it
+// is -(w g + v x g) in the frame of the segment before it, if 2 w has its rest value.
 Vector3d stress_for(const Quaterniond& before, const Quaterniond& after, const Vector3d& wanted)
 {
     const Vector3d u = strain_of(before, after), v = u / 2;
@@ -39,9 +40,10 @@ void hair_reference_rod_strain(uint32_t vertices, const double* positions, const
     }
 }
 
-// Cut at joint i, the part beyond is in balance when the joint's torque on it is that of its weight about
-// vertex i, less. Segment by segment from the tip: the torque at its start is that at its end and that of the
-// couple which the load F beyond makes with its length, l t x F.
+// If the rod is cut at joint i, the part beyond it is in balance if the joint's torque is minus the
+// torque of that part's load about vertex i. The torque is accumulated from the tip. The torque at
+// a segment's start is that at its end plus the couple l t x F. F is the load beyond, l the
+// segment's length and t its tangent.
 int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain, double* real)
 {
     hair_reference_rod* rod = hair_reference_rod_create(desc);

@@ -1,4 +1,4 @@
-// rod_state.h - what the files of rod.h share.
+// rod_state.h - Data and functions that the files of rod.h share.
 #ifndef HAIR_REFERENCE_ROD_STATE_H
 #define HAIR_REFERENCE_ROD_STATE_H
 
@@ -15,7 +15,7 @@ struct hair_reference_rod_place {
 
 struct hair_reference_rod {
     uint32_t vertices;
-    std::vector<double> lengths, masses, pull; // pull: squared angular frequency
+    std::vector<double> lengths, masses, pull; // `pull` is the squared angular frequency
     std::vector<Vector3d> target; // in the head's frame
     double bend[2], twist;
     std::vector<double> scale;
@@ -23,13 +23,15 @@ struct hair_reference_rod {
     std::vector<double> rest_real; // 2 w at rest
     bool straight, plain_clamp;
     hair_reference_rod_root root;
-    Quaterniond root_frame; // in the head's frame, as the root's place is:
+    Quaterniond root_frame; // in the head's frame
+    // Position of the root in the head's frame.
     Vector3d arm;
     Vector3d gravity, wind;
     double damping, drag, diameter;
     hair_reference_air air;
 
-    std::vector<Vector3d> stiffness; // per joint: B1, C, B2 over length, times the clamp's factors
+    // Per joint, B1, C and B2 over length, times the clamp's factors.
+    std::vector<Vector3d> stiffness;
 
     hair_reference_rod_place head;
     Vector3d root_velocity;
@@ -46,14 +48,14 @@ struct hair_reference_rod {
     double inverse_mass(uint32_t i) const { return i == 0 && is_held() ? 0 : 1 / masses[i]; }
 };
 
-// A joint's strain and what follows from it: g = dE/du, e = dE/d(2 w).
+// Strain (w, v) of a joint and its derivatives g = dE/du and e = dE/d(2 w) of the energy E.
 struct hair_reference_rod_joint {
     double w;
     Vector3d v, g;
     double e, energy;
 };
 
-// The stiffness of a joint by 2 w: that by the strain about z.
+// Return the stiffness of a joint by 2 w, which equals the stiffness by the strain about z.
 static inline double hair_reference_rod_real_stiffness(const hair_reference_rod& rod, uint32_t joint)
 {
     return rod.stiffness[joint].z();
@@ -65,22 +67,22 @@ static inline Vector3d along(const Quaterniond& q)
                     2 * (q.y() * q.z() + q.w() * q.x()));
 }
 
-// The rotation by the vector v, |v| radians.
+// Return the rotation by the vector v, of |v| radians.
 static inline Quaterniond rotation_by(const Vector3d& v)
 {
     const double angle = v.norm(), share = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
     return Quaterniond(std::cos(angle / 2), share * v.x(), share * v.y(), share * v.z());
 }
 
-// q, turned by the least rotation so that its y is the unit vector `to`.
+// Return q after the smallest rotation that makes its y the unit vector `to`.
 Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to);
 
-// Masses on the clamp, and from them the joints' stiffness.
+// Compute the joints' stiffness, with the clamp's factors from the mass that hangs on it.
 void hair_reference_rod_stiffen(hair_reference_rod& rod);
 
 hair_reference_rod_joint hair_reference_rod_joint_at(const hair_reference_rod& rod, uint32_t i,
                                                      const Quaterniond& before, const Quaterniond& after);
-// From which joints there are: a rod without clamp has none at 0.
+// Return the first joint. A rod without clamp has no joint 0.
 static inline uint32_t hair_reference_rod_first_joint(const hair_reference_rod& rod)
 {
     return rod.root == HAIR_REFERENCE_ROD_CLAMPED ? 0 : 1;
@@ -90,7 +92,7 @@ static inline Quaterniond hair_reference_rod_before(const hair_reference_rod& ro
     return joint ? rod.frames[joint - 1] : rod.scalp();
 }
 
-// Turn the frames along with x, settle their twist, and find `force` and `energy`.
+// Rotate the frames with x, minimize the energy of twist, and compute `force` and `energy`.
 void hair_reference_rod_update(hair_reference_rod& rod);
 
 #endif

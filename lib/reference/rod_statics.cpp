@@ -1,10 +1,11 @@
-// rod_statics.cpp - a rod at rest: where, how firmly, and how it swings about there.
+// rod_statics.cpp - A rod at rest, with its position, stability and modes.
 #include "lib/reference/rod_turns.h"
 
 namespace
 {
 
-// -(H + shift l)^-1 slope, with the least of some shifts that makes it a way down.
+// Return -(H + shift l)^-1 slope with the smallest of some shifts for which it is a descent
+// direction. H is the curvature and l the lengths.
 VectorXd newton_step(const hair_reference_turns& t)
 {
     const double unit = t.stiffest / t.length.maxCoeff();
@@ -16,7 +17,7 @@ VectorXd newton_step(const hair_reference_turns& t)
     return VectorXd::Zero(t.slope.size());
 }
 
-// How many of the eigenvalues of H b = lambda l b are below.
+// Return the number of eigenvalues of H b = lambda l b below `lambda`.
 int eigenvalues_below(const hair_reference_turns& t, double lambda)
 {
     hair_reference_band h = t.curvature;
@@ -24,8 +25,9 @@ int eigenvalues_below(const hair_reference_turns& t, double lambda)
     return h.factor();
 }
 
-// How many of H b = lambda M b are below, M being that of the kinetic energy: vertices beyond two segments
-// move by the turns of both. Twist, without inertia, adds none while it is stable.
+// Return the number of eigenvalues of H b = lambda M b below `lambda`. M is the matrix of the
+// kinetic energy. Vertices beyond two segments move by the rotations of both. Twist has no inertia
+// and adds no eigenvalue while it is stable.
 int squares_below(const hair_reference_rod& rod, const hair_reference_turns& t, double lambda)
 {
     const int n = int(rod.segments());
@@ -38,7 +40,8 @@ int squares_below(const hair_reference_rod& rod, const hair_reference_turns& t, 
         const Matrix3d own = -lambda * beyond * hair_reference_rod_arm(rod, uint32_t(j)).transpose();
         for (int i = 0; i <= j; ++i) h.add(j, i, own * hair_reference_rod_arm(rod, uint32_t(i)));
         h.at(3 * j + 1, 3 * j + 1) +=
-            1e-13 * t.stiffest; // Or a rod free to turn about itself counts at random.
+            // A rod that is free to rotate about itself would count at random otherwise.
+            1e-13 * t.stiffest;
     }
     return h.factor();
 }
@@ -49,12 +52,13 @@ hair_reference_rod_rested hair_reference_rod_rest(hair_reference_rod* rod)
 {
     hair_reference_rod_rested rested = {0, 0, INFINITY};
     if (!rod->is_held()) return rested;
-    hair_reference_rod_turn(*rod, VectorXd::Zero(3 * int(rod->segments())), 0); // To the exact lengths.
+    // Restore the exact lengths.
+    hair_reference_rod_turn(*rod, VectorXd::Zero(3 * int(rod->segments())), 0);
     double last = INFINITY;
     for (; rested.iterations < 2000; ++rested.iterations) {
         const hair_reference_turns t = hair_reference_rod_turns(*rod);
         rested.residual = t.size > 0 ? t.slope.cwiseAbs().maxCoeff() / t.size : 0;
-        // Newton's method doubles the digits until there is only rounding left.
+        // Newton's method doubles the number of correct digits until only rounding is left.
         if (rested.residual < 1e-15 || (rested.residual < 1e-11 && rested.residual >= last / 2)) break;
         last = rested.residual;
         const VectorXd step = newton_step(t);

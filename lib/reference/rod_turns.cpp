@@ -1,4 +1,4 @@
-// rod_turns.cpp - first and second derivatives of a rod's energy by turns of its segments.
+// rod_turns.cpp - First and second derivatives of a rod's energy by rotations of its segments.
 #include "lib/reference/rod_turns.h"
 
 namespace
@@ -18,7 +18,8 @@ void add_slope(hair_reference_turns& t, uint32_t j, const Vector3d& slope)
     t.slope.segment<3>(3 * int(j)) += slope;
 }
 
-// E = -f q y, with f given as the segment sees it: turned by b, y becomes y + b x y + b x (b x y) / 2.
+// Add the energy E = -f.(q y) of a load f in the segment's frame. A rotation by b changes y to y +
+// b x y + b x (b x y) / 2.
 void add_load(hair_reference_turns& t, uint32_t j, const Vector3d& f)
 {
     t.size = std::fmax(t.size, f.norm());
@@ -27,10 +28,11 @@ void add_load(hair_reference_turns& t, uint32_t j, const Vector3d& f)
     t.curvature.add(int(j), int(j), f.y() * Matrix3d::Identity() - (mixed + mixed.transpose()) / 2);
 }
 
-// r = (w, v) becomes exp(-a/2) r exp(b/2) as the segments before and after turn by a and b. To second order
-// that is r + (r b - a r) / 2 - (|a|^2 + |b|^2) r / 8 - a r b / 4, and u twice its vector. 2 w becomes
+// Add the energy of a joint. r = (w, v) becomes exp(-a/2) r exp(b/2) if the segments before and
+// after the joint rotate by a and b. To second order r becomes r + (r b - a r) / 2 - (|a|^2 +
+// |b|^2) r / 8 - a r b / 4. u is twice the vector part. Twice the real part is
 //
-//   2 w + v.(a - b) - (|a|^2 + |b|^2) w / 4 + (w a.b + a.(v x b)) / 2
+// 2 w + v.(a - b) - (|a|^2 + |b|^2) w / 4 + (w a.b + a.(v x b)) / 2.
 void add_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& t)
 {
     const hair_reference_rod_joint j =
@@ -42,19 +44,21 @@ void add_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& 
     const int n = int(i);
     t.energy += j.energy;
     t.size = std::fmax(t.size,
-                       rod.stiffness[i].maxCoeff()); // Strains are good to a share of 1, not of themselves.
+                       // The precision of strains is absolute, not relative.
+                       rod.stiffness[i].maxCoeff());
     add_slope(t, i, by_b.transpose() * j.g - j.e * j.v);
     t.curvature.add(n, n, by_b.transpose() * k * by_b + c);
-    if (i == 0) return; // The scalp does not turn.
+    if (i == 0) return; // The scalp does not rotate.
     add_slope(t, i - 1, by_a.transpose() * j.g + j.e * j.v);
     t.curvature.add(n - 1, n - 1, by_a.transpose() * k * by_a + c);
     const Matrix3d a_r_b = -j.v * j.g.transpose() - j.g * j.v.transpose() + j.g.dot(j.v) * one -
-                           j.w * cross_matrix(j.g); // g (a r b), by a and b
+                           j.w * cross_matrix(j.g); // second derivative of g.(a r b) by a and b
     const Matrix3d mixed = by_a.transpose() * k * by_b - of_real - 0.5 * a_r_b + 0.5 * j.e * by_b;
     t.curvature.add(n, n - 1, mixed.transpose());
 }
 
-// E = k |t_i - t_{i-1}|^2 / 2 = k (1 - t_{i-1} t_i): to each segment the other's tangent is a load.
+// Add the energy of a straight joint, E = k |t_i - t_{i-1}|^2 / 2 = k (1 - t_{i-1}.t_i). For each
+// segment the other's tangent t acts as a load.
 void add_straight_joint(const hair_reference_rod& rod, uint32_t i, hair_reference_turns& t)
 {
     const Quaterniond before = hair_reference_rod_before(rod, i), after = rod.frames[i];
@@ -68,7 +72,7 @@ void add_straight_joint(const hair_reference_rod& rod, uint32_t i, hair_referenc
     t.curvature.add(n, n - 1, -k * y.transpose() * r * y);
 }
 
-// Gravity and pull act on a segment as the sum of what acts on the vertices beyond it.
+// Add gravity and pull. The load on a segment is the sum of the loads on the vertices beyond it.
 void add_loads(const hair_reference_rod& rod, bool is_pulled, hair_reference_turns& t)
 {
     Vector3d load(0, 0, 0);

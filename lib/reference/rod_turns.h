@@ -1,5 +1,6 @@
-// rod_turns.h - a rod's whole energy by small turns of its segments, which leave the lengths alone: what is
-// at rest where it is flat, stable where it curves upwards, and how it swings about there.
+// rod_turns.h - Energy of a rod as a function of small rotations of its segments, which preserve
+// lengths. The slope is 0 at rest, the curvature is positive at a stable rest, and the curvature
+// determines the modes.
 #ifndef HAIR_REFERENCE_ROD_TURNS_H
 #define HAIR_REFERENCE_ROD_TURNS_H
 
@@ -10,38 +11,45 @@
 using Eigen::Matrix3d;
 using Eigen::VectorXd;
 
-// A symmetric matrix, of which only what is at most `width` beside the diagonal is not 0.
+// A symmetric band matrix. Elements farther than `width` from the diagonal are 0.
 struct hair_reference_band {
     int size, width;
-    std::vector<double> values; // Row by row, the lower half: (i, i - width) … (i, i).
+    std::vector<double> values; // lower half row by row, (i, i - width) … (i, i)
 
     hair_reference_band(int n, int w) : size(n), width(w), values(size_t(n) * size_t(w + 1), 0) {}
     double& at(int i, int j) { return values[size_t(i) * size_t(width + 1) + size_t(j - i + width)]; }
     double at(int i, int j) const { return values[size_t(i) * size_t(width + 1) + size_t(j - i + width)]; }
 
-    void add(int i, int j, const Matrix3d& block); // At row 3 i and column 3 j <= 3 i.
-    // To L D L^T in place. Returns how many of D are not positive: as many eigenvalues (Sylvester).
+    // Add a block at row 3 i and column 3 j <= 3 i.
+    void add(int i, int j, const Matrix3d& block);
+    // Factor into L D L^T in place. Return the number of elements of D that are not positive, which
+    // equals the number of such eigenvalues (Sylvester).
     int factor();
-    VectorXd solve(VectorXd right) const; // After factor().
+    // Solve a linear system after factor().
+    VectorXd solve(VectorXd right) const;
 };
 
-// Segment j turned by the vector b as it itself sees it, q_j exp(b), makes of the energy, of bending, twist,
-// gravity and pull, energy + slope b + b curvature b / 2. Three numbers a segment. A straight rod knows no
-// turn about its segments: their curvature is `stiffest`, and nothing else.
+// Second-order expansion of the energy of bending, twist, gravity and pull. If segment j rotates by
+// the vector b in its own frame, to q_j exp(b), the energy becomes energy + slope b + b curvature b
+// / 2. There are three numbers per segment. A straight rod ignores rotations about its segments.
+// Their curvature is `stiffest`, and all other terms are 0.
 struct hair_reference_turns {
     double energy, stiffest;
-    double size; // of the torques that the slope is the rest of: load times length, or B / l
+    double size; // magnitude of the torques that sum to the slope, load times length or B / l
     VectorXd slope, length;
     hair_reference_band curvature;
 };
 
+// Compute the expansion.
 hair_reference_turns hair_reference_rod_turns(const hair_reference_rod& rod);
-// The energy alone.
+// Compute only the energy.
 double hair_reference_rod_potential(const hair_reference_rod& rod);
-// Turn the segments, and carry the vertices along from the root.
+// Rotate the segments by the fraction `share` of `turns`, and move the vertices from the root
+// outwards.
 void hair_reference_rod_turn(hair_reference_rod& rod, const VectorXd& turns, double share);
 
-// How far vertices beyond segment j go per turn of it: the matrix whose product with b is l q (b x y).
+// Return the derivative of the positions of vertices beyond segment j by its rotation. The product
+// of this matrix with b is l q (b x y).
 Matrix3d hair_reference_rod_arm(const hair_reference_rod& rod, uint32_t j);
 
 #endif

@@ -1,4 +1,4 @@
-// self_shadow.cpp - light past hair by a grid of how much of it there is: Beer's law along straight ways.
+// self_shadow.cpp - Light through hair by a density grid, with Beer's law along straight lines.
 #include "lib/reference/self_shadow.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@ namespace
 
 const double most_met = 30;
 
-// Trilinear weight of each corner of the cell that a place, in cells, is in. False: not all of them are in the grid.
+// Compute the trilinear weights of the corners of the cell that contains `place`, in cells. Return
+// false if a corner is outside the grid.
 bool corners_of(const hair_reference_grid& grid, const Vector3d& place, size_t node[8], double weight[8])
 {
     for (int k = 0; k < 8; ++k) {

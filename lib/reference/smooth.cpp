@@ -1,5 +1,5 @@
-// smooth.cpp - a guide smoothed: cubics of Hermite through its vertices, sampled at equal distances along the
-// chords.
+// smooth.cpp - Smoothing of a guide by Hermite cubics through its vertices, sampled at equal
+// distances along the chords.
 #include "lib/reference/convert.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 void hair_reference_slope(const double before[3], const double at[3], const double after[3],
                           double length_before, double length_after, double slope[3])
 {
-    // Newton's divided differences: f[0,1] + (x1 - x0) f[0,1,2].
+    // Newton's divided differences give f[0,1] + (x1 - x0) f[0,1,2].
     const Vector3d first = (vector_of(at) - vector_of(before)) / length_before;
     const Vector3d second = (vector_of(after) - vector_of(at)) / length_after;
     store(first + length_before * (second - first) / (length_before + length_after), slope);
@@ -20,7 +20,7 @@ void hair_reference_hermite(const double a[3], const double slope_a[3], const do
 {
     const Vector3d p0 = vector_of(a), p1 = vector_of(b);
     const Vector3d m0 = length * vector_of(slope_a), m1 = length * vector_of(slope_b);
-    // In powers of w: c0 + c1 w + c2 w^2 + c3 w^3.
+    // The cubic is c0 + c1 w + c2 w^2 + c3 w^3.
     const Vector3d c2 = 3 * (p1 - p0) - 2 * m0 - m1, c3 = 2 * (p0 - p1) + m0 + m1;
     store(p0 + w * (m0 + w * (c2 + w * c3)), position);
     store(m0 + w * (2 * c2 + 3 * w * c3), tangent);
@@ -29,12 +29,13 @@ void hair_reference_hermite(const double a[3], const double slope_a[3], const do
 namespace
 {
 
-// What the smoothed curve goes through.
+// Data of the chords that the smoothed curve interpolates.
 struct chords {
     std::vector<double> positions, directions, slopes, frames, from_root;
 };
 
-// Both ends of the last substep in the head's own frame, between them, and under the head's pose now.
+// Compute the positions at the fraction alpha of the last substep. Both ends are interpolated in
+// the head's frame and placed under the current pose of the head.
 void place(const hair_reference_guide& g, const hair_reference_vertex* state, chords& c)
 {
     const Quaterniond before = quaternion_of(g.params->rotation_before);
@@ -45,7 +46,8 @@ void place(const hair_reference_guide& g, const hair_reference_vertex* state, ch
     for (uint32_t i = 0; i < g.guide->count; ++i) {
         const Vector3d at_end = vector_of(state[i].position);
         const Vector3d at_start =
-            at_end - vector_of(state[i].displacement) + head; // From where the head was then.
+            // The start is relative to the position that the head had then.
+            at_end - vector_of(state[i].displacement) + head;
         const Vector3d own = (1 - alpha) * (before.inverse() * at_start) + alpha * (after.inverse() * at_end);
         store(now * own, &c.positions[3 * i]);
     }
@@ -63,7 +65,8 @@ chords measure(const hair_reference_guide& g, const hair_reference_vertex* state
         store(direction_of(link), &c.directions[3 * i]);
         c.from_root[i + 1] = c.from_root[i] + link.norm();
     }
-    // The ends have neighbours on one side only: the curve leaves them along their segment.
+    // End vertices have a neighbour on one side only, therefore the curve leaves them along their
+    // segment.
     store(vector_of(&c.directions[0]), &c.slopes[0]);
     store(vector_of(&c.directions[3 * segments - 3]), &c.slopes[3 * segments]);
     for (uint32_t i = 1; i < segments; ++i)
@@ -94,7 +97,7 @@ void hair_reference_smooth(hair_reference_guide g, const hair_reference_vertex* 
         store(direction_of(vector_of(sample.tangent)), sample.tangent);
         sample.to_root = s;
         sample.stretch = length / g.rest[j].position.w - 1;
-        // From the segment's frame on, still by the least rotation.
+        // Rotate the segment's frame onto the tangent by the smallest rotation.
         hair_reference_frames(1, sample.tangent, &c.frames[4 * j], sample.frame);
     }
 }

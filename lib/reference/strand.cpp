@@ -1,4 +1,5 @@
-// strand.cpp - curves along a strand, and what strays, kinks and curls, by what hair.h and shared.h say of them.
+// strand.cpp - Curves along a strand, and strays, frizz and curls, as hair.h and shared.h define
+// them.
 #include "lib/reference/strand.h"
 
 #include <Eigen/Dense>
@@ -9,7 +10,7 @@
 namespace
 {
 
-// Jarzynski and Olano 2020, "Hash Functions for GPU Rendering": pcg.
+// Return a hash by pcg (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
 uint32_t hash(uint32_t seed)
 {
     const uint32_t state = seed * 747796405u + 2891336453u;
@@ -27,7 +28,7 @@ double high(uint32_t seed)
     return (hash(seed) >> 16) / 65536.0;
 }
 
-// A cubic by its values and slopes at 0 and 1, in Bernstein's form.
+// Evaluate a cubic with given values and slopes at 0 and 1, in Bernstein form.
 along cubic(double a, double b, double slope_a, double slope_b, double x)
 {
     const double p[4] = {a, a + slope_a / 3, b - slope_b / 3, b};
@@ -47,7 +48,7 @@ double at_end(double rise, double next)
     return slope * rise > 0 ? slope : 0;
 }
 
-// De Boor's recurrence on the random control points around t.
+// Evaluate a random spline by de Boor's recurrence on the random control points around t.
 astray wander(uint32_t seed, double t, double waves)
 {
     const double at = t * waves, k = std::floor(at), x = at - k;
@@ -75,7 +76,8 @@ astray sum(const astray& a, const astray& b)
     return {a.at + b.at, a.slope + b.slope};
 }
 
-// The periodic spline through 16 values: equal second derivatives on both sides of each.
+// Evaluate the periodic cubic spline through 16 values. Second derivatives are continuous at each
+// value.
 along turn(const float* values, double turns)
 {
     const int n = HAIR_TURN_PLACES;
@@ -116,7 +118,7 @@ astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, doub
 
 } // namespace
 
-// Monotone where its numbers are: Fritsch and Butland 1984.
+// Evaluate a curve that is monotone where its values are (Fritsch and Butland 1984).
 along hair_reference_curve(const hair_curve& curve, double t)
 {
     const int n = HAIR_CURVE_INTERVALS;

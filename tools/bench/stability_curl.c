@@ -165,7 +165,7 @@ void bench_rest_curls(struct bench* bench)
     for (size_t r = quick ? 3 : 0; r < (quick ? 4 : sizeof radii / sizeof *radii); ++r)
         for (int s = 0; s < 4; ++s)
             for (int k = quick ? 1 : 0; k < (quick ? 2 : 3); ++k)
-                // Redblack fixes its root.
+                // Skip free roots of redblack, which always fixes its root.
                 for (int variant = 0; variant < (quick ? 1 : 4); ++variant)
                     if (solvers[s] != HAIR_SOLVER_REDBLACK || variant % 2 == 0)
                         measure(bench, radii[r], each[k], solvers[s], variant);

@@ -103,7 +103,8 @@ static bool jump(struct bench_watch* watch)
 
 static bool spin(struct bench_watch* watch)
 {
-    // Rad/s, after two seconds of acceleration, for one second, before two seconds of deceleration.
+    // Maximum speed in rad/s, after two seconds of acceleration, for one second, before two seconds
+    // of deceleration.
     const double fastest = 2 * BENCH_PI * 10;
     double angle = 0;
     for (int k = 0; k < 300; ++k) {

@@ -1,5 +1,5 @@
-// wind.c - the suite `wind`: what the fluid's parts cost, how fast each projection drives out what presses cells together
-// (all tuned, the sweep shown), how air goes round a ball and in a closed box, and how far off air by formulas is.
+// wind.c - Suite `wind`, cost of the fluid's parts, convergence of each tuned projection including
+// the tuning sweep, flow around a ball and in a closed box, and error of the closed-form wind.
 #include "tools/bench/flow.h"
 #include "tools/bench/timer.h"
 
@@ -8,9 +8,9 @@
 #include <string.h>
 
 #define MOST_RUNS 21
-#define ENOUGH 400.0 // ms of runs of one row
-#define MOST_FRUITLESS 30e3 // ms: a method that takes longer goes through no more iterations
-#define WANTED 1e-3 // of what was to be driven out, to be left
+#define ENOUGH 400.0 // total time of the runs of one row, ms
+#define MOST_FRUITLESS 30e3 // maximum total time of a method's sweep, ms
+#define WANTED 1e-3 // target of the remaining divergence, as a fraction of the initial one
 
 static const char* const columns[] = {
     "case",   "method",     "resolution", "relax",     "iterations", "ms",        "ms_min", "ms_max",
@@ -103,7 +103,7 @@ static void run_parts(struct bench* bench)
 
 // Projections -----------------------------------------------------------------------------------------------
 
-// A method's rows, the best of those that are good enough, and how long it took.
+// Best setting of a method, the fastest of those that reach WANTED.
 struct best {
     double ms, relax;
     uint32_t iterations;
@@ -117,7 +117,7 @@ static double run_projection(struct bench* bench, struct hair_fluid_desc desc, s
         bench_refuse(bench, "projection", methods[desc.method]);
         return NAN;
     }
-    hair_fluid_place(&flow.fluid, &flow.now); // A wind that begins at once, all about the ball.
+    hair_fluid_place(&flow.fluid, &flow.now); // Start with the wind everywhere around the ball.
     hair_fluid_carry(&flow.fluid);
     struct bench_times times = time_part(&flow, solve);
     double left = bench_flow_residual(&flow);
@@ -138,7 +138,8 @@ static void sweep(struct bench* bench, hair_fluid_method method, uint32_t cells,
     static const float relax[][5] = {{1, 1.1f, 1.15f, 1.2f, 0}, {1.75f, 1.8f, 1.85f, 1.9f, 0}, {0.9f, 1, 0}};
     double passed = 0;
     for (const float* r = relax[method]; *r > 0; ++r) {
-        // By steps that are a share of themselves, until it is enough.
+        // Increase the number of iterations in proportion to itself until the divergence is small
+        // enough.
         uint32_t count = method == HAIR_FLUID_MULTIGRID    ? 1
                          : method == HAIR_FLUID_RELAXATION ? cells / 2
                                                            : 8 * cells;
@@ -172,7 +173,7 @@ static void run_projections(struct bench* bench)
 
 // Flows -----------------------------------------------------------------------------------------------------
 
-// Half a second to go round it, and from then on the mean of two.
+// Measure the flow around the ball. Average over two seconds after half a second of start-up.
 static bool measure_ball(struct bench_flow* flow, json_t* row)
 {
     enum { BEFORE = 30, STEPS = 120 };
@@ -205,7 +206,7 @@ static bool measure_box(struct bench_flow* flow, json_t* row)
     float* roll = calloc(flow->faces, sizeof *roll);
     if (!roll) abort();
     bench_flow_step(flow);
-    for (size_t i = 0; i < slots; ++i) { // A roll about z.
+    for (size_t i = 0; i < slots; ++i) { // a vortex about z
         double x = (double)(i % side) / n, y = (double)(i / side % side) / n;
         int last = i % side == side - 1 || i / side % side == side - 1 || i / side / side == side - 1;
         if (i / side / side < side - 1 && i / side % side < side - 1)
@@ -223,7 +224,7 @@ static bool measure_box(struct bench_flow* flow, json_t* row)
     for (int i = 0; i < 60; ++i) bench_flow_step(flow);
     velocity = bench_flow_velocity(flow);
     double most = 0;
-    for (size_t i = 0; i < slots; ++i) // Through the walls.
+    for (size_t i = 0; i < slots; ++i) // maximum velocity through the walls
         for (size_t axis = 0; axis < 3; ++axis) {
             size_t at[3] = {i % side, i / side % side, i / side / side};
             if (at[axis] == 0 || at[axis] == side - 1) most = fmax(most, fabs(velocity[axis * slots + i]));

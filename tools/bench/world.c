@@ -1,4 +1,5 @@
-// world.c - of the suite `collision`: what a world of Bullet's costs that has far more in it than touches the hair.
+// world.c - Case `bullet world` of the suite `collision`, the cost of a Bullet world with many more
+// objects than touch the hair.
 #include "tools/bench/bust.h"
 #include "tools/bullet/world.h"
 #include "tools/common/stats.h"
@@ -14,10 +15,11 @@
 
 static const char* const name = "bullet world";
 
-// A head of hair among objects of which as many touch it in either.
+// A head of hair among objects. The number of objects that touch the hair is the same for both
+// sides.
 struct side {
     struct bench_bust bust;
-    struct hair_scene scene; // its objects
+    struct hair_scene scene; // contains the objects
     struct hair_world* world;
     uint32_t frame;
 };
@@ -28,7 +30,8 @@ static float random_in(uint32_t* seed, float lower, float upper)
     return lower + (upper - lower) * (float)(*seed >> 8) / 16777216.0f;
 }
 
-// Around the ends of the hair, to and fro; the others anywhere in a hall, but not near.
+// Place the touching objects around the ends of the hair, where they move up and down. The other
+// objects are anywhere in a hall, but not near the hair.
 static bool fill(struct hair_scene* scene, uint32_t count)
 {
     uint32_t seed = 7;
@@ -73,8 +76,9 @@ static bool live(struct bench* bench, uint32_t count, struct side* side)
     return ok;
 }
 
-// What a program does in a frame: objects move, those that touch the hair become its solids, it moves, and the field is
-// brought up to date. ms; below 0: refused.
+// Return the time in ms of a frame of an application, or a negative value if the library refused.
+// Objects move, objects that touch the hair become its colliders, the hair is simulated, and the
+// field is updated.
 static double time_frame(struct side* side, uint32_t* touching)
 {
     static const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -99,13 +103,13 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-// One after the other, frame by frame, so that both see the same machine.
+// Measure both sides in alternating frames, so that both see the same state of the machine.
 static bool measure(struct side sides[2])
 {
     struct bench* bench = sides[0].bust.bench;
     uint32_t runs = bench->options.quick ? 15 : MOST_RUNS, touching[2];
     double ms[2][MOST_RUNS], medians[2];
-    for (int i = -3; i < (int)runs; ++i) // The first make what is missing.
+    for (int i = -3; i < (int)runs; ++i) // the first frames create what is missing
         for (int k = 0; k < 2; ++k) {
             double time = time_frame(&sides[k], &touching[k]);
             if (time < 0 || bench_was_interrupted()) return false;
