@@ -70,7 +70,7 @@ static void say_all(hair_log_level level, const char* sentence, void* tool)
     hair_complain(tool, "%s", sentence);
 }
 
-// Making ----------------------------------------------------------------------------------------------------
+// Making ------------------------------------------------------------------------------------------
 
 static int make_groom(struct capture* capture)
 {
@@ -210,7 +210,7 @@ static int make_hashes(struct capture* capture)
     return HAIR_EXIT_OK;
 }
 
-// Frames ----------------------------------------------------------------------------------------------------
+// Frames ------------------------------------------------------------------------------------------
 
 static float time_of(const struct capture* capture, double frame)
 {

@@ -127,7 +127,7 @@ static void write_captions(struct gallery* gallery)
     }
 }
 
-// Pictures ----------------------------------------------------------------------------------------------------
+// Pictures ----------------------------------------------------------------------------------------
 
 static void name_picture(const struct gallery* gallery, uint32_t i, char name[PICTURE_PATH])
 {
@@ -227,7 +227,7 @@ static int make(struct gallery* gallery)
     return ok && hair_output_commit(&output) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
-// The command line --------------------------------------------------------------------------------------------
+// The command line --------------------------------------------------------------------------------
 
 static int print_list(const struct gallery* gallery)
 {

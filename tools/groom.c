@@ -97,7 +97,7 @@ static int print_version(void)
     return HAIR_EXIT_OK;
 }
 
-// The command line -------------------------------------------------------------------------------------------
+// The command line --------------------------------------------------------------------------------
 
 // Parse a number. The library checks ranges.
 static bool parse_number(const char* name, const char* text, float* out)
@@ -232,7 +232,7 @@ static int parse(int count, char** arguments, struct said* said)
     return take_operands(count - optind, arguments + optind, said);
 }
 
-// Reading and writing ----------------------------------------------------------------------------------------
+// Reading and writing -----------------------------------------------------------------------------
 
 static int exit_code(hair_result result)
 {
@@ -296,7 +296,7 @@ static int write_asset(const hair_asset* asset, const struct said* said)
     return code;
 }
 
-// Commands ---------------------------------------------------------------------------------------------------
+// Commands ----------------------------------------------------------------------------------------
 
 static void print_repairs(const hair_repairs* repairs)
 {

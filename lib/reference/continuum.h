@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-// continuum.cpp ---------------------------------------------------------------------------------------------
+// continuum.cpp -----------------------------------------------------------------------------------
 
 /// Return the n-th positive zero, counted from 1, of the Bessel function J of an order above -1.
 /// Zeros up to 20 are supported.
@@ -54,7 +54,7 @@ struct hair_reference_catenary hair_reference_catenary(double span);
 /// Return the shape of an even number of `links` equal links with their weight at their ends.
 struct hair_reference_catenary hair_reference_catenary_of_links(double span, uint32_t links);
 
-// linkage.cpp -----------------------------------------------------------------------------------------------
+// linkage.cpp -------------------------------------------------------------------------------------
 
 /// Advance massless rods that hang from each other in a plane, with point masses at their lower
 /// ends, by `dt`. Angles are from straight down, in rad. `steps` is the number of integration steps

@@ -31,7 +31,7 @@ struct hair_reference_vertex {
     double displacement[3];
 };
 
-// frames.cpp ------------------------------------------------------------------------------------------------
+// frames.cpp --------------------------------------------------------------------------------------
 
 /// Compute the frames of segments with the unit `directions`. Each frame is carried to the next
 /// segment by the smallest rotation (parallel transport). The first frame is `root` rotated onto
@@ -59,7 +59,7 @@ void hair_reference_collide(struct hair_reference_guide guide, uint32_t substep,
 /// Run all substeps of a step.
 void hair_reference_redblack(struct hair_reference_guide guide, struct hair_reference_vertex* state);
 
-// smooth.cpp ------------------------------------------------------------------------------------------------
+// smooth.cpp --------------------------------------------------------------------------------------
 
 /// One sample of a smoothed guide.
 struct hair_reference_sample {
@@ -83,7 +83,7 @@ void hair_reference_hermite(const double a[3], const double slope_a[3], const do
 void hair_reference_smooth(struct hair_reference_guide guide, const struct hair_reference_vertex* state,
                            struct hair_reference_sample* samples);
 
-// follower.cpp, strand.cpp ----------------------------------------------------------------------------------------------
+// follower.cpp, strand.cpp ------------------------------------------------------------------------
 
 struct hair_reference_point {
     double position[3];

@@ -100,7 +100,7 @@ struct hair_reference_rod* hair_reference_rod_create(const struct hair_reference
 struct hair_reference_rod* hair_reference_rod_copy(const struct hair_reference_rod* rod);
 void hair_reference_rod_destroy(struct hair_reference_rod* rod);
 
-// State -----------------------------------------------------------------------------------------------------
+// State -------------------------------------------------------------------------------------------
 
 /// Set positions and velocities. NULL leaves the respective one unchanged. Frames follow their
 /// segments by the smallest rotation.
@@ -128,7 +128,7 @@ void hair_reference_rod_elastic_forces(const struct hair_reference_rod* rod, dou
 /// a continuous rod.
 double hair_reference_rod_clamp_factor(double length, double weight, double bend);
 
-// rod_dynamics.cpp ------------------------------------------------------------------------------------------
+// rod_dynamics.cpp --------------------------------------------------------------------------------
 
 /// Advance by `dt` in `substeps` equal parts while the head moves to `head`. NULL keeps the head in
 /// place. The head moves evenly along a straight line and turns the shortest way. Return 0 if a
@@ -158,7 +158,7 @@ struct hair_reference_rod_report hair_reference_rod_converge(struct hair_referen
                                                              double dt, uint32_t substeps, uint32_t most,
                                                              double tolerance, double* positions);
 
-// rod_statics.cpp -------------------------------------------------------------------------------------------
+// rod_statics.cpp ---------------------------------------------------------------------------------
 
 struct hair_reference_rod_rested {
     int converged;
@@ -181,7 +181,7 @@ double hair_reference_rod_stability(const struct hair_reference_rod* rod);
 /// is 0 for a free rod.
 uint32_t hair_reference_rod_modes(const struct hair_reference_rod* rod, uint32_t count, double* frequencies);
 
-// rod_shape.cpp ---------------------------------------------------------------------------------------------
+// rod_shape.cpp -----------------------------------------------------------------------------------
 
 /// Compute the strain of the joints in the shape `positions`, in its frame. Frames are carried
 /// along the shape from the root frame by the smallest rotation. With this rest strain the shape is

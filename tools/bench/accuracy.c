@@ -249,7 +249,7 @@ static void measure_all(struct bench* bench, struct bench_motion* motion)
     free(motion->truth);
 }
 
-// Real hair at rest -----------------------------------------------------------------------------------------
+// Real hair at rest -------------------------------------------------------------------------------
 
 static void add_static_row(struct bench_living* living, const double* positions)
 {

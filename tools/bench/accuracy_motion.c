@@ -110,7 +110,7 @@ void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_
     }
 }
 
-// Curved at rest --------------------------------------------------------------------------------------------
+// Curved at rest ----------------------------------------------------------------------------------
 
 static void set_curved(struct bench_motion* out)
 {

@@ -38,7 +38,7 @@ struct work {
     double ms[FRAMES];
 };
 
-// Floors ----------------------------------------------------------------------------------------------------
+// Floors ------------------------------------------------------------------------------------------
 
 static GLuint make_program(const char* text)
 {
@@ -116,7 +116,7 @@ static struct floors measure_floors(struct bench* bench)
     return floors;
 }
 
-// Work ------------------------------------------------------------------------------------------------------
+// Work --------------------------------------------------------------------------------------------
 
 static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uint32_t* count)
 {

@@ -137,7 +137,7 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
     return least;
 }
 
-// Timing ----------------------------------------------------------------------------------------------------
+// Timing ------------------------------------------------------------------------------------------
 
 static double time_of_passes(hair_context* context)
 {

@@ -204,7 +204,7 @@ static hair_form* make_ball(struct bench* bench, double radius)
     return form;
 }
 
-// Errors ----------------------------------------------------------------------------------------------------
+// Errors ------------------------------------------------------------------------------------------
 
 struct errors {
     double most, square, centre; // in voxels

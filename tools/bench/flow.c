@@ -74,7 +74,7 @@ bool bench_flow_step(struct bench_flow* flow)
     return !bench_was_interrupted();
 }
 
-// Reading ---------------------------------------------------------------------------------------------------
+// Reading -----------------------------------------------------------------------------------------
 
 static double* read_floats(GLuint buffer, size_t count)
 {
@@ -124,7 +124,7 @@ double* bench_flow_velocity(const struct bench_flow* flow)
     return read_floats(flow->fluid.velocity[flow->fluid.now].buffer, flow->faces);
 }
 
-// Measuring -------------------------------------------------------------------------------------------------
+// Measuring ---------------------------------------------------------------------------------------
 
 double bench_flow_at(const struct bench_flow* flow, const double* velocity, int axis, const double place[3])
 {

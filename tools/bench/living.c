@@ -181,7 +181,7 @@ bool bench_are_finite(const double* positions, uint32_t vertices)
     return true;
 }
 
-// Timing ----------------------------------------------------------------------------------------------------
+// Timing ------------------------------------------------------------------------------------------
 
 // Return the GPU time in ms of all passes since `before`, and set `before` to now.
 static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_PASSES])

@@ -75,7 +75,7 @@ static json_t* add_row(struct scene* scene, const char* name, const char* method
     return row;
 }
 
-// Coverage --------------------------------------------------------------------------------------------------------
+// Coverage ----------------------------------------------------------------------------------------
 
 static bool compare_coverage(struct scene* scene, float share, const char* method)
 {
@@ -115,7 +115,7 @@ static void measure_coverage(struct bench* bench)
     }
 }
 
-// The walk --------------------------------------------------------------------------------------------------------
+// The walk ----------------------------------------------------------------------------------------
 
 // Pictures with and without level of detail, of the previous and the current frame.
 struct walk {
@@ -176,7 +176,7 @@ static bool walk_away(struct scene* scene)
     return ok;
 }
 
-// Far away --------------------------------------------------------------------------------------------------------
+// Far away ----------------------------------------------------------------------------------------
 
 static bool look_from_far(struct scene* scene)
 {

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// Short segments --------------------------------------------------------------------------------------------
+// Short segments ----------------------------------------------------------------------------------
 
 static void add_fine_row(struct bench_living* living, const char* name, double gamma, const double* positions)
 {
@@ -50,7 +50,7 @@ void bench_fine_segments(struct bench* bench)
     }
 }
 
-// Heavy tips ------------------------------------------------------------------------------------------------
+// Heavy tips --------------------------------------------------------------------------------------
 
 #define TIP_MASS 1000
 #define TIP_LENGTH 0.1 // m

@@ -22,7 +22,7 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
     return scene;
 }
 
-// Order -----------------------------------------------------------------------------------------------------
+// Order -------------------------------------------------------------------------------------------
 
 #define ORDER_VERTICES 8 // few enough that long substeps treat bending explicitly
 #define ORDER_FRAMES 12
@@ -77,7 +77,7 @@ void bench_order(struct bench* bench)
     measure_order(bench, HAIR_SOLVER_DIRECT, 8);
 }
 
-// Energy ----------------------------------------------------------------------------------------------------
+// Energy ------------------------------------------------------------------------------------------
 
 #define WINDOW                                                                                               \
     // Substeps that the energy is averaged over. They span several swings, because energy

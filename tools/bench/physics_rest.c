@@ -188,7 +188,7 @@ void bench_catenary(struct bench* bench)
                 measure_catenary(bench, bench_rod_solvers[s], vertices, i ? 0.8 : 0.5);
 }
 
-// Out of the plane ------------------------------------------------------------------------------------------
+// Out of the plane --------------------------------------------------------------------------------
 
 // Threshold of leaving the plane, as a fraction of the rod's length. The rod lies in the plane z =
 // 0, disturbed by 1e-4 of its length. Gravity rises slowly to 9.81 m/s^2 and then stays constant.

@@ -19,7 +19,7 @@ static struct bench_scene make_chain(const struct bench* bench, hair_solver solv
     return scene;
 }
 
-// Small swings ----------------------------------------------------------------------------------------------
+// Small swings ------------------------------------------------------------------------------------
 
 #define VERTICES 32
 #define LINKS (VERTICES - 1)
@@ -121,7 +121,7 @@ void bench_chain_modes(struct bench* bench)
             measure_mode(bench, bench_rod_solvers[s], number);
 }
 
-// Large swings ----------------------------------------------------------------------------------------------
+// Large swings ------------------------------------------------------------------------------------
 
 // Return the maximum distance from the exact linkage at the ends of all frames of a second. Return
 // a negative value if the library refused.

@@ -55,7 +55,7 @@ void bench_set_null(json_t* row, const char* key)
     set(row, key, json_null());
 }
 
-// The front -------------------------------------------------------------------------------------------------
+// The front ---------------------------------------------------------------------------------------
 
 static bool takes_part(const json_t* row, const char* cost, const char* error)
 {
@@ -96,7 +96,7 @@ void bench_mark_front(json_t* rows, const char* cost, const char* error)
     }
 }
 
-// Writing ---------------------------------------------------------------------------------------------------
+// Writing -----------------------------------------------------------------------------------------
 
 void bench_write_json(const struct bench_rows* rows, const struct bench_about* about, FILE* file)
 {

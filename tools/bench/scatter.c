@@ -77,7 +77,7 @@ static bool make(struct scatter* scatter)
     return true;
 }
 
-// Paths -----------------------------------------------------------------------------------------------------------
+// Paths -------------------------------------------------------------------------------------------
 
 // Make rays through random places of the picture.
 static bool make_rays(struct scatter* scatter, uint32_t rays)
@@ -156,7 +156,7 @@ static bool trace(struct scatter* scatter)
     return ok && scatter->glow.met > 0;
 }
 
-// Pictures --------------------------------------------------------------------------------------------------------
+// Pictures ----------------------------------------------------------------------------------------
 
 // Compute the summed radiance of all visible hair, and the area of hair in pixels.
 static bool take(struct scatter* scatter, double sum[3], double* covers)

@@ -51,7 +51,7 @@ void bench_set_health(json_t* row, const hair_health* health)
     bench_set_number(row, "softest", (double)health->softest);
 }
 
-// Watching --------------------------------------------------------------------------------------------------
+// Watching ----------------------------------------------------------------------------------------
 
 static double distance(const double* a, const double* b)
 {
@@ -143,7 +143,7 @@ json_t* bench_stability_row(struct bench_living* living, const char* name, const
     return row;
 }
 
-// Recovering ------------------------------------------------------------------------------------------------
+// Recovering --------------------------------------------------------------------------------------
 
 // Compute the rod's rest positions in the world after the stress. Return false if they are unknown.
 static bool find_rest(const struct bench_watch* watch, double* positions)

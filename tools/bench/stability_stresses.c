@@ -36,7 +36,7 @@ static bool shake_ordinarily(struct bench_watch* watch)
     return shake(watch, 2, FRAME);
 }
 
-// Time ------------------------------------------------------------------------------------------------------
+// Time --------------------------------------------------------------------------------------------
 
 static bool take_tenths(struct bench_watch* watch)
 {
@@ -92,7 +92,7 @@ static bool rest_long(struct bench_watch* watch)
     return stay(watch, substeps * watch->living->substep, 0.1);
 }
 
-// The head --------------------------------------------------------------------------------------------------
+// The head ----------------------------------------------------------------------------------------
 
 static bool jump(struct bench_watch* watch)
 {
@@ -155,7 +155,7 @@ static bool shake_far(struct bench_watch* watch)
     return !hair_teleport(watch->living->hair, there) && bench_read(watch->living, watch->before);
 }
 
-// Material and forces ---------------------------------------------------------------------------------------
+// Material and forces -----------------------------------------------------------------------------
 
 static void hang_ten(struct bench_scene* scene)
 {
@@ -211,7 +211,7 @@ static bool weigh(struct bench_watch* watch)
     return shake_under(watch, &physics);
 }
 
-// Shapes ----------------------------------------------------------------------------------------------------
+// Shapes ------------------------------------------------------------------------------------------
 
 static void resize(struct bench_scene* scene, uint32_t vertices)
 {

@@ -50,7 +50,7 @@ void bench_strands_free(struct bench_strands* strands)
     strands->seen = NULL;
 }
 
-// Rays ------------------------------------------------------------------------------------------------------------
+// Rays --------------------------------------------------------------------------------------------
 
 // Segments sorted by the cells of a grid perpendicular to the light.
 struct cells {
@@ -154,7 +154,7 @@ bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t 
     return ok;
 }
 
-// Layers ----------------------------------------------------------------------------------------------------------
+// Layers ------------------------------------------------------------------------------------------
 
 #define MOST_LAYERS 8
 #define TAPS 8

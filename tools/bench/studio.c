@@ -36,7 +36,7 @@ static const char average_frag[] =
     "}\n";
 // clang-format on
 
-// Making ----------------------------------------------------------------------------------------------------
+// Making ------------------------------------------------------------------------------------------
 
 static bool make_programs(struct bench_studio* studio)
 {
@@ -168,7 +168,7 @@ bool bench_studio_step(struct bench_studio* studio, double* ms)
     return !result && !bench_was_interrupted();
 }
 
-// Drawing ---------------------------------------------------------------------------------------------------
+// Drawing -----------------------------------------------------------------------------------------
 
 struct bench_shot bench_studio_shot(const struct bench_studio* studio)
 {

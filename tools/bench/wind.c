@@ -55,7 +55,7 @@ static struct bench_times time_part(struct bench_flow* flow, void (*part)(struct
     return bench_times_of(ms, runs);
 }
 
-// Parts -----------------------------------------------------------------------------------------------------
+// Parts -------------------------------------------------------------------------------------------
 
 static void open_faces(struct bench_flow* flow)
 {
@@ -101,7 +101,7 @@ static void run_parts(struct bench* bench)
         }
 }
 
-// Projections -----------------------------------------------------------------------------------------------
+// Projections -------------------------------------------------------------------------------------
 
 // Best setting of a method, the fastest of those that reach WANTED.
 struct best {
@@ -171,7 +171,7 @@ static void run_projections(struct bench* bench)
     }
 }
 
-// Flows -----------------------------------------------------------------------------------------------------
+// Flows -------------------------------------------------------------------------------------------
 
 // Measure the flow around the ball. Average over two seconds after half a second of start-up.
 static bool measure_ball(struct bench_flow* flow, json_t* row)

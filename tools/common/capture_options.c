@@ -117,7 +117,7 @@ static int print_help(const char* tool)
     return hair_flush(tool);
 }
 
-// Values ----------------------------------------------------------------------------------------------------
+// Values ------------------------------------------------------------------------------------------
 
 // Parse a whole number. `end` receives the position after the number.
 static bool parse_count(const char* text, uint32_t min, uint32_t max, const char** end, uint32_t* out)
@@ -206,7 +206,7 @@ static bool apply_change(const char* tool, const struct change* change, struct h
     return hair_settings_set(tool, &scene->settings, key, value);
 }
 
-// The command line ------------------------------------------------------------------------------------------
+// The command line --------------------------------------------------------------------------------
 
 static bool add_change(const char* tool, struct said* said, const struct row* row, const char* value)
 {
@@ -281,7 +281,7 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
     return HAIR_EXIT_USAGE;
 }
 
-// The scene -------------------------------------------------------------------------------------------------
+// The scene ---------------------------------------------------------------------------------------
 
 static int open_scene(const char* tool, const struct said* said, struct hair_capture_options* out)
 {

@@ -39,7 +39,7 @@ struct planes {
     float *half, *row, *spare[2];
 };
 
-// Colours ---------------------------------------------------------------------------------------------------
+// Colours -----------------------------------------------------------------------------------------
 
 static void invert(double m[3][3], double out[3][3])
 {
@@ -114,7 +114,7 @@ static double hyab(struct xyz a, struct xyz b)
     return fabs(a.x - b.x) + hypot(a.y - b.y, a.z - b.z);
 }
 
-// Filters ---------------------------------------------------------------------------------------------------
+// Filters -----------------------------------------------------------------------------------------
 
 // Fill the kernel with exp(-squared * d^2), normalized to sum 1. Return the sum before
 // normalization.

@@ -69,7 +69,7 @@ static float limb(point p, point a, point b, float r, float s)
     return length(sub(q, (point){axis.x * t, axis.y * t, axis.z * t})) - mix(r, s, t);
 }
 
-// Skull and scalp ------------------------------------------------------------------------------------------
+// Skull and scalp ---------------------------------------------------------------------------------
 
 static float skull(point p)
 {
@@ -97,7 +97,7 @@ static point fold(point p, float radius)
     return (point){sqrtf(p.x * p.x + radius * radius), p.y, p.z};
 }
 
-// Face: its left half (x > 0) ------------------------------------------------------------------------------
+// Face: its left half (x > 0) ---------------------------------------------------------------------
 
 static float bones(point p, float d)
 {
@@ -179,7 +179,7 @@ static float ear(point p)
                 0.004f);
 }
 
-// Neck and shoulders ---------------------------------------------------------------------------------------
+// Neck and shoulders ------------------------------------------------------------------------------
 
 static float trunk(point p)
 {

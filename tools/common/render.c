@@ -35,7 +35,7 @@ struct hair_render {
     uint32_t frames; // drawn so far
 };
 
-// Making ----------------------------------------------------------------------------------------------------
+// Making ------------------------------------------------------------------------------------------
 
 static bool make_programs(struct hair_render* render)
 {
@@ -119,7 +119,7 @@ void hair_render_destroy(struct hair_render* render)
     free(render);
 }
 
-// Mesh ------------------------------------------------------------------------------------------------------
+// Mesh --------------------------------------------------------------------------------------------
 
 static GLuint make_buffer(const void* bytes, size_t size)
 {
@@ -153,7 +153,7 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
     glVertexArrayElementBuffer(render->vertex_array, render->buffer[TRIANGLES]);
 }
 
-// Frames ----------------------------------------------------------------------------------------------------
+// Frames ------------------------------------------------------------------------------------------
 
 // The picture, or one tile of it.
 struct tile {

@@ -69,7 +69,7 @@ bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene*
     return read_style_settings(tool, name, scene);
 }
 
-// Subject ---------------------------------------------------------------------------------------------------
+// Subject -----------------------------------------------------------------------------------------
 
 static bool read_groom(const place* json, const char* key, const json_t* value, void* out)
 {
@@ -124,7 +124,7 @@ static bool read_bullet(const place* json, const char* key, const json_t* value,
     return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
 }
 
-// Motion, camera, settings ----------------------------------------------------------------------------------
+// Motion, camera, settings ------------------------------------------------------------------------
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
 {

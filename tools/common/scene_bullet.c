@@ -66,7 +66,7 @@ static bool read_axis(const place* json, const char* key, const json_t* value, v
     return ok || hair_json_wrong(json, key, "\"x\", \"y\" or \"z\"");
 }
 
-// Numbers -----------------------------------------------------------------------------------------------------
+// Numbers -----------------------------------------------------------------------------------------
 
 static bool read_row(const place* json, const char* key, const json_t* row, uint32_t columns, float* out)
 {
@@ -130,7 +130,7 @@ static bool read_mesh(const place* json, const char* key, const json_t* value, v
            hair_obj_read(json->tool, path, &((shape*)out)->mesh);
 }
 
-// Shapes ------------------------------------------------------------------------------------------------------
+// Shapes ------------------------------------------------------------------------------------------
 
 static bool read_children(const place* json, const char* key, const json_t* value, void* out);
 

@@ -74,7 +74,7 @@ int hair_sink_plan(const char* tool, const char* path, uint32_t width, uint32_t 
     return refuse(sink, "is one file for several frames: give --frames A:A+1, or %04d in its name");
 }
 
-// Opening ---------------------------------------------------------------------------------------------------
+// Opening -----------------------------------------------------------------------------------------
 
 static bool start_encoder(struct hair_sink* sink)
 {
@@ -110,7 +110,7 @@ bool hair_sink_open(struct hair_sink* sink, double fps)
     return false;
 }
 
-// Frames ----------------------------------------------------------------------------------------------------
+// Frames ------------------------------------------------------------------------------------------
 
 static bool put_picture(struct hair_sink* sink, const struct hair_image* image, FILE* file)
 {
@@ -155,7 +155,7 @@ bool hair_sink_put(struct hair_sink* sink, const struct hair_image* image, uint3
     return put_video(sink, image);
 }
 
-// Ending ----------------------------------------------------------------------------------------------------
+// Ending ------------------------------------------------------------------------------------------
 
 static bool end_encoder(struct hair_sink* sink)
 {

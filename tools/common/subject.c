@@ -97,7 +97,7 @@ static int make_style(const hair_host* host, const struct hair_scene* scene, hai
     return result ? hair_exit_for(result) : build(host, scene, asset, out);
 }
 
-// Fur -------------------------------------------------------------------------------------------------------
+// Fur ---------------------------------------------------------------------------------------------
 
 // Return evenly distributed noise in [-1, 1) from an integer. This is the finalizer of MurmurHash3
 // (Appleby 2011).

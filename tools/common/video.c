@@ -77,7 +77,7 @@ bool hair_y4m_frame(FILE* file, const struct hair_image* image, unsigned char* p
     return fputs("FRAME\n", file) >= 0 && fwrite(planes, 1, size, file) == size;
 }
 
-// Encoder ---------------------------------------------------------------------------------------------------
+// Encoder -----------------------------------------------------------------------------------------
 
 // Start a process that reads `input`. Its own process group leaves the terminal's Ctrl-C to the
 // parent.
