@@ -96,7 +96,7 @@ class grid
         return size_t(segment) / (hair_.each - 1) * hair_.each + segment % (hair_.each - 1);
     }
 
-    // Return the distance at which a ray is closest to a segment's axis, or infinity if the ray
+    // Return the distance at which a ray is closest to a segment's axis. Return infinity if the ray
     // misses the segment by more than a radius.
     double crossing(const Vector3d& from, const Vector3d& way, uint32_t segment) const
     {

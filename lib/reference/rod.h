@@ -15,9 +15,9 @@
 /// 1 / (2 l_0) [k1 B1 (..)_x^2 + 2 C (..)_y^2 + k2 B2 (..)_z^2 + k2 B2 (..)^2].
 ///
 /// k1 and k2 are factors of hair_reference_rod_clamp_factor(). The last term makes the energy grow
-/// with the angle from the rest shape up to half a turn, for any bend of the joint at rest.
-/// Rotations of the frames about their segments have no inertia. They minimize the energy at every
-/// moment.
+/// with the angle from the rest shape up to half a turn. This holds for any bend of the joint at
+/// rest. Rotations of the frames about their segments have no inertia. They minimize the energy at
+/// every moment.
 ///
 /// Vectors are xyz, quaternions xyzw. Units are SI. Positions are in the world unless they are
 /// described as in the head's frame.

@@ -1,10 +1,10 @@
 // rod_dynamics.cpp - Motion of a rod.
 //
-// A substep is symmetric in time. It consists of half of the damping, half of the forces, motion
-// under the constraints, half of the forces and half of the damping, in this order. Constraint
-// forces act along the segments as they were at the start of the substep (SHAKE, Ryckaert,
-// Ciccotti, Berendsen 1977). This preserves the second order and the energy. At the end, velocities
-// are made consistent with the lengths (RATTLE, Andersen 1983).
+// A substep is symmetric in time. It consists of half the damping, half the forces, motion under
+// the constraints, half the forces and half the damping, in this order. Constraint forces act along
+// the segments as they were at the start of the substep (SHAKE, Ryckaert, Ciccotti, Berendsen
+// 1977). This preserves the second order and the energy. At the end, velocities are made consistent
+// with the lengths (RATTLE, Andersen 1983).
 #include "lib/reference/rod_state.h"
 
 #include <algorithm>

@@ -16,8 +16,8 @@ Quaterniond hair_reference_rod_turned(const Quaterniond& q, const Vector3d& to)
     return (turn.normalized() * q).normalized();
 }
 
-// A chain under the tension T that leaves the clamp at an angle straightens by the factor 1/r per
-// segment far from the clamp, with r + 1/r = 2 + p^2 and p = l sqrt(T / B). l is the segment
+// A chain leaves the clamp at an angle under the tension T. Far from the clamp it straightens by
+// the factor 1/r per segment, with r + 1/r = 2 + p^2 and p = l sqrt(T / B). l is the segment
 // length, B the bending stiffness. The continuous rod's moment at the clamp is sqrt(B T) times the
 // angle. Equating the chain's moment to it gives the factor 1 / (1/p - 1/(1/r - 1)), which is this
 // expression.

@@ -16,8 +16,8 @@ double real_of(const Quaterniond& before, const Quaterniond& after)
     return std::fabs(2 * (before.conjugate() * after).w());
 }
 
-// Return the stress g that gives the torque `wanted`. The torque of a joint on the segment after it
-// is -(w g + v x g) in the frame of the segment before it, if 2 w has its rest value.
+// Return the stress g that gives the torque `wanted`. If 2 w has its rest value, the torque of a
+// joint on the next segment is -(w g + v x g) in the previous segment's frame.
 Vector3d stress_for(const Quaterniond& before, const Quaterniond& after, const Vector3d& wanted)
 {
     const Vector3d u = strain_of(before, after), v = u / 2;
@@ -40,10 +40,10 @@ void hair_reference_rod_strain(uint32_t vertices, const double* positions, const
     }
 }
 
-// If the rod is cut at joint i, the part beyond it is in balance if the joint's torque is minus the
-// torque of that part's load about vertex i. The torque is accumulated from the tip. The torque at
-// a segment's start is that at its end plus the couple l t x F. F is the load beyond, l the
-// segment's length and t its tangent.
+// Consider the part of the rod beyond joint i. It is in balance if the joint's torque is minus the
+// torque of its load about vertex i. The torque is accumulated from the tip. The torque at a
+// segment's start is that at its end plus the couple l t x F. F is the load beyond, l the segment's
+// length and t its tangent.
 int hair_reference_rod_hold(const hair_reference_rod_desc* desc, double* strain, double* real)
 {
     hair_reference_rod* rod = hair_reference_rod_create(desc);

@@ -34,7 +34,7 @@ bool bench_step(struct bench_living* living, const struct hair_reference_rod_pos
 double bench_substeps(const struct bench_living* living);
 
 // Simulate frames of 1/60 s until the strand moves by less than a millionth of its length in half a
-// second, for at most 30 s. Return false if the library refused.
+// second. Stop after 30 s. Return false if the library refused.
 bool bench_settle(struct bench_living* living, double* positions);
 
 // Read the first strand in world space after its last substep. Return false if the library refused.

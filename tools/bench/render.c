@@ -1,8 +1,8 @@
 // render.c - Suite `render`, run time against image error over drawing methods and levels of
 // detail.
 //
-// The reference is the same hair at full detail with 1,024 samples per pixel, the mean of many
-// pictures that are shifted by fractions of a pixel. Two halves of these pictures are averaged
+// The reference is the same hair at full detail with 1,024 samples per pixel. It is the mean of
+// many pictures that are shifted by fractions of a pixel. Two halves of these pictures are averaged
 // separately. An error is reported only if it is at least five times the difference between the
 // halves.
 #include "tools/bench/extent.h"

@@ -189,7 +189,7 @@ static void any_move(uint64_t* state, struct hair_reference_rod_pose* head)
         head->position[k] = fmin(fmax(head->position[k] + even(state, -far, far), -10), 10);
 }
 
-// Simulate random steps. One scene of eight has a group of colliders, whose random numbers are
+// Simulate random steps. One scene of eight has a group of colliders. Its random numbers are
 // separate, so that the group does not change the rest of the scene.
 static bool any_steps(uint64_t* state, struct bench_watch* watch)
 {

@@ -1,15 +1,15 @@
 // table.c - Suite `table`, the eight cells of the performance table of Tariq 2010 next to the
-// paper's figures, which are from a GTX 480 in 2010. Times are measured as a viewer sees them, from
+// paper's figures. They are from a GTX 480 in 2010. Times are measured as a viewer sees them, from
 // the first call to glFinish, over many frames.
 //
-// A cell that draws includes everything that a frame of hair needs, which is followers pushed out
-// of colliders, shadow map, light, colour and the resolve of samples. The head is not drawn. Pixels
-// that neither contain nor contained hair are not cleared again, because clearing the whole picture
-// could take longer than drawing distant hair. Near hair has no level of detail. Distant hair uses
-// every level of detail, as in the paper. It has fewer, wider strands with fewer segments, a shadow
-// map scaled down like the picture of the hair, and the minimum of substeps. The paper skipped
-// whole frames. The paper does not state its distance. Here the hair is about 35 pixels high for
-// any picture size.
+// A cell that draws includes everything that a frame of hair needs. Followers are pushed out of
+// colliders, the shadow map, light and colour are computed, and samples are resolved. The head is
+// not drawn. Pixels that neither contain nor contained hair are not cleared again, because clearing
+// the whole picture could take longer than drawing distant hair. Near hair has no level of detail.
+// Distant hair uses every level of detail, as in the paper. It has fewer, wider strands with fewer
+// segments, a shadow map scaled down like the picture of the hair, and the minimum of substeps. The
+// paper skipped whole frames. The paper does not state its distance. Here the hair is about 35
+// pixels high for any picture size.
 #include "tools/bench/picture.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"

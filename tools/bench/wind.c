@@ -1,5 +1,6 @@
-// wind.c - Suite `wind`, cost of the fluid's parts, convergence of each tuned projection including
-// the tuning sweep, flow around a ball and in a closed box, and error of the closed-form wind.
+// wind.c - Suite `wind`, cost and convergence of the fluid. The suite measures the parts of a step,
+// each projection with a sweep of its tuning, and flows around a ball and in a closed box. It also
+// compares the closed-form wind with the fluid.
 #include "tools/bench/flow.h"
 #include "tools/bench/timer.h"
 
