@@ -49,7 +49,7 @@ struct hair_reference_catenary {
     double slope; ///< At the pins, below the horizontal, rad.
     double tension; ///< At the pins.
 };
-// Return the shape of a continuous chain.
+/// Return the shape of a continuous chain.
 struct hair_reference_catenary hair_reference_catenary(double span);
 /// Return the shape of an even number of `links` equal links with their weight at their ends.
 struct hair_reference_catenary hair_reference_catenary_of_links(double span, uint32_t links);
@@ -62,7 +62,7 @@ struct hair_reference_catenary hair_reference_catenary_of_links(double span, uin
 /// The energy indicates the error.
 void hair_reference_linkage_advance(uint32_t links, const double* lengths, const double* masses,
                                     double gravity, double dt, uint32_t steps, double* angles, double* rates);
-// Return the total energy of such a linkage.
+/// Return the total energy of such a linkage.
 double hair_reference_linkage_energy(uint32_t links, const double* lengths, const double* masses,
                                      double gravity, const double* angles, const double* rates);
 

@@ -36,8 +36,8 @@ void hair_reference_coarsen(uint32_t cells, const double* open, double* coarse);
 /// Compute bounds of each face velocity after advection. Exact values are undefined, because the
 /// result is discontinuous in the traced position at the border of the box.
 void hair_reference_carry(const struct hair_reference_flow* flow, double* least, double* most);
-// Compute bounds of each face velocity after correction. The correction is limited to the range of
-// the surrounding values, which jumps from cell to cell.
+/// Compute bounds of each face velocity after correction. The correction is limited to the range of
+/// the surrounding values, which jumps from cell to cell.
 void hair_reference_correct(const struct hair_reference_flow* flow, const double* carried, double* least,
                             double* most);
 
@@ -65,14 +65,14 @@ void hair_reference_relax(uint32_t cells, const double* open, const double* righ
 /// Compute the residual of the pressure equation.
 void hair_reference_residual(uint32_t cells, const double* open, const double* right, const double* pressure,
                              double* left);
-// Restrict the residual to the right-hand side of the coarse grid.
+/// Restrict the residual to the right-hand side of the coarse grid.
 void hair_reference_restrict(uint32_t cells, const double* left, double* coarse_right);
-// Add the coarse pressure to the fine pressure.
+/// Add the coarse pressure to the fine pressure.
 void hair_reference_prolong(uint32_t cells, const double* coarse, double* pressure);
-// Subtract the pressure gradient from the face velocities.
+/// Subtract the pressure gradient from the face velocities.
 void hair_reference_release(uint32_t cells, const double* open, const double* wall, const double* pressure,
                             double* velocity);
-// Average face velocities to cell centres.
+/// Average face velocities to cell centres.
 void hair_reference_air(uint32_t cells, const double* velocity, double* air);
 
 #ifdef __cplusplus

@@ -5,8 +5,8 @@
 /// fixed length l_j and a frame q_j whose y is along it. Joint i, 0 to N-2, is at vertex i, between
 /// segments i-1 and i. At joint 0 the scalp is segment -1, with the root frame.
 ///
-/// Let (w, v) = conj(q_{i-1}) q_i with the sign chosen such that w >= 0. The strain of a joint is u
-/// = 2 v. Its length is 2 sin(half the angle). With rest strain U the energy of joint i is
+/// Let (w, v) = conj(q_{i-1}) q_i with the sign chosen such that w >= 0. The strain of a joint is 2
+/// v, named u. Its length is 2 sin(half the angle). With rest strain U the energy of joint i is
 ///
 /// 1 / (2 l_i) [B1 (u - U)_x^2 + C (u - U)_y^2 + B2 (u - U)_z^2 + B2 (2 w - 2 w0)^2]
 ///
@@ -110,7 +110,7 @@ void hair_reference_rod_set_state(struct hair_reference_rod* rod, const double* 
 void hair_reference_rod_set_gravity(struct hair_reference_rod* rod, const double gravity[3]);
 void hair_reference_rod_set_damping(struct hair_reference_rod* rod, double damping);
 uint32_t hair_reference_rod_vertices(const struct hair_reference_rod* rod);
-// Return the positions of all vertices.
+/// Return the positions of all vertices.
 void hair_reference_rod_positions(const struct hair_reference_rod* rod, double* positions);
 void hair_reference_rod_velocities(const struct hair_reference_rod* rod, double* velocities);
 /// Return the frames of all segments, in the world.
