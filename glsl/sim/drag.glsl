@@ -11,8 +11,9 @@
 
 vec3 along; // Unit direction of the strand
 uint substep_number; // Index of the substep in the dispatch
-vec2 drags; // Substep h times the rates across and along
-// Displacement by the wind's velocity through damping and drag, as h^2 times an acceleration.
+// Substep h times the rates across and along by which the law exceeds params.damping.
+vec2 drags;
+// Displacement by the velocity of the wind through damping and drag, as h^2 times an acceleration.
 vec3 drifts;
 
 // Scale the parts of v across and along the strand.
@@ -36,7 +37,9 @@ void feel_air(uint i, vec3 before, float share, vec3 hv)
     // A mass that hangs on a tip has no drag.
     float light = min(0.5 * (beside + own(rest_length)) * own(slack), 1.0);
     vec2  most  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
-    drags       = light * min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), most);
+    vec2  law   = min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), most);
+    // Damping and the law are drag by one air, so the greater of both acts.
+    drags       = light * max(law - params.damping * h, 0.0);
     drifts      = share * params.damping * h * air + by_parts(drags, air);
 }
 

@@ -125,6 +125,7 @@ hair_reference_rod* hair_reference_rod_create(const hair_reference_rod_desc* des
     rod->gravity = vector_of(desc->gravity);
     rod->wind = vector_of(desc->wind);
     rod->damping = desc->damping;
+    rod->line_density = desc->line_density;
     rod->drag = desc->drag;
     rod->diameter = desc->diameter;
     rod->air = desc->air;

@@ -129,17 +129,18 @@ void accelerate(hair_reference_rod& rod, double dt)
             dt * (rod.gravity + rod.force[i] / rod.masses[i] + rod.pull[i] * (rod.target_of(i) - rod.x[i]));
 }
 
-// Compute the acceleration by drag. Each end of a segment has half of its drag, by the relative
-// velocity there.
+// Compute the acceleration by which drag exceeds damping. Each end of a segment has half of its drag, by
+// the relative velocity there.
 std::vector<Vector3d> drag_on(const hair_reference_rod& rod, const std::vector<Vector3d>& v)
 {
     std::vector<Vector3d> sum(rod.vertices, Vector3d(0, 0, 0));
+    const double damping = rod.damping * rod.line_density / rod.drag;
     for (uint32_t j = 0; j < rod.segments(); ++j) {
         double along[3], velocity[3], force[3];
         store((rod.x[j + 1] - rod.x[j]).normalized(), along);
         for (uint32_t i = j; i < j + 2; ++i) {
             store(rod.wind - v[i], velocity);
-            hair_reference_drag(&rod.air, rod.diameter, velocity, along, force);
+            hair_reference_drag(&rod.air, rod.diameter, damping, velocity, along, force);
             sum[i] += rod.inverse_mass(i) * rod.drag * rod.lengths[j] / 2 * vector_of(force);
         }
     }

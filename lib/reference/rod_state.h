@@ -27,7 +27,7 @@ struct hair_reference_rod {
     // Position of the root in the head's frame.
     Vector3d arm;
     Vector3d gravity, wind;
-    double damping, drag, diameter;
+    double damping, line_density, drag, diameter;
     hair_reference_air air;
 
     // Per joint, B1, C and B2 over length, times the clamp's factors.

@@ -20,7 +20,7 @@ static int blows(const hair_wind* wind)
 
 int hair_wind_is_on(const hair_wind* wind)
 {
-    int on = blows(wind) || wind->texture;
+    int on = blows(wind) || wind->texture || wind->still_air;
     for (uint32_t i = 0; i < wind->source_count; ++i) on = on || wind->sources[i].speed != 0;
     return on;
 }

@@ -6,6 +6,7 @@
 #include "lib/api/api.h"
 
 #define FRAME (1.0 / 60)
+#define PI 3.14159265358979
 
 static hair_wind blowing(float x, float y, float z)
 {
@@ -85,6 +86,56 @@ static void a_strand_is_deflected_as_the_reference_has_it(void** state)
         }
 }
 
+// Return the rate of the law across a hair that moves at `speed`. 1/s.
+static double rate_of_law(const hair_physics* physics, const hair_wind* wind, double speed)
+{
+    double diameter = 2 * (double)physics->fiber_radius, density = (double)wind->density;
+    double reynolds = speed * diameter * density / (double)wind->viscosity;
+    double force = hair_reference_drag_across(reynolds) * density * diameter / 2 * speed;
+    return (double)physics->drag * force / ((double)physics->fiber_density * PI * diameter * diameter / 4);
+}
+
+// Return the speed at which a level hair falls in the end, where the greater of damping and the law acts.
+static double terminal_speed(const hair_physics* physics, const hair_wind* wind)
+{
+    double low = 0, high = 100;
+    for (int i = 0; i < 60; ++i) {
+        double middle = (low + high) / 2, law = wind->still_air ? rate_of_law(physics, wind, middle) : 0;
+        *(middle * fmax((double)physics->damping, law) < 9.81 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+static void a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_law(void** state)
+{
+    static const struct {
+        uint32_t still_air;
+        float damping, drag;
+    } cases[] = {{0, 4, 1}, {1, 4, 1}, {1, 0, 1}, {1, 4, 0.1f}, {1, 4, 0.01f}, {1, 4, 0}};
+    for (int k = 0; k < 6; ++k)
+        for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver) {
+            hair_physics physics = hair_physics_default();
+            hair_wind wind = hair_wind_default();
+            physics.root = HAIR_ROOT_FREE, physics.hold = physics.pull_root = physics.pull_tip = 0;
+            physics.damping = cases[k].damping, physics.drag = cases[k].drag;
+            wind.still_air = cases[k].still_air;
+            struct hair_test_living living =
+                straight(*state, 8, hair_v3(1, 0, 0), &physics, (hair_solver)solver);
+            hair_test_blow(&living, &wind);
+            hair_test_wait(&living, 180);
+            hair_test_read_guides(&living);
+            hair_test_wait(&living, 12);
+            hair_test_read_guides(&living);
+            double speed = hair_test_moved(&living) / 0.2, expected = terminal_speed(&physics, &wind);
+            print_message("    still_air %u, damping %g, drag %g, solver %d: %.4g m/s, expected %.4g\n",
+                          cases[k].still_air, (double)cases[k].damping, (double)cases[k].drag, solver, speed,
+                          expected);
+            // The solver follow takes gravity's part of a substep without the law.
+            assert_true(fabs(speed / expected - 1) < (solver == HAIR_SOLVER_FOLLOW ? 0.07 : 0.01));
+            hair_test_die(&living);
+        }
+}
+
 static double suffer(struct hair_test_living* living, const hair_wind* wind, uint32_t frames, int gusty,
                      double dt)
 {
@@ -150,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(a_free_strand_is_carried_as_the_reference_has_it),
         HAIR_TEST(a_strand_is_deflected_as_the_reference_has_it),
+        HAIR_TEST(a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_law),
         HAIR_TEST(hair_bears_any_wind_and_is_back_where_it_was),
         HAIR_TEST(what_no_wind_takes_is_nothing),
     };

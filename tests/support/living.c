@@ -241,7 +241,8 @@ static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct
 {
     double radius = (double)physics->fiber_radius;
     for (int k = 0; k < 3; ++k) out->wind[k] = (double)wind->velocity[k];
-    if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0) return;
+    if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0 && !wind->still_air)
+        return;
     out->drag = (double)physics->drag / ((double)physics->fiber_density * 3.14159265358979 * radius * radius);
     out->diameter = 2 * radius;
     out->air = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};

@@ -72,7 +72,8 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
 static void physics_cases_are_measured_against_what_is_known(void** state)
 {
     (void)state;
-    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin", "cantilever_arc"};
+    static const char* const names[] = {"fine_segments", "helix_spin", "head_spin", "cantilever_arc",
+                                        "still_air"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char command[256];
         snprintf(command, sizeof command,

@@ -75,11 +75,11 @@ static void a_force_has_a_part_across_and_one_along(void** state)
     const struct hair_reference_air air = {1.204, 1.82e-5};
     const double diameter = 8e-5, along[] = {0, 1, 0}, velocity[] = {3, 1.5, 4}, still[] = {0, 0, 0};
     double force[3], re = 5 * diameter * air.density / air.viscosity;
-    hair_reference_drag(&air, diameter, velocity, along, force);
+    hair_reference_drag(&air, diameter, 0, velocity, along, force);
     double across = hair_reference_drag_across(re) * air.density * diameter / 2 * 5;
     assert_true(fabs(force[0] - 3 * across) < 1e-12 && fabs(force[2] - 4 * across) < 1e-12);
     assert_true(fabs(force[1] - 1.5 * air.viscosity * hair_reference_drag_along(re)) < 1e-12);
-    hair_reference_drag(&air, diameter, still, along, force);
+    hair_reference_drag(&air, diameter, 0, still, along, force);
     for (int k = 0; k < 3; ++k) assert_true(force[k] == 0);
 }
 

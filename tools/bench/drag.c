@@ -5,6 +5,8 @@
 #include <stdio.h>
 
 #define SUBSTEPS 20
+#define FALL 4.0 // s: after which a hair falls at its terminal speed
+#define LAST 0.1 // s: the end of the fall, in which its speed is measured
 
 // Return the drag coefficient of a cylinder in an unbounded viscous flow (Kaplun 1957).
 static double slow_drag(double reynolds)
@@ -83,5 +85,64 @@ void bench_drag(struct bench* bench)
         bench_set_number(row, "limit", 0.1);
         bench_set_flag(row, "pass", error <= 0.1);
         bench_set_text(row, "reference", rows[i].reference);
+    }
+}
+
+// Return the speed at which the law of the library balances gravity across a level hair.
+static double terminal_speed(const struct bench_scene* scene)
+{
+    struct bench_section section = bench_section_of(&scene->physics);
+    double diameter = 2 * (double)scene->physics.fiber_radius, density = (double)scene->wind.density;
+    double low = 0, high = 100;
+    for (int i = 0; i < 60; ++i) {
+        double speed = (low + high) / 2, re = speed * diameter * density / (double)scene->wind.viscosity;
+        double force = hair_reference_drag_across(re) * density * diameter / 2 * speed * speed;
+        *((double)scene->physics.drag * force < section.line_density * BENCH_GRAVITY ? &low : &high) = speed;
+    }
+    return low;
+}
+
+static bool fall(struct bench_living* living, double* speed)
+{
+    double before[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES];
+    for (double t = 0; t < FALL - LAST / 2; t += LAST)
+        if (!bench_step(living, NULL, LAST)) return false;
+    if (!bench_read(living, before) || !bench_step(living, NULL, LAST) || !bench_read(living, now))
+        return false;
+    *speed = (before[1] - now[1]) / LAST;
+    return true;
+}
+
+static void measure_fall(struct bench* bench, hair_solver solver, uint32_t still_air, float drag)
+{
+    const char* method = bench_solver_name(solver);
+    struct bench_scene scene = bench_level_scene(bench, solver, 16, 0, 0.2);
+    struct bench_living living;
+    double speed;
+    scene.physics.root = HAIR_ROOT_FREE;
+    scene.physics.drag = drag;
+    scene.wind.still_air = still_air;
+    if (!bench_live_in_step(bench, &scene, LAST, &living)) {
+        bench_refuse(bench, "still_air", method);
+        return;
+    }
+    if (fall(&living, &speed)) {
+        json_t* row = bench_physics_row(&living, "still_air", terminal_speed(&scene), speed,
+                                        still_air ? 0.01 : 0.1, "1 + 9.75 Re^-0.744, White 1991");
+        bench_set_count(row, "still_air", still_air);
+        bench_set_number(row, "drag", (double)drag);
+    } else
+        bench_refuse(bench, "still_air", method);
+    bench_die(&living);
+}
+
+// Without the law, damping stands for a drag of 0.1.
+void bench_still_air(struct bench* bench)
+{
+    for (int s = 0; s < BENCH_RODS; ++s) {
+        if (!bench_begin(bench, "still_air", bench_solver_name(bench_rod_solvers[s]))) continue;
+        measure_fall(bench, bench_rod_solvers[s], 0, 0.1f);
+        measure_fall(bench, bench_rod_solvers[s], 1, 0.1f);
+        measure_fall(bench, bench_rod_solvers[s], 1, 1);
     }
 }

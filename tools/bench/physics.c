@@ -4,11 +4,30 @@
 
 #include <math.h>
 
-static const char* const columns[] = {
-    "case",      "method",   "vertices", "gamma",    "angle",          "mode",      "reynolds",
-    "rate",      "substeps", "expected", "measured", "relative_error", "limit",     "pass",
-    "reference", "friction", "load",     "creep",    "speed",          "fallbacks", BENCH_MATERIAL_COLUMNS,
-    NULL};
+static const char* const columns[] = {"case",
+                                      "method",
+                                      "vertices",
+                                      "gamma",
+                                      "angle",
+                                      "mode",
+                                      "reynolds",
+                                      "rate",
+                                      "substeps",
+                                      "expected",
+                                      "measured",
+                                      "relative_error",
+                                      "limit",
+                                      "pass",
+                                      "reference",
+                                      "friction",
+                                      "load",
+                                      "creep",
+                                      "speed",
+                                      "fallbacks",
+                                      "still_air",
+                                      "drag",
+                                      BENCH_MATERIAL_COLUMNS,
+                                      NULL};
 
 const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
 
@@ -75,6 +94,7 @@ static void run_suite(struct bench* bench)
     bench_frame_rates(bench);
     bench_vertex_counts(bench);
     bench_drag(bench);
+    bench_still_air(bench);
     bench_whip_energy(bench);
     bench_free_bodies(bench);
     bench_head_spin(bench);

@@ -39,6 +39,7 @@ void bench_energy(struct bench* bench);
 void bench_frame_rates(struct bench* bench);
 void bench_vertex_counts(struct bench* bench);
 void bench_drag(struct bench* bench);
+void bench_still_air(struct bench* bench);
 void bench_whip_energy(struct bench* bench);
 void bench_free_bodies(struct bench* bench);
 void bench_head_spin(struct bench* bench);

@@ -183,7 +183,7 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     for (uint32_t k = 0; k < 3; ++k) {
         desc.gravity[k] = (double)p->gravity[k];
         desc.wind[k] = (double)scene->wind.velocity[k];
-        if (desc.wind[k] != 0) desc.drag = (double)p->drag;
+        if (desc.wind[k] != 0 || scene->wind.still_air) desc.drag = (double)p->drag;
     }
     desc.diameter = 2 * (double)p->fiber_radius;
     desc.air = (struct hair_reference_air){(double)scene->wind.density, (double)scene->wind.viscosity};
