@@ -44,6 +44,18 @@ PICTURE("look=curly", "--scene demo --set look=curly")
 PICTURE("look=coily", "--scene demo --set look=coily")
 PICTURE("look=short", "--scene demo --set look=short")
 
+ROW("Curls keep their shape: style=curly, whose head is shaken for 0.6 s")
+PICTURE("Before", "tools/scenes/curls.json --frames 0:1")
+PICTURE("While the head turns", "tools/scenes/curls.json --frames 12:13")
+PICTURE("As the shake ends", "tools/scenes/curls.json --frames 18:19")
+PICTURE("At rest again, 1.7 s later", "tools/scenes/curls.json --frames 69:70")
+
+ROW("Coils keep their shape: style=afro, whose head is shaken for 0.6 s")
+PICTURE("Before", "tools/scenes/curls.json --style afro --frames 0:1")
+PICTURE("While the head turns", "tools/scenes/curls.json --style afro --frames 12:13")
+PICTURE("As the shake ends", "tools/scenes/curls.json --style afro --frames 18:19")
+PICTURE("At rest again, 1.7 s later", "tools/scenes/curls.json --style afro --frames 69:70")
+
 ROW("Colours")
 PICTURE("color=brown (the default)", "--scene demo")
 PICTURE("color=dark_brown", "--scene demo --set color=dark_brown")
