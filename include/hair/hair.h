@@ -309,9 +309,10 @@ typedef enum hair_root {
 typedef struct hair_physics {
     hair_made made;
     float gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
-    /// Decay rate c of the velocity v relative to the air's velocity u: dv/dt = -c (v - u). The default stands for the drag
-    /// of a hair among others. The law of hair_wind lets a level hair of the default radius and density fall at 2.3 m/s when
-    /// `drag` is 0.1, which is a rate of 9.81 / 2.3 = 4.3 1/s. A rate costs nothing, so it is all that acts without wind.
+    /// Decay rate c of the velocity v relative to the air's velocity u: dv/dt = -c (v - u). The default
+    /// stands for the drag of a hair among others. With a `drag` of 0.1, the law of hair_wind lets a level
+    /// hair of the default radius and density fall at v = 2.3 m/s, which is a rate of g / v = 4.3 1/s.
+    /// Without wind only this rate acts, because it is much cheaper than the law.
     float damping; ///< 1/s. [0, 1000]. Default 4.
     float pull_root; ///< Pull to the rest pose near the root, as a frequency. Hz. [0, 30]. Default 4.
     float pull_tip; ///< The same at the tip; linear between. Hz. [0, 30]. Default 1.
@@ -329,9 +330,10 @@ typedef struct hair_physics {
     float hold; ///< Fraction of gravity that the rest shape bears. 1 keeps the groom. [0, 1]. Default 1.
     hair_root root; ///< Default HAIR_ROOT_CLAMPED.
     float tip_mass; ///< Hung on the tip, as a multiple of the strand's mass. [0, 1e4]. Default 0.
-    /// Multiple of the law of hair_wind, which holds for a single hair. A lock of n hairs of diameter d that fills the part f
-    /// of a cylinder has the diameter D = d sqrt(n / f). With the law's coefficient C, each hair in the lock has the part
-    /// D C(Re_D) / (n d C(Re_d)) of the drag of a single hair: 0.1 at 2 m/s for n = 64 and f = 0.3. 1 is a single hair.
+    /// Multiple of the law of hair_wind, which holds for a single hair. A lock of n hairs of diameter d that
+    /// fill the fraction f of a cylinder has the diameter D = d sqrt(n / f). With the law's coefficient C,
+    /// a hair of the lock has D C(Re_D) / (n d C(Re_d)) times the drag of a single hair. This is 0.1 at
+    /// 2 m/s for n = 64 and f = 0.3. Use 1 for a single hair.
     float drag; ///< [0, 10]. Default 0.1.
     float friction; ///< Coulomb's coefficient with solids, whose own multiplies it. [0, 10]. Default 0.3.
     /// Decay rate of the velocity of hair relative to the rigid motion of the hair around. Cohesion and volume keep the
@@ -623,14 +625,15 @@ static inline hair_wind_source hair_wind_source_default(void)
 
 /// Air that moves. By it guides are dragged along as cylinders of hair_physics.fiber_radius in a flow: across them with a
 /// coefficient of 1 + 9.75 Re^-0.744, the form of White 1991, along them as heat passes from them. Guides stand for locks,
-/// whose hairs shelter each other: so hair_physics.drag is below 1. hair_physics.damping stands for the drag of this air
-/// as well. Across and along a guide, therefore, the greater of damping and the law acts, not their sum.
+/// whose hairs shelter each other: so hair_physics.drag is below 1. hair_physics.damping stands for the
+/// drag of the same air. Across and along a guide, therefore, the greater of damping and the law acts.
 typedef struct hair_wind {
     hair_made made;
     hair_wind_model model; ///< Default HAIR_WIND_AMBIENT.
     float velocity[3]; ///< Of the air, in the world. m/s. [-1000, 1000]. Default 0.
-    /// 1 applies the law also where no wind blows, at the cost of a wind. With it and a hair_physics.drag of 1, a level hair
-    /// falls at 0.47 m/s. At 0 and without wind only hair_physics.damping acts, by which the hair falls at 2.45 m/s.
+    /// 1 applies the law also where no wind blows, at the cost of a wind. A level hair then falls at
+    /// 0.47 m/s when hair_physics.drag is 1. 0 leaves still air to hair_physics.damping, whose default lets
+    /// every hair fall at 2.45 m/s.
     uint32_t still_air; ///< [0, 1]. Default 0.
     float density; ///< Of the air. kg/m^3. [0.001, 1000]. Default 1.204.
     float viscosity; ///< Of the air, dynamic. Pa s. [1e-7, 1]. Default 1.82e-5.

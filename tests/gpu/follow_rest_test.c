@@ -109,6 +109,33 @@ static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
     }
 }
 
+// Strands that their weight bends a lot: a rigid strand beyond each segment would bend them at the clamp only.
+static void limp_strands_hang_as_the_reference_does(void** state)
+{
+    static const float ways[] = {-0.577f, 0, -2}; // y over x
+    for (int k = 0; k < 3; ++k)
+        for (uint32_t vertices = 16; vertices <= 64; vertices *= 2) {
+            hair_physics physics = hair_test_bare();
+            physics.damping = 4;
+            struct hair_test_strands strands =
+                hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, ways[k], 0), 0.3f);
+            hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_MAPPING_AUTO, 0, &physics);
+            struct hair_test_living living;
+            hair_test_live(*state, &strands, &desc, &living);
+            hair_test_wait(&living, 180);
+            hair_test_read_guides(&living);
+            struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
+            assert_true(hair_reference_rod_rest(rod).converged);
+            double off = hair_test_off(&living, 0, rod) / 0.3;
+            print_message("    %u vertices, slope %g: off by %.2g of the length after 3 s\n", vertices,
+                          (double)ways[k], off);
+            assert_true(off < 0.02);
+            hair_reference_rod_destroy(rod);
+            hair_test_die(&living);
+            hair_test_strands_free(&strands);
+        }
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -116,6 +143,7 @@ int main(void)
         HAIR_TEST(hair_that_follows_comes_to_rest),
         HAIR_TEST(redblack_hair_comes_to_rest),
         HAIR_TEST(a_held_strand_keeps_its_groom_and_another_sags),
+        HAIR_TEST(limp_strands_hang_as_the_reference_does),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
