@@ -46,8 +46,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_ROD 3     // hair_rod[] per guide vertex. Read-only.
 #define HAIR_BIND_HISTORY 4 // hair_history[] per guide vertex.
 // hair_vec4[] per guide vertex. Frame of its segment, unit quaternion, y along the segment.
-#define HAIR_BIND_MATERIAL                                                                                   \
-    5
+#define HAIR_BIND_MATERIAL 5
 // uint[] of every solver. It begins with HAIR_HEALTH_COUNT counters. For solvers that run as two
 // programs, the two headers and the numbers of HAIR_HEALTH_LISTS follow.
 #define HAIR_BIND_HEALTH 6

@@ -4,8 +4,7 @@
 
 // Assumed maximum displacement by the fitting of lengths, beyond free motion, m. FIT of
 // glsl/sim/contact_lists.glsl has this value too.
-#define FIT                                                                                                  \
-    0.02f
+#define FIT 0.02f
 // Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
 // colliders.
 #define FASTEST 5.0f

@@ -21,8 +21,7 @@ struct hair_rods {
 
 // Maximum length of a substep that is longer than the solver's own, s. Substeps twice as long lose
 // lengths.
-#define LONGEST                                                                                              \
-    (1.0 / 60)
+#define LONGEST (1.0 / 60)
 
 // Maximum vertices whose rows fit into a work group's memory. See glsl/sim/mixed_rows.glsl.
 #define ROWS_IN_GROUP 64
@@ -31,8 +30,7 @@ struct hair_rods {
 
 // Divisor of the accurate solver's own substep once there are colliders. From 1.5 on, no substep
 // falls back to another method when the head shakes over colliders.
-#define CONTACT_MARGIN                                                                                       \
-    1.6
+#define CONTACT_MARGIN 1.6
 
 static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {

@@ -16,8 +16,7 @@
 #define STEPS 8u // Newton steps between the length checks. MOST_STEPS of glsl/sim/lengths.glsl.
 // Sweeps of follow-the-leader with a heavy tip. HEAVY_ROUNDS of glsl/sim/leader.glsl, to and fro,
 // and one more.
-#define HEAVY_SWEEPS                                                                                         \
-    13
+#define HEAVY_SWEEPS 13
 // Times that the solver follow draws a strand again after contact. CONTACT_ROUNDS of
 // glsl/sim/follow.comp.
 #define DRAWN_AGAIN 3u

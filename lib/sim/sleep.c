@@ -21,20 +21,17 @@
 #define NEARLY_ALL 0.95 // Maximum of q. 19 times d is then still to go.
 // Minimum duration of a round, relative to the round before, for which the two can be compared.
 // Answers may be late.
-#define LIKE                                                                                                 \
-    0.75
+#define LIKE 0.75
 // Time in which hair at the measured speed may not exceed the allowed distance, s.
 #define SPEED_SPAN 0.03
 // Fraction of hair_physics.sleep that the distance still to go may have. The head may move a
 // quarter. The rest is for motion between measurements.
-#define SHARE                                                                                                \
-    0.5f
+#define SHARE 0.5f
 #define HEAD_SHARE 0.25f // Fraction of hair_physics.sleep that motion of the head may have.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 // Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
 // for FIT and MOST_GIVE of contacts.c.
-#define AROUND                                                                                               \
-    0.1f
+#define AROUND 0.1f
 #define MOST_GROUPS 256
 #define LONGEST_WAIT 1000000000u // Maximum wait of a save, ns. Steps never wait.
 

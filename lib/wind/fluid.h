@@ -18,8 +18,7 @@
 #define HAIR_FLUID_LEVELS 5 // From 128 cells along an axis to 8.
 // Maximum nodes along an axis of the grid of hair. A guide stands for a lock about as wide as the
 // finest spacing.
-#define HAIR_FLUID_NODES                                                                                     \
-    32
+#define HAIR_FLUID_NODES 32
 
 // Pressure projection method.
 typedef enum hair_fluid_method {

@@ -79,10 +79,9 @@ void bench_order(struct bench* bench)
 
 // Energy ------------------------------------------------------------------------------------------
 
-#define WINDOW                                                                                               \
-    // Substeps that the energy is averaged over. They span several swings, because energy
-    // oscillates a little within one.
-    4000
+// Substeps that the energy is averaged over. They span several swings, because energy
+// oscillates a little within one.
+#define WINDOW 4000
 #define VERTICES 32
 
 // Compute the mean energy over a window. The velocity between two substeps is the difference

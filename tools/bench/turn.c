@@ -9,9 +9,8 @@
 #include <string.h>
 
 #define SIZE 256
-#define STRANDS_OF_720                                                                                       \
-    // Strands of the scene for a picture 720 pixels high, proportionally fewer for smaller ones.
-    18000
+// Strands of the scene for a picture 720 pixels high, proportionally fewer for smaller ones.
+#define STRANDS_OF_720 18000
 #define SPEED 30 // degrees per second, half a degree per frame
 #define RUN_UP 60 // frames until the hair follows
 #define FRAMES 9
